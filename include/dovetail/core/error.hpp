@@ -1,0 +1,76 @@
+/// @file
+/// The typed exceptions of the library. Every message names the file or entity concerned and what to do.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace dovetail {
+
+/// Base of all errors that the library throws on purpose.
+class error : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that is missing, empty, truncated, foreign or malformed.
+class input_error : public error {
+public:
+  using error::error;
+};
+
+/// A shape that cannot be meshed as it is: no solid, open or self-intersecting surface, degenerate entity.
+class geometry_error : public error {
+public:
+  using error::error;
+};
+
+/// A sizing field or size out of range, or a sizing file with a wrong key or value.
+class sizing_error : public error {
+public:
+  using error::error;
+};
+
+/// Two parts of a surface cross and refinement did not separate them.
+class intersection_error : public error {
+public:
+  using error::error;
+};
+
+/// A partitioner could not satisfy its contract.
+class partition_error : public error {
+public:
+  using error::error;
+};
+
+/// A mesher or remesher failed on its input, or its result failed the checks made on it.
+class mesher_error : public error {
+public:
+  using error::error;
+};
+
+/// A mesh that breaks the invariants a function requires.
+class mesh_error : public error {
+public:
+  using error::error;
+};
+
+/// Output that could not be written: folder, permission, disk space.
+class io_error : public error {
+public:
+  using error::error;
+};
+
+/// A policy was used where its traits forbid it, for example `processes` in a process with threads.
+class usage_error : public error {
+public:
+  using error::error;
+};
+
+/// The caller asked to stop.
+class cancelled : public error {
+public:
+  cancelled() : error("cancelled") {}
+};
+
+} // namespace dovetail

@@ -1,0 +1,51 @@
+/// @file
+/// What a stage says about itself: wall time, counters and warnings, nested like the pipeline.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Plain data that each stage returns beside its result.
+struct report {
+  std::string name;
+  double seconds = 0;                                   ///< wall time
+  std::vector<std::pair<std::string, double>> counters; ///< in the order they were set
+  std::vector<std::string> warnings;                    ///< one sentence each, naming the entity
+  std::vector<report> children;
+
+  /// Sets a counter, replacing an earlier value.
+  void set(const std::string& key, double value) {
+    for (auto& [name_of, old] : counters)
+      if (name_of == key) {
+        old = value;
+        return;
+      }
+    counters.emplace_back(key, value);
+  }
+  /// Adds to a counter that starts at zero.
+  void add(const std::string& key, double value) { set(key, get(key) + value); }
+  /// The counter's value, or `otherwise` if it was never set.
+  double get(const std::string& key, double otherwise = 0) const {
+    for (const auto& [name_of, value] : counters)
+      if (name_of == key)
+        return value;
+    return otherwise;
+  }
+};
+
+/// Wall-clock stopwatch.
+class stopwatch {
+public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace dovetail

@@ -1,0 +1,106 @@
+/// @file
+/// Points and vectors of the plane and of 3-space: aggregates without hidden state.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace dovetail {
+
+/// A point or vector of the plane; also a parameter pair (u, v) of a surface.
+struct vec2 {
+  double x = 0;
+  double y = 0;
+
+  friend constexpr bool operator==(const vec2&, const vec2&) = default;
+  friend constexpr vec2 operator+(vec2 a, vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr vec2 operator-(vec2 a, vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr vec2 operator*(double s, vec2 a) { return {s * a.x, s * a.y}; }
+};
+
+/// A point or vector of 3-space.
+struct vec3 {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+
+  constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  constexpr vec3& operator+=(vec3 b) { return x += b.x, y += b.y, z += b.z, *this; }
+  constexpr vec3& operator-=(vec3 b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
+
+  friend constexpr bool operator==(const vec3&, const vec3&) = default;
+  friend constexpr vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr vec3 operator-(vec3 a) { return {-a.x, -a.y, -a.z}; }
+  friend constexpr vec3 operator*(double s, vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend constexpr vec3 operator/(vec3 a, double s) { return {a.x / s, a.y / s, a.z / s}; }
+};
+
+constexpr double dot(vec2 a, vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+constexpr double cross(vec2 a, vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double norm(vec2 a) {
+  return std::sqrt(dot(a, a));
+}
+
+constexpr double dot(vec3 a, vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr vec3 cross(vec3 a, vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr double norm_squared(vec3 a) {
+  return dot(a, a);
+}
+inline double norm(vec3 a) {
+  return std::sqrt(dot(a, a));
+}
+inline double distance(vec3 a, vec3 b) {
+  return norm(b - a);
+}
+/// The unit vector along `a`; the zero vector stays zero.
+inline vec3 normalized(vec3 a) {
+  const double length = norm(a);
+  return length > 0 ? a / length : a;
+}
+/// Angle between two vectors in radians, in [0, pi]; accurate for small angles too.
+inline double angle_between(vec3 a, vec3 b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+constexpr vec3 midpoint(vec3 a, vec3 b) {
+  return 0.5 * (a + b);
+}
+/// Six times this is the determinant of the edge vectors; positive when d sees a, b, c counter-clockwise
+/// from outside, that is for a positively oriented tetrahedron (a, b, c, d): (b-a) x (c-a) points to d.
+constexpr double signed_volume(vec3 a, vec3 b, vec3 c, vec3 d) {
+  return dot(cross(b - a, c - a), d - a) / 6.0;
+}
+
+/// Axis-aligned box; empty when any lower bound exceeds its upper bound.
+struct box3 {
+  vec3 lower{1e300, 1e300, 1e300};
+  vec3 upper{-1e300, -1e300, -1e300};
+
+  void include(vec3 p) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = p[k] < lower[k] ? p[k] : lower[k];
+      upper[k] = p[k] > upper[k] ? p[k] : upper[k];
+    }
+  }
+  bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
+  double diagonal() const { return empty() ? 0.0 : distance(lower, upper); }
+  vec3 center() const { return midpoint(lower, upper); }
+  bool overlaps(const box3& other) const {
+    for (int k = 0; k < 3; ++k)
+      if (upper[k] < other.lower[k] || other.upper[k] < lower[k])
+        return false;
+    return true;
+  }
+};
+
+} // namespace dovetail

@@ -1,0 +1,101 @@
+/// @file
+/// The role `geometry_model`: what the pipeline asks of a CAD model.
+///
+/// Valid expressions for `const G& g`, face and curve indices `local_id f, c`, `vec2 uv`, `double t`, `vec3
+/// p`:
+///   g.topology()                  const geometry_topology&: vertices, curves, faces, solids as plain data
+///   g.curve_point(c, t)           point of a curve
+///   g.curve_frame(c, t)           curve_frame: point and first derivative
+///   g.curve_uv(f, k, t)           parameters on face f of the point t of coedge k (index into the face's
+///   coedges) g.face_point(f, uv)           point of a face's surface g.face_frame(f, uv) surface_frame:
+///   point and both first derivatives g.face_curvature(f, uv)       largest absolute principal curvature, 1 /
+///   length g.project_to_face(f, p, uv)   parameters of the point of the surface nearest p, started from seed
+///   uv g.project_to_curve(c, p, t)   parameter of the point of the curve nearest p, started from seed t
+///   g.bounds()                    box3 of the model
+/// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
+/// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
+/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes; in
+/// several threads when `g.thread_safe()`. Complexity: constant; a projection takes a few Newton steps from
+/// its seed and never searches globally. Failure: a query throws `geometry_error` naming the entity when the
+/// kernel cannot evaluate it. Models: occt_model, discrete_model.
+#pragma once
+
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <array>
+#include <concepts>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// Point and derivative of a curve.
+struct curve_frame {
+  vec3 point;
+  vec3 derivative;
+};
+
+/// Point and first derivatives of a surface; the parametric normal is along cross(du, dv).
+struct surface_frame {
+  vec3 point;
+  vec3 du;
+  vec3 dv;
+};
+
+/// The entities of a model and how they bound each other, as plain data.
+struct geometry_topology {
+  struct vertex {
+    vec3 point;
+    double tolerance = 0;
+  };
+  struct curve {
+    std::array<local_id, 2> vertices{no_id, no_id}; ///< at t[0] and t[1]; equal for a closed curve
+    std::array<double, 2> t{0, 0};                  ///< parameter range, t[0] < t[1]
+    double tolerance = 0;                           ///< the largest distance between the curve and its faces
+    bool degenerate = false;                        ///< a pole: one point, a line in parameter space
+    std::string name = {};
+  };
+  /// One passage of a face's boundary along a curve, in the order and direction that keeps the domain in the
+  /// *parameter plane* on the left.
+  struct coedge {
+    local_id curve = no_id;
+    bool reversed = false; ///< run from t[1] to t[0]
+  };
+  struct face {
+    std::vector<std::vector<coedge>> loops; ///< the outer loop and the holes, in any order
+    std::vector<coedge> coedges; ///< all coedges of all loops, in loop order; `curve_uv` indexes these
+    bool reversed = false;       ///< the oriented surface is opposite to the parametric normal
+    std::array<local_id, 2> solids{no_id,
+                                   no_id}; ///< [0] behind the oriented normal (inside), [1] in front of it
+    double tolerance = 0;
+    std::string name = {};
+    std::string patch =
+        {}; ///< the boundary patch: name, layer or colour it carries in the file; may be empty
+  };
+  struct solid {
+    std::string name = {};
+  };
+
+  std::vector<vertex> vertices;
+  std::vector<curve> curves;
+  std::vector<face> faces;
+  std::vector<solid> solids;
+};
+
+template <class G>
+concept geometry_model = requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {
+  { g.topology() } -> std::convertible_to<const geometry_topology&>;
+  { g.curve_point(id, t) } -> std::same_as<vec3>;
+  { g.curve_frame(id, t) } -> std::same_as<curve_frame>;
+  { g.curve_uv(id, k, t) } -> std::same_as<vec2>;
+  { g.face_point(id, uv) } -> std::same_as<vec3>;
+  { g.face_frame(id, uv) } -> std::same_as<surface_frame>;
+  { g.face_curvature(id, uv) } -> std::convertible_to<double>;
+  { g.project_to_face(id, p, uv) } -> std::same_as<vec2>;
+  { g.project_to_curve(id, p, t) } -> std::convertible_to<double>;
+  { g.bounds() } -> std::same_as<box3>;
+  { g.thread_safe() } -> std::convertible_to<bool>;
+};
+
+} // namespace dovetail

@@ -1,0 +1,29 @@
+/// @file
+/// An undirected weighted graph in compressed rows, as partitioners take it.
+#pragma once
+
+#include "dovetail/core/ids.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dovetail {
+
+/// Every edge is stored twice, once in the row of each end. No self loops, no parallel edges.
+struct csr_graph {
+  std::vector<std::int64_t> offsets{0}; ///< size nodes + 1
+  std::vector<local_id> neighbours;     ///< size 2 x edges
+  std::vector<double> edge_weights;     ///< parallel to `neighbours`
+  std::vector<double> node_weights;     ///< size nodes
+
+  local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
+  std::span<const local_id> row(local_id node) const {
+    return std::span(neighbours)
+        .subspan(static_cast<std::size_t>(offsets[node]),
+                 static_cast<std::size_t>(offsets[node + 1] - offsets[node]));
+  }
+};
+
+} // namespace dovetail

@@ -1,0 +1,55 @@
+/// @file
+/// The role `executor`: run independent tasks and collect their encoded results.
+///
+/// Valid expression for `const E& e`: `e.run(count, task, options)` -> std::vector<task_outcome> of length
+/// count, outcome i being that of `task(i)`. Semantics: `task(i)` depends on i and on data fixed before the
+/// call only; it may run in another thread or process, so all it gives back is its return value. A task that
+/// throws, crashes or exceeds the limit gives an outcome with `ok == false` and the reason; the others go on.
+/// Outcomes are the same for every model and number of workers. `options.order` lists tasks in the order they
+/// are started (largest predicted cost first). Complexity: the tasks' own, plus one copy of each result.
+/// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
+/// Models: serial, threads, processes.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/ids.hpp"
+#include "dovetail/core/progress.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// What became of one task.
+struct task_outcome {
+  bool ok = false;
+  byte_buffer result;     ///< what the task returned, when ok
+  std::string failure;    ///< why it failed, when not ok: the exception's text, a signal, a time limit
+  bool crashed = false;   ///< the worker died (signal or exit) rather than throwing
+  bool timed_out = false; ///< the wall-clock limit, the last resort, was reached
+  double seconds = 0;     ///< the task's own wall time
+  std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
+};
+
+/// How a batch of tasks is run.
+struct run_options {
+  std::vector<std::size_t> order = {}; ///< a permutation of the tasks, or empty for 0, 1, 2, ...
+  double limit_seconds = 600;          ///< wall-clock limit of one task; the last resort
+  progress on_progress = {};
+  std::string stage = "tasks"; ///< the name progress is reported under
+};
+
+using task_function = std::function<byte_buffer(std::size_t)>;
+
+template <class E>
+concept executor = requires(const E& e, std::size_t count, const task_function& task,
+                            const run_options& options) {
+  { e.run(count, task, options) } -> std::same_as<std::vector<task_outcome>>;
+  { e.workers() } -> std::convertible_to<int>;
+};
+
+} // namespace dovetail
