@@ -1,0 +1,35 @@
+# Installs the headers, one export set per component (so that a missing third party never breaks another component),
+# the configuration and version files, the Find modules, and the driver.
+include(CMakePackageConfigHelpers)
+set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/dovetail")
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/dovetail" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING PATTERN "*.hpp")
+
+install(TARGETS dovetail EXPORT dovetail_core)
+install(EXPORT dovetail_core NAMESPACE dovetail:: FILE dovetail-core-targets.cmake DESTINATION "${config_directory}")
+foreach(component IN LISTS dovetail_components)
+  install(TARGETS dovetail_${component} EXPORT dovetail_${component})
+  install(EXPORT dovetail_${component} NAMESPACE dovetail::
+    FILE dovetail-${component}-targets.cmake DESTINATION "${config_directory}")
+endforeach()
+
+configure_package_config_file(
+  "${PROJECT_SOURCE_DIR}/cmake/dovetailConfig.cmake.in" "${PROJECT_BINARY_DIR}/dovetailConfig.cmake"
+  INSTALL_DESTINATION "${config_directory}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+
+install(FILES
+  "${PROJECT_BINARY_DIR}/dovetailConfig.cmake"
+  "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/dovetail_occt.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindMETIS.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindScotch.cmake"
+  DESTINATION "${config_directory}")
+
+if(TARGET dovetail_driver)
+  install(TARGETS dovetail_driver RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()

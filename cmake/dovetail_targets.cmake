@@ -1,0 +1,65 @@
+# The library's targets: dovetail::dovetail, and one per third-party adapter, dovetail::<component>, made only when
+# the third party is found. Each adapter's dependencies are written once more, for users, in dovetailConfig.cmake.in.
+
+find_package(Threads REQUIRED)
+
+add_library(dovetail INTERFACE)
+add_library(dovetail::dovetail ALIAS dovetail)
+target_compile_features(dovetail INTERFACE cxx_std_20)
+target_include_directories(dovetail INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+  "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+target_link_libraries(dovetail INTERFACE Threads::Threads)
+
+set(dovetail_components "")
+set(dovetail_missing_components "")
+
+# dovetail_adapter(<component> PACKAGE <found?> LIBRARIES <targets>)
+function(dovetail_adapter component)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOUND" "LIBRARIES")
+  if(NOT arg_FOUND)
+    set(dovetail_missing_components ${dovetail_missing_components} ${component} PARENT_SCOPE)
+    return()
+  endif()
+  add_library(dovetail_${component} INTERFACE)
+  add_library(dovetail::${component} ALIAS dovetail_${component})
+  set_target_properties(dovetail_${component} PROPERTIES EXPORT_NAME ${component})
+  target_link_libraries(dovetail_${component} INTERFACE dovetail ${arg_LIBRARIES})
+  set(dovetail_components ${dovetail_components} ${component} PARENT_SCOPE)
+endfunction()
+
+# No version here: its config accepts only its own exact one.
+find_package(OpenCASCADE QUIET CONFIG)
+if(OpenCASCADE_FOUND)
+  include(dovetail_occt)
+endif()
+dovetail_adapter(occt FOUND "${OpenCASCADE_FOUND}" LIBRARIES dovetail_occt_toolkits)
+
+find_package(TetGen QUIET)
+dovetail_adapter(tetgen FOUND "${TetGen_FOUND}" LIBRARIES TetGen::TetGen)
+
+find_package(METIS 5 QUIET)
+dovetail_adapter(metis FOUND "${METIS_FOUND}" LIBRARIES METIS::METIS)
+
+find_package(Scotch QUIET)
+dovetail_adapter(scotch FOUND "${Scotch_FOUND}" LIBRARIES Scotch::Scotch)
+
+find_package(CGAL 5.4 QUIET CONFIG)
+dovetail_adapter(cgal FOUND "${CGAL_FOUND}" LIBRARIES CGAL::CGAL)
+
+find_package(Gmsh 4.8 QUIET)
+dovetail_adapter(gmsh FOUND "${Gmsh_FOUND}" LIBRARIES Gmsh::Gmsh)
+
+find_package(Eigen3 3.3 QUIET CONFIG)
+dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
+
+find_package(Boost 1.71 QUIET CONFIG)
+dovetail_adapter(boost FOUND "${Boost_FOUND}" LIBRARIES Boost::headers)
+
+find_package(nlohmann_json 3.7 QUIET CONFIG)
+dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)
+
+message(STATUS "dovetail adapters: ${dovetail_components}")
+if(dovetail_missing_components)
+  message(STATUS "dovetail adapters without their library: ${dovetail_missing_components}")
+endif()

@@ -1,0 +1,55 @@
+# dovetail_test(NAME <name> SOURCES <files> [LIBRARIES <targets>] [NEEDS_SHARED] [TIMEOUT <seconds>])
+#
+# A doctest executable and its ctest entry. dovetail::dovetail and doctest's main are linked in. When a target of
+# LIBRARIES does not exist, nothing is built and the test is reported as skipped. A test that evaluates no assertion
+# (all cases skipped, or returned early for want of data) is reported as skipped too.
+# NEEDS_SHARED: the test reads the models in the directory named by the environment variable DOVETAIL_SHARED.
+
+if(DEFINED ENV{DOVETAIL_SHARED})
+  set(shared_directory "$ENV{DOVETAIL_SHARED}")
+else()
+  cmake_path(SET shared_directory NORMALIZE "${PROJECT_SOURCE_DIR}/../shared")
+endif()
+if(IS_DIRECTORY "${shared_directory}")
+  set(DOVETAIL_SHARED_DIRECTORY "${shared_directory}")
+else()
+  set(DOVETAIL_SHARED_DIRECTORY "")
+endif()
+
+# A ctest entry that only says why the test is not there.
+function(dovetail_skipped_test name reason)
+  add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${reason}")
+  set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "^skipped: ")
+endfunction()
+
+function(dovetail_test)
+  cmake_parse_arguments(arg "NEEDS_SHARED" "NAME;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "dovetail_test: NAME and SOURCES are needed, and not ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  foreach(library IN LISTS arg_LIBRARIES)
+    if(NOT TARGET ${library})
+      dovetail_skipped_test(${arg_NAME} "${library} was not found")
+      return()
+    endif()
+  endforeach()
+
+  set(executable test_${arg_NAME})
+  add_executable(${executable} ${arg_SOURCES})
+  target_link_libraries(${executable} PRIVATE
+    dovetail::dovetail ${arg_LIBRARIES} dovetail_test_main dovetail_developer)
+  add_test(NAME ${arg_NAME} COMMAND ${executable})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  if(DOVETAIL_SANITIZE)
+    math(EXPR arg_TIMEOUT "10 * ${arg_TIMEOUT}")
+  endif()
+  set_tests_properties(${arg_NAME} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT ${arg_TIMEOUT})
+  if(arg_NEEDS_SHARED)
+    set_property(TEST ${arg_NAME} APPEND PROPERTY LABELS shared)
+  endif()
+  if(DOVETAIL_SHARED_DIRECTORY)
+    set_property(TEST ${arg_NAME} APPEND PROPERTY ENVIRONMENT "DOVETAIL_SHARED=${DOVETAIL_SHARED_DIRECTORY}")
+  endif()
+endfunction()

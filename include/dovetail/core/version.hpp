@@ -1,0 +1,14 @@
+/// @file
+/// The version of the library. The build reads it from here.
+#pragma once
+
+#define DOVETAIL_VERSION_MAJOR 0
+#define DOVETAIL_VERSION_MINOR 1
+#define DOVETAIL_VERSION_PATCH 0
+
+namespace dovetail {
+
+/// The version as text, "major.minor.patch"; part of the manifest of a spool folder.
+inline constexpr const char* version = "0.1.0";
+
+} // namespace dovetail
