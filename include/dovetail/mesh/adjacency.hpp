@@ -1,0 +1,309 @@
+/// @file
+/// Who touches whom in a mesh: unique sides with their elements, element neighbours, and the fans of wedges
+/// around ridges. Everything is found by sorting; a mesh of 10 million elements takes seconds.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// The unique sides of a mesh, in lexicographic order of their sorted vertices.
+template <int D>
+struct side_table {
+  /// Vertices of each side, oriented outwards of its first element.
+  std::vector<simplex<D - 1>> vertices;
+  /// The first two elements at each side, the smaller index first; {e, no_id} on the boundary.
+  std::vector<std::array<local_id, 2>> elements;
+  /// Side of each (element, local side).
+  std::vector<std::array<local_id, D + 1>> of_element;
+  /// The third and further elements at non-manifold sides: (side, element), sorted. Usually empty.
+  std::vector<std::pair<local_id, local_id>> further_elements;
+
+  std::size_t size() const { return elements.size(); }
+  bool is_boundary(local_id side) const { return elements[static_cast<std::size_t>(side)][1] == no_id; }
+  /// More than two elements meet at the side.
+  bool is_non_manifold(local_id side) const {
+    if (further_elements.empty())
+      return false;
+    const auto found =
+        std::lower_bound(further_elements.begin(), further_elements.end(), std::pair(side, local_id{0}));
+    return found != further_elements.end() && found->first == side;
+  }
+  /// Exactly two elements meet at the side: the only sides that an element neighbour lies across.
+  bool is_interior(local_id side) const { return !is_boundary(side) && !is_non_manifold(side); }
+  /// The element across an interior side of `element`; no_id across any other side.
+  local_id across(local_id side, local_id element) const {
+    if (!is_interior(side))
+      return no_id;
+    const auto& pair = elements[static_cast<std::size_t>(side)];
+    return pair[0] == element ? pair[1] : pair[0];
+  }
+  /// All elements at a side.
+  std::vector<local_id> all_elements(local_id side) const;
+};
+
+/// One wedge: an element at one of its ridges, passed from side `from` to side `to`.
+struct wedge {
+  local_id element;
+  int ridge;                ///< local ridge of the element
+  std::array<int, 2> sides; ///< its local sides, in passing order: {from, to}
+};
+
+/// The unique ridges of a mesh, in lexicographic order of their sorted vertices, with their fans.
+///
+/// A fan is a maximal run of wedges around a ridge in which consecutive wedges share an interior side. It is
+/// closed (cyclic) or open; an open one starts and ends at sides that do not have two elements. On a manifold
+/// every ridge has one fan.
+template <int D>
+struct ridge_table {
+  static constexpr std::size_t per_element = numbering::ridges<D>.size();
+
+  std::vector<simplex<D - 2>> vertices;                      ///< sorted
+  std::vector<std::array<local_id, per_element>> of_element; ///< ridge of each (element, local ridge)
+  std::vector<std::uint32_t> fan_begins{
+      0}; ///< size ridges + 1: fans of ridge r are [fan_begins[r], fan_begins[r+1])
+  std::vector<std::uint32_t> wedge_begins{
+      0}; ///< size fans + 1: wedges of fan f are the codes in [wedge_begins[f], ...)
+  std::vector<std::uint32_t> wedge_codes; ///< see `decode`
+  std::vector<bool> closed;               ///< per fan: cyclic?
+
+  std::size_t size() const { return vertices.size(); }
+  std::size_t fan_count() const { return closed.size(); }
+  /// The codes of the wedges of a fan, in order around the ridge.
+  std::span<const std::uint32_t> fan(std::size_t f) const {
+    return std::span(wedge_codes).subspan(wedge_begins[f], wedge_begins[f + 1] - wedge_begins[f]);
+  }
+  static constexpr std::uint32_t encode(std::uint32_t element, std::uint32_t ridge, bool flipped) {
+    return (element * static_cast<std::uint32_t>(per_element) + ridge) * 2 + (flipped ? 1 : 0);
+  }
+  static constexpr wedge decode(std::uint32_t code) {
+    const std::uint32_t flat = code / 2;
+    const auto ridge = static_cast<int>(flat % per_element);
+    std::array<int, 2> sides = numbering::sides_of_ridge<D>[static_cast<std::size_t>(ridge)];
+    if (code % 2 == 1)
+      std::swap(sides[0], sides[1]);
+    return {static_cast<local_id>(flat / per_element), ridge, sides};
+  }
+};
+
+/// Sides, neighbours and ridges of one mesh.
+template <int D>
+struct adjacency {
+  side_table<D> sides;
+  ridge_table<D> ridges;
+};
+
+namespace detail {
+
+template <std::size_t N, std::size_t M>
+constexpr std::array<local_id, N> pick(const std::array<local_id, M>& vertices,
+                                       const std::array<int, N>& which) {
+  std::array<local_id, N> picked{};
+  for (std::size_t k = 0; k < N; ++k)
+    picked[k] = vertices[static_cast<std::size_t>(which[k])];
+  return picked;
+}
+
+template <int D>
+void require_valid_vertices(std::span<const simplex<D>> elements, std::size_t point_count) {
+  constexpr std::size_t codes_per_element = 2 * numbering::ridges<D>.size();
+  if (elements.size() > std::numeric_limits<std::uint32_t>::max() / codes_per_element)
+    throw mesh_error("a mesh of " + std::to_string(elements.size()) +
+                     " elements is too large for 32-bit adjacency; split it into pieces");
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (const local_id v : elements[e])
+      if (v < 0 || static_cast<std::size_t>(v) >= point_count)
+        throw mesh_error("element " + std::to_string(e) + " refers to point " + std::to_string(v) +
+                         ", but the mesh has " + std::to_string(point_count) + " points");
+}
+
+/// Orders the wedges of one ridge into fans. `ends[i]` are the sides of wedge i, `codes[i]` its code.
+template <int D>
+class fan_builder {
+public:
+  fan_builder(const side_table<D>& sides, ridge_table<D>& ridges) : sides_(sides), ridges_(ridges) {}
+
+  /// Appends the fans of a ridge whose wedges are `members` (element x ridges per element + local ridge).
+  void append(std::span<const std::uint32_t> members) {
+    load(members);
+    for (std::size_t first = 0; first < wedges_.size();) {
+      std::size_t last = extend(first, first + 1);
+      const local_id start = wedges_[first].from;
+      const bool is_closed = wedges_[last - 1].to == start && interior(start);
+      if (!is_closed) {
+        reverse(first, last);
+        last = extend(first, last);
+      }
+      for (std::size_t i = first; i < last; ++i)
+        ridges_.wedge_codes.push_back(wedges_[i].code);
+      ridges_.wedge_begins.push_back(static_cast<std::uint32_t>(ridges_.wedge_codes.size()));
+      ridges_.closed.push_back(is_closed);
+      first = last;
+    }
+    ridges_.fan_begins.push_back(static_cast<std::uint32_t>(ridges_.closed.size()));
+  }
+
+private:
+  struct link {
+    local_id from;
+    local_id to;
+    std::uint32_t code;
+
+    void flip() {
+      std::swap(from, to);
+      code ^= 1U;
+    }
+  };
+
+  bool interior(local_id side) const { return sides_.is_interior(side); }
+
+  void load(std::span<const std::uint32_t> members) {
+    wedges_.clear();
+    for (const std::uint32_t member : members) {
+      const wedge w = ridge_table<D>::decode(member * 2);
+      const auto& of_element = sides_.of_element[static_cast<std::size_t>(w.element)];
+      wedges_.push_back({of_element[static_cast<std::size_t>(w.sides[0])],
+                         of_element[static_cast<std::size_t>(w.sides[1])], member * 2});
+    }
+  }
+
+  /// Grows the run [first, last) at its end by wedges found behind it; returns the new end.
+  std::size_t extend(std::size_t first, std::size_t last) {
+    while (last < wedges_.size()) {
+      const local_id open = wedges_[last - 1].to;
+      if (!interior(open) || open == wedges_[first].from)
+        break;
+      std::size_t next = last;
+      while (next < wedges_.size() && wedges_[next].from != open && wedges_[next].to != open)
+        ++next;
+      if (next == wedges_.size())
+        break;
+      std::swap(wedges_[last], wedges_[next]);
+      if (wedges_[last].from != open)
+        wedges_[last].flip();
+      ++last;
+    }
+    return last;
+  }
+
+  void reverse(std::size_t first, std::size_t last) {
+    const auto run = std::span(wedges_).subspan(first, last - first);
+    std::reverse(run.begin(), run.end());
+    for (link& w : run)
+      w.flip();
+  }
+
+  const side_table<D>& sides_;
+  ridge_table<D>& ridges_;
+  std::vector<link> wedges_;
+};
+
+} // namespace detail
+
+template <int D>
+std::vector<local_id> side_table<D>::all_elements(local_id side) const {
+  const auto& pair = elements[static_cast<std::size_t>(side)];
+  std::vector<local_id> all{pair[0]};
+  if (pair[1] != no_id)
+    all.push_back(pair[1]);
+  for (auto it =
+           std::lower_bound(further_elements.begin(), further_elements.end(), std::pair(side, local_id{0}));
+       it != further_elements.end() && it->first == side; ++it)
+    all.push_back(it->second);
+  return all;
+}
+
+/// Finds the unique sides of `elements`. About linear time. Throws `mesh_error` when an element refers to a
+/// point that does not exist.
+template <int D>
+side_table<D> build_sides(std::span<const simplex<D>> elements, std::size_t point_count) {
+  detail::require_valid_vertices<D>(elements, point_count);
+  constexpr std::size_t n = D + 1;
+  side_table<D> table;
+  table.of_element.resize(elements.size());
+  table.vertices.reserve(elements.size() * n * 11 / 20);
+  table.elements.reserve(elements.size() * n * 11 / 20);
+  const auto side_vertices = [&](std::size_t half_side) {
+    return detail::pick(elements[half_side / n], numbering::sides<D>[half_side % n]);
+  };
+  for_each_group<static_cast<std::size_t>(D)>(
+      elements.size() * n, point_count, [&](std::size_t h) { return sorted_vertices(side_vertices(h)); },
+      [&](const auto&, std::span<const std::uint32_t> half_sides) {
+        const auto side = static_cast<local_id>(table.elements.size());
+        const auto element_of = [&](std::size_t k) { return static_cast<local_id>(half_sides[k] / n); };
+        table.vertices.push_back(side_vertices(half_sides[0]));
+        table.elements.push_back({element_of(0), half_sides.size() > 1 ? element_of(1) : no_id});
+        for (std::size_t k = 2; k < half_sides.size(); ++k)
+          table.further_elements.emplace_back(side, element_of(k));
+        for (const std::uint32_t h : half_sides)
+          table.of_element[h / n][h % n] = side;
+      });
+  return table;
+}
+
+template <int D>
+side_table<D> build_sides(const simplicial_mesh<D>& mesh) {
+  return build_sides<D>(mesh.elements, mesh.points.size());
+}
+
+/// The element across each local side, or no_id where the side does not have exactly two elements.
+template <int D>
+std::vector<std::array<local_id, D + 1>> element_neighbours(const side_table<D>& sides) {
+  std::vector<std::array<local_id, D + 1>> neighbours(sides.of_element.size());
+  for (std::size_t e = 0; e < neighbours.size(); ++e)
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i)
+      neighbours[e][i] = sides.across(sides.of_element[e][i], static_cast<local_id>(e));
+  return neighbours;
+}
+
+/// Finds the unique ridges of `elements` and orders the wedges around each into fans. `sides` must be
+/// `build_sides` of the same elements. About linear time; quadratic in the number of wedges of one ridge.
+template <int D>
+ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t point_count,
+                            const side_table<D>& sides) {
+  constexpr std::size_t n = ridge_table<D>::per_element;
+  ridge_table<D> table;
+  table.of_element.resize(elements.size());
+  table.wedge_codes.reserve(elements.size() * n);
+  detail::fan_builder<D> fans(sides, table);
+  for_each_group<static_cast<std::size_t>(D - 1)>(
+      elements.size() * n, point_count,
+      [&](std::size_t w) {
+        return sorted_vertices(detail::pick(elements[w / n], numbering::ridges<D>[w % n]));
+      },
+      [&](const auto& key, std::span<const std::uint32_t> members) {
+        const auto ridge = static_cast<local_id>(table.vertices.size());
+        table.vertices.push_back(key);
+        for (const std::uint32_t w : members)
+          table.of_element[w / n][w % n] = ridge;
+        fans.append(members);
+      });
+  return table;
+}
+
+template <int D>
+ridge_table<D> build_ridges(const simplicial_mesh<D>& mesh, const side_table<D>& sides) {
+  return build_ridges<D>(mesh.elements, mesh.points.size(), sides);
+}
+
+template <int D>
+adjacency<D> build_adjacency(const simplicial_mesh<D>& mesh) {
+  adjacency<D> result;
+  result.sides = build_sides(mesh);
+  result.ridges = build_ridges(mesh, result.sides);
+  return result;
+}
+
+} // namespace dovetail

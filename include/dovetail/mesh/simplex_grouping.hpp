@@ -1,0 +1,98 @@
+/// @file
+/// Finds equal simplices in a long list by sorting: the kernel under adjacency, duplicates and contraction.
+#pragma once
+
+#include "dovetail/core/ids.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dovetail {
+
+/// The same vertices in growing order: the key under which equal simplices meet.
+template <std::size_t N>
+constexpr std::array<local_id, N> sorted_vertices(std::array<local_id, N> vertices) {
+  // Sorting networks: this runs once per half-side of a mesh.
+  const auto order = [&](std::size_t i, std::size_t j) {
+    const local_id low = std::min(vertices[i], vertices[j]);
+    const local_id high = std::max(vertices[i], vertices[j]);
+    vertices[i] = low;
+    vertices[j] = high;
+  };
+  if constexpr (N == 2) {
+    order(0, 1);
+  } else if constexpr (N == 3) {
+    order(0, 1), order(1, 2), order(0, 1);
+  } else if constexpr (N == 4) {
+    order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  }
+  return vertices;
+}
+
+namespace detail {
+
+/// The counting sort's output: records bucketed by their first vertex.
+template <std::size_t N>
+struct bucketed_records {
+  std::vector<std::size_t> bucket_begins;          ///< size point_count + 1
+  std::vector<std::array<std::uint32_t, N>> items; ///< vertices 1 .. N-1 and, last, the index of the simplex
+};
+
+template <std::size_t N, class KeyOf>
+bucketed_records<N> bucket_by_first_vertex(std::size_t count, std::size_t point_count, const KeyOf& key_of) {
+  bucketed_records<N> buckets;
+  buckets.bucket_begins.assign(point_count + 1, 0);
+  for (std::size_t i = 0; i < count; ++i)
+    ++buckets.bucket_begins[static_cast<std::size_t>(key_of(i)[0]) + 1];
+  for (std::size_t v = 0; v < point_count; ++v)
+    buckets.bucket_begins[v + 1] += buckets.bucket_begins[v];
+
+  buckets.items.resize(count);
+  std::vector<std::size_t> next(buckets.bucket_begins.begin(), buckets.bucket_begins.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<local_id, N> key = key_of(i);
+    auto& item = buckets.items[next[static_cast<std::size_t>(key[0])]++];
+    for (std::size_t k = 1; k < N; ++k)
+      item[k - 1] = static_cast<std::uint32_t>(key[k]);
+    item[N - 1] = static_cast<std::uint32_t>(i);
+  }
+  return buckets;
+}
+
+} // namespace detail
+
+/// Calls `visit(key, members)` once per distinct key, in lexicographic order of keys; `members` are the
+/// indices i in [0, count) with `key_of(i) == key`, growing. Keys are sorted vertex lists below
+/// `point_count`. Needs count < 2^32. A counting sort by the first vertex, then small sorts: about linear.
+template <std::size_t N, class KeyOf, class Visit>
+void for_each_group(std::size_t count, std::size_t point_count, const KeyOf& key_of, const Visit& visit) {
+  auto buckets = detail::bucket_by_first_vertex<N>(count, point_count, key_of);
+  std::vector<std::uint32_t> members;
+  for (std::size_t v = 0; v < point_count; ++v) {
+    const auto bucket =
+        std::span(buckets.items)
+            .subspan(buckets.bucket_begins[v], buckets.bucket_begins[v + 1] - buckets.bucket_begins[v]);
+    if constexpr (N > 1) // with N == 1 the bucket is one group and already in order
+      std::sort(bucket.begin(), bucket.end());
+    for (std::size_t first = 0; first < bucket.size();) {
+      std::array<local_id, N> key{};
+      key[0] = static_cast<local_id>(v);
+      for (std::size_t k = 1; k < N; ++k)
+        key[k] = static_cast<local_id>(bucket[first][k - 1]);
+      members.clear();
+      std::size_t last = first;
+      for (; last < bucket.size() &&
+             std::equal(bucket[last].begin(), bucket[last].end() - 1, bucket[first].begin());
+           ++last)
+        members.push_back(bucket[last][N - 1]);
+      visit(key, std::span<const std::uint32_t>(members));
+      first = last;
+    }
+  }
+}
+
+} // namespace dovetail
