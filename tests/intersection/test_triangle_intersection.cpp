@@ -1,0 +1,157 @@
+#include "dovetail/mesh/crossing_triangles.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+using namespace dovetail;
+
+namespace {
+
+using integer_point = std::array<std::int64_t, 3>;
+using integer_triangle = std::array<integer_point, 3>;
+
+integer_point minus(const integer_point& a, const integer_point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+integer_point times(const integer_point& a, const integer_point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+bool separated_along(const integer_point& axis, const integer_triangle& s, const integer_triangle& t) {
+  const auto range = [&](const integer_triangle& triangle) {
+    std::array<std::int64_t, 2> bounds{INT64_MAX, INT64_MIN};
+    for (const integer_point& p : triangle) {
+      const std::int64_t value = axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
+      bounds = {std::min(bounds[0], value), std::max(bounds[1], value)};
+    }
+    return bounds;
+  };
+  const auto a = range(s), b = range(t);
+  return a[1] < b[0] || b[1] < a[0];
+}
+
+/// The separating-axis theorem in integers: exact, and nothing like the code under test.
+bool meet_by_separating_axes(const integer_triangle& s, const integer_triangle& t) {
+  std::vector<integer_point> axes;
+  const auto edge = [](const integer_triangle& triangle, int i) {
+    return minus(triangle[(i + 1) % 3], triangle[i]);
+  };
+  const integer_point normals[2] = {times(edge(s, 0), edge(s, 1)), times(edge(t, 0), edge(t, 1))};
+  axes.insert(axes.end(), normals, normals + 2);
+  for (int i = 0; i < 3; ++i) {
+    axes.push_back(times(normals[0], edge(s, i)));
+    axes.push_back(times(normals[1], edge(t, i)));
+    for (int j = 0; j < 3; ++j)
+      axes.push_back(times(edge(s, i), edge(t, j)));
+  }
+  return std::none_of(axes.begin(), axes.end(), [&](const auto& axis) {
+    return axis != integer_point{} && separated_along(axis, s, t);
+  });
+}
+
+bool has_area(const integer_triangle& t) {
+  return times(minus(t[1], t[0]), minus(t[2], t[0])) != integer_point{};
+}
+
+vec3 real(const integer_point& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+struct random_triangles {
+  std::mt19937 engine{7};
+  integer_triangle operator()(int range, std::int64_t scale = 1) {
+    std::uniform_int_distribution<int> coordinate(-range, range);
+    integer_triangle t;
+    do
+      for (auto& p : t)
+        p = {scale * coordinate(engine), scale * coordinate(engine), scale * coordinate(engine)};
+    while (!has_area(t));
+    return t;
+  }
+};
+
+struct serial_run {
+  int workers() const { return 1; }
+  std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
+    std::vector<task_outcome> outcomes(count);
+    for (std::size_t i = 0; i < count; ++i)
+      outcomes[i] = {.ok = true, .result = task(i), .failure = {}};
+    return outcomes;
+  }
+};
+
+} // namespace
+
+TEST_CASE("disjoint triangles cross exactly when no axis separates them") {
+  random_triangles random;
+  int crossing = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto s = random(3), t = random(3);
+    const std::vector<vec3> points{real(s[0]), real(s[1]), real(s[2]), real(t[0]), real(t[1]), real(t[2])};
+    const bool expected = meet_by_separating_axes(s, t);
+    REQUIRE(triangles_cross(points, {0, 1, 2}, {3, 4, 5}) == expected);
+    REQUIRE(triangles_cross(points, {4, 3, 5}, {2, 0, 1}) == expected);
+    crossing += expected;
+  }
+  CHECK(crossing > 1000);
+  CHECK(crossing < 19000);
+}
+
+TEST_CASE("a shared vertex alone is no crossing, a common part beyond it is") {
+  random_triangles random;
+  constexpr std::int64_t scale = 3000; // so that cutting off a thousandth of a corner stays an integer
+  int crossing = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto s = random(3, scale);
+    auto t = random(3, scale);
+    t[1] = s[0];
+    if (!has_area(t))
+      continue;
+    const auto near_corner = [&](std::size_t corner) { // cuts off the corner at the shared vertex
+      integer_point p = s[0];
+      for (int k = 0; k < 3; ++k)
+        p[k] += (s[corner][k] - s[0][k]) / 1000;
+      return p;
+    };
+    const bool expected = meet_by_separating_axes({near_corner(1), s[1], s[2]}, t) ||
+                          meet_by_separating_axes({near_corner(1), s[2], near_corner(2)}, t);
+    const std::vector<vec3> points{real(s[0]), real(s[1]), real(s[2]), real(t[0]), real(t[2])};
+    REQUIRE(triangles_cross(points, {0, 1, 2}, {3, 0, 4}) == expected);
+    REQUIRE(triangles_cross(points, {3, 0, 4}, {0, 1, 2}) == expected);
+    crossing += expected;
+  }
+  CHECK(crossing > 500);
+}
+
+TEST_CASE("two triangles on one edge cross only when folded flat onto each other") {
+  const std::vector<vec3> points{{0, 0, 0},     {1, 0, 0},    {0.5, 1, 0},
+                                 {0.2, 0.5, 0}, {0.5, -1, 0}, {0.5, 1, 1e-14}};
+  CHECK(triangles_cross(points, {0, 1, 2}, {1, 0, 3}));
+  CHECK_FALSE(triangles_cross(points, {0, 1, 2}, {1, 0, 4}));
+  CHECK_FALSE(triangles_cross(points, {0, 1, 2}, {1, 0, 5}));
+  CHECK(triangles_cross(points, {0, 1, 2}, {2, 0, 1}));
+}
+
+TEST_CASE("the octree finds the pairs that testing all pairs finds") {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> place(0, 1), extent(-0.08, 0.08);
+  std::vector<vec3> points;
+  std::vector<simplex<2>> triangles;
+  for (local_id i = 0; i < 1500; ++i) {
+    const vec3 center{place(engine), place(engine), place(engine)};
+    for (int k = 0; k < 3; ++k)
+      points.push_back(center + vec3{extent(engine), extent(engine), extent(engine)});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const auto odd_with_odd = [](local_id i, local_id j) { return i % 2 == 1 && j % 2 == 1; };
+  std::vector<triangle_pair> expected;
+  for (local_id i = 0; i < 1500; ++i)
+    for (local_id j = i + 1; j < 1500; ++j)
+      if (!odd_with_odd(i, j) && triangles_cross(points, triangles[static_cast<std::size_t>(i)],
+                                                 triangles[static_cast<std::size_t>(j)]))
+        expected.emplace_back(i, j);
+  REQUIRE(expected.size() > 100);
+  CHECK(crossing_triangles(points, triangles, odd_with_odd, serial_run{}) == expected);
+  CHECK(crossing_triangles(points, triangles, odd_with_odd, serial_run{}, {.leaf_size = 10}) == expected);
+}
