@@ -1,0 +1,58 @@
+/// @file
+/// The optional refinement of `sizing_field`: a lower bound of the size over a box, so that adaptive
+/// algorithms (prediction, gradation) cannot miss a small source between their samples; and the checks that
+/// every sizing value passes.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/sizing/concepts.hpp"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace dovetail {
+
+/// A sizing field that knows, for every box, a positive lower bound of its values there. Bounds get sharp as
+/// the box shrinks: for a box that shrinks to a point they tend to the field's value.
+template <class H>
+concept bounded_below_sizing_field = sizing_field<H> && requires(const H& h, const box3& box) {
+  { h.smallest_size_in(box) } -> std::convertible_to<double>;
+};
+
+/// A lower bound of `h` over the box; 0, "unknown", when the field offers none.
+template <sizing_field H>
+double smallest_size_in(const H& h, const box3& box) {
+  if constexpr (bounded_below_sizing_field<H>)
+    return h.smallest_size_in(box);
+  else
+    return 0.0;
+}
+
+namespace sizing {
+
+/// Returns `value` when it is positive and finite. Throws `sizing_error` naming `what` otherwise.
+inline double checked_size(double value, std::string_view what) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw sizing_error(std::string(what) + " is " + std::to_string(value) +
+                       "; give a positive, finite number");
+  return value;
+}
+
+/// Returns `value` when it is zero or positive and finite. Throws `sizing_error` naming `what` otherwise.
+inline double checked_length(double value, std::string_view what) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw sizing_error(std::string(what) + " is " + std::to_string(value) +
+                       "; give a finite number that is not negative");
+  return value;
+}
+
+/// Throws `sizing_error` naming `what` unless all coordinates are finite.
+inline vec3 checked_point(vec3 p, std::string_view what) {
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    throw sizing_error(std::string(what) + " has a coordinate that is not finite");
+  return p;
+}
+
+} // namespace sizing
+} // namespace dovetail

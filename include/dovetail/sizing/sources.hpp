@@ -1,0 +1,291 @@
+/// @file
+/// Grid sources: points, lines and triangles around which elements are small.
+///
+/// After N. P. Weatherill and O. Hassan, Int. J. Numer. Meth. Eng. 37 (1994) 2005-2039, and the programs
+/// FELISA and HEDP/PRE: a source asks for its spacing within its inner radius, and the spacing grows
+/// exponentially with the distance from there on. Where several sources reach a point the smallest spacing
+/// counts.
+#pragma once
+
+#include "dovetail/core/box_tree.hpp"
+#include "dovetail/sizing/bounds.hpp"
+#include "dovetail/sizing/distance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// How the spacing grows outside the inner radius.
+enum class source_growth {
+  /// Geometrically, so that the ambient size is reached at the outer radius: the outer radius is the extent.
+  to_ambient,
+  /// The literature's law: the spacing doubles from the inner to the outer radius, and goes on at that rate
+  /// until it
+  /// reaches the ambient size.
+  doubling,
+};
+
+/// A point (dimension 0), line (1) or triangle (2) with, at each corner, the radii and spacing; they vary
+/// linearly in between. Radii and spacing in the unit of the model.
+struct grid_source {
+  int dimension = 0; ///< corners in use: dimension + 1
+  std::array<vec3, 3> corners{};
+  std::array<double, 3> inner_radius{};
+  std::array<double, 3> outer_radius{};
+  std::array<double, 3> spacing{};
+  source_growth growth = source_growth::to_ambient;
+  std::string name = {}; ///< for messages; may be empty
+};
+
+/// A source of equal radii and spacing at all its corners.
+inline grid_source point_source(vec3 at, double inner, double outer, double spacing) {
+  return {0, {at, at, at}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
+}
+inline grid_source line_source(vec3 a, vec3 b, double inner, double outer, double spacing) {
+  return {1, {a, b, b}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
+}
+inline grid_source triangle_source(vec3 a, vec3 b, vec3 c, double inner, double outer, double spacing) {
+  return {2, {a, b, c}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
+}
+
+/// The ambient size with any number of grid sources in it. Built in O(n log n). An evaluation visits only the
+/// sources that reach the point, found through a tree of boxes: O(log n + sources that reach it). Throws
+/// `sizing_error`, naming the source, for a size that is not positive, radii that are negative or out of
+/// order, and anything that is not finite.
+class source_field {
+public:
+  source_field(double ambient, std::vector<grid_source> sources)
+      : ambient_(sizing::checked_size(ambient, "the ambient size")), log_ambient_(std::log(ambient)),
+        sources_(std::move(sources)) {
+    std::vector<box3> boxes;
+    boxes.reserve(sources_.size());
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      check(sources_[i], i);
+      laws_.push_back(prepared(sources_[i]));
+      boxes.push_back(inflated(core_box(sources_[i]), laws_.back().reach));
+    }
+    tree_ = box_tree(boxes);
+    least_in_node_ =
+        tree_.reduce<double>([&](local_id i) { return laws_[static_cast<std::size_t>(i)].log_least; },
+                             [](double a, double b) { return std::min(a, b); });
+  }
+
+  double operator()(vec3 p) const {
+    double least = log_ambient_;
+    local_id winner = no_id;
+    tree_.for_each(
+        [&](const box3& box, std::size_t node) { return least_in_node_[node] < least && contains(box, p); },
+        [&](local_id i) {
+          const double candidate = log_size(i, p, 0.0);
+          if (candidate < least) {
+            least = candidate;
+            winner = i;
+          }
+        });
+    if (winner == no_id)
+      return ambient_;
+    // Inside the inner radius of a source of one spacing, that spacing to the last bit, not exp(log(.)).
+    const law& of_winner = laws_[static_cast<std::size_t>(winner)];
+    if (least == of_winner.log_least)
+      return of_winner.least;
+    return std::exp(least);
+  }
+
+  /// Lower bound over a box: every source at its distance from the box.
+  double smallest_size_in(const box3& box) const {
+    const vec3 center = box.center();
+    const double radius = 0.5 * box.diagonal();
+    double least = log_ambient_;
+    tree_.for_each([&](const box3& reached,
+                       std::size_t node) { return least_in_node_[node] < least && reached.overlaps(box); },
+                   [&](local_id i) { least = std::min(least, log_size(i, center, radius)); });
+    return least < log_ambient_ ? std::exp(least) * (1 - 1e-12) : ambient_;
+  }
+
+  double ambient() const { return ambient_; }
+  const std::vector<grid_source>& sources() const { return sources_; }
+
+  /// Half the smallest inner or, where that is zero, outer radius among the sources that reach p: the length
+  /// beyond which a mesh would step over a source. Infinite where none reaches.
+  double feature_size(vec3 p) const {
+    double least = std::numeric_limits<double>::infinity();
+    tree_.for_each([&](const box3& box, std::size_t) { return contains(box, p); },
+                   [&](local_id id) {
+                     const auto i = static_cast<std::size_t>(id);
+                     const auto [away, at] = nearest(i, p);
+                     if (away < reach_at(sources_[i], at))
+                       least = std::min(least, feature_radius(sources_[i], at));
+                   });
+    return 0.5 * least;
+  }
+
+private:
+  using weights = std::array<double, 3>;
+
+  struct law {
+    double least = 0;     ///< the smallest spacing of the source
+    double log_least = 0; ///< its logarithm
+    double reach = 0;     ///< beyond this distance the source asks for the ambient size or more
+    bool constant = true; ///< the same radii and spacing at all corners
+    /// How fast they change along the source, per length; infinite on a degenerate source with unequal
+    /// corners.
+    double inner_slope = 0;
+    double outer_slope = 0;
+    double spacing_slope = 0;
+  };
+  struct nearest_point {
+    double distance;
+    weights at;
+  };
+
+  static double moved(double slope, double by) { return by > 0 ? slope * by : 0; }
+
+  static double mixed(const weights& values, const weights& w) {
+    return values[0] * w[0] + values[1] * w[1] + values[2] * w[2];
+  }
+
+  static box3 core_box(const grid_source& s) {
+    box3 box;
+    for (int k = 0; k <= s.dimension; ++k)
+      box.include(s.corners[static_cast<std::size_t>(k)]);
+    return box;
+  }
+
+  law prepared(const grid_source& s) const {
+    law result;
+    result.least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.dimension); ++k) {
+      weights corner{};
+      corner[k] = 1;
+      result.least = std::min(result.least, s.spacing[k]);
+      result.reach = std::max(result.reach, reach_at(s, corner));
+      result.constant = result.constant && s.spacing[k] == s.spacing[0] &&
+                        s.inner_radius[k] == s.inner_radius[0] && s.outer_radius[k] == s.outer_radius[0];
+    }
+    if (s.growth == source_growth::doubling && !result.constant) {
+      // The reach is no longer monotone between corners: bound it by the widest band and the smallest
+      // spacing.
+      double inner = 0;
+      double band = 0;
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(s.dimension); ++k) {
+        inner = std::max(inner, s.inner_radius[k]);
+        band = std::max(band, s.outer_radius[k] - s.inner_radius[k]);
+      }
+      result.reach = std::max(result.reach, inner + band * doublings_to_ambient(result.least));
+    }
+    result.log_least = std::log(result.least);
+    if (!result.constant) {
+      result.inner_slope = slope_along(s, s.inner_radius);
+      result.outer_slope = slope_along(s, s.outer_radius);
+      result.spacing_slope = slope_along(s, s.spacing);
+    }
+    return result;
+  }
+
+  /// Length of the gradient of corner values along a line or triangle.
+  static double slope_along(const grid_source& s, const weights& values) {
+    const vec3 ab = s.corners[1] - s.corners[0];
+    const vec3 ac = s.corners[2] - s.corners[0];
+    const double b = values[1] - values[0];
+    const double c = values[2] - values[0];
+    if (s.dimension == 1)
+      return b == 0 ? 0 : std::abs(b) / norm(ab);
+    const vec3 n = cross(ab, ac);
+    const vec3 gradient = b * cross(ac, n) + c * cross(n, ab);
+    return b == 0 && c == 0 ? 0 : norm(gradient) / norm_squared(n);
+  }
+
+  double doublings_to_ambient(double spacing) const {
+    return std::max(0.0, (log_ambient_ - std::log(spacing)) / std::numbers::ln2);
+  }
+
+  double reach_at(const grid_source& s, const weights& at) const {
+    const double inner = mixed(s.inner_radius, at);
+    const double outer = mixed(s.outer_radius, at);
+    return s.growth == source_growth::to_ambient
+               ? outer
+               : inner + (outer - inner) * doublings_to_ambient(mixed(s.spacing, at));
+  }
+
+  static double feature_radius(const grid_source& s, const weights& at) {
+    const double inner = mixed(s.inner_radius, at);
+    return inner > 0 ? inner : mixed(s.outer_radius, at);
+  }
+
+  nearest_point nearest(std::size_t i, vec3 p) const {
+    const grid_source& s = sources_[i];
+    weights at{1, 0, 0};
+    if (s.dimension == 1) {
+      const auto w = sizing::nearest_on_segment(s.corners[0], s.corners[1], p);
+      at = {w[0], w[1], 0};
+    } else if (s.dimension == 2) {
+      at = sizing::nearest_on_triangle(s.corners[0], s.corners[1], s.corners[2], p);
+    }
+    const vec3 foot = at[0] * s.corners[0] + at[1] * s.corners[1] + at[2] * s.corners[2];
+    return {distance(foot, p), at};
+  }
+
+  /// Logarithm of what source i asks for at distance max(0, |p - source| - closer).
+  double log_size(local_id id, vec3 p, double closer) const {
+    const auto i = static_cast<std::size_t>(id);
+    const grid_source& s = sources_[i];
+    const law& l = laws_[i];
+    const auto [away, at] = nearest(i, p);
+    const double r = std::max(0.0, away - closer);
+    if (r >= l.reach)
+      return log_ambient_;
+    double inner = s.inner_radius[0];
+    double outer = s.outer_radius[0];
+    double log_spacing = l.log_least;
+    if (!l.constant) {
+      // Points within `closer` of p see feet within `closer` of p's foot: projection onto a convex set does
+      // not expand.
+      inner = mixed(s.inner_radius, at) + moved(l.inner_slope, closer);
+      outer = mixed(s.outer_radius, at) + moved(l.outer_slope, closer);
+      log_spacing = std::log(std::max(l.least, mixed(s.spacing, at) - moved(l.spacing_slope, closer)));
+    }
+    if (r <= inner)
+      return log_spacing;
+    if (s.growth == source_growth::doubling) {
+      const double band = outer - inner;
+      return band > 0 ? log_spacing + std::numbers::ln2 * (r - inner) / band : log_ambient_;
+    }
+    if (r >= outer)
+      return log_ambient_;
+    if (!std::isfinite(inner) || !std::isfinite(outer))
+      return log_spacing;
+    return log_spacing + (log_ambient_ - log_spacing) * (r - inner) / (outer - inner);
+  }
+
+  static void check(const grid_source& s, std::size_t index) {
+    const std::string who =
+        "source " + std::to_string(index) + (s.name.empty() ? std::string() : " (" + s.name + ")");
+    if (s.dimension < 0 || s.dimension > 2)
+      throw sizing_error(who + " has dimension " + std::to_string(s.dimension) +
+                         "; give 0 (point), 1 (line) or 2 (triangle)");
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.dimension); ++k) {
+      sizing::checked_point(s.corners[k], "corner " + std::to_string(k) + " of " + who);
+      sizing::checked_size(s.spacing[k], "the spacing of " + who);
+      sizing::checked_length(s.inner_radius[k], "the inner radius of " + who);
+      sizing::checked_size(s.outer_radius[k], "the outer radius of " + who);
+      if (s.outer_radius[k] < s.inner_radius[k])
+        throw sizing_error("the outer radius of " + who + " is smaller than its inner radius; exchange them");
+    }
+  }
+
+  double ambient_;
+  double log_ambient_;
+  std::vector<grid_source> sources_;
+  std::vector<law> laws_;
+  box_tree tree_;
+  std::vector<double> least_in_node_; ///< per tree node: log of the smallest spacing below it
+};
+
+} // namespace dovetail

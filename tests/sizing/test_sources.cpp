@@ -1,0 +1,187 @@
+#include "dovetail/sizing/compose.hpp"
+#include "dovetail/sizing/sources.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+
+using namespace dovetail;
+
+static_assert(sizing_field<uniform_size> && sizing_field<source_field> && sizing_field<minimum_of> &&
+              sizing_field<erased_sizing> && sizing_field<any_sizing> && sizing_field<scaled<uniform_size>>);
+static_assert(bounded_below_sizing_field<source_field> && bounded_below_sizing_field<bounded<erased_sizing>>);
+
+namespace {
+
+/// Distance to a segment by dense sampling: independent of the library's closed form.
+double sampled_distance(vec3 a, vec3 b, vec3 p) {
+  double best = 1e300;
+  for (int i = 0; i <= 20000; ++i)
+    best = std::min(best, distance(a + (i / 20000.0) * (b - a), p));
+  return best;
+}
+
+std::vector<grid_source> random_sources(std::mt19937& random, int count, source_growth growth) {
+  std::uniform_real_distribution<double> at(0, 10);
+  std::uniform_real_distribution<double> length(0.1, 1.5);
+  std::vector<grid_source> sources;
+  for (int i = 0; i < count; ++i) {
+    const auto point = [&] { return vec3{at(random), at(random), at(random)}; };
+    grid_source s;
+    s.dimension = i % 3;
+    s.growth = growth;
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.corners[k] = k == 0 ? point() : s.corners[0] + 0.2 * (point() - s.corners[0]);
+      s.inner_radius[k] = length(random) * 0.3;
+      s.outer_radius[k] = s.inner_radius[k] + length(random);
+      s.spacing[k] = 0.05 * length(random);
+    }
+    sources.push_back(s);
+  }
+  return sources;
+}
+
+} // namespace
+
+TEST_CASE("a point source is constant inside, geometric to its outer radius, ambient beyond") {
+  const source_field h(2.0, {point_source({1, 2, 3}, 0.5, 1.5, 0.1)});
+  CHECK(h({1, 2, 3}) == 0.1);
+  CHECK(h({1.49, 2, 3}) == 0.1);
+  CHECK(h({2.0, 2, 3}) == doctest::Approx(std::sqrt(0.1 * 2.0)));
+  CHECK(h({2.5000001, 2, 3}) == 2.0);
+  CHECK(h({99, 2, 3}) == 2.0);
+}
+
+TEST_CASE("the doubling law doubles at the outer radius and meets the ambient size without a jump") {
+  grid_source s = point_source({0, 0, 0}, 0.5, 1.5, 0.1);
+  s.growth = source_growth::doubling;
+  const source_field h(0.8, {s});
+  CHECK(h({0, 0.5, 0}) == 0.1);
+  CHECK(h({0, 1.5, 0}) == doctest::Approx(0.2));
+  CHECK(h({0, 2.5, 0}) == doctest::Approx(0.4));
+  CHECK(h({0, 3.4999999, 0}) == doctest::Approx(0.8).epsilon(1e-6));
+  CHECK(h({0, 3.5000001, 0}) == 0.8);
+}
+
+TEST_CASE("a line source measures the distance to its segment and mixes its ends") {
+  const vec3 a{0, 0, 0};
+  const vec3 b{4, 1, 0};
+  const source_field h(1.0, {line_source(a, b, 0.25, 1.0, 0.01)});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-1, 5);
+  for (int i = 0; i < 200; ++i) {
+    const vec3 p{at(random), at(random), at(random)};
+    const double r = sampled_distance(a, b, p);
+    const double t = std::clamp((r - 0.25) / 0.75, 0.0, 1.0);
+    CHECK(h(p) == doctest::Approx(std::pow(0.01, 1 - t)).epsilon(1e-4));
+  }
+  grid_source tapered = line_source(a, b, 0.25, 1.0, 0.01);
+  tapered.spacing = {0.01, 0.03, 0.03};
+  CHECK(source_field(1.0, {tapered})(midpoint(a, b)) == doctest::Approx(0.02));
+}
+
+TEST_CASE("a triangle source is constant on its triangle") {
+  const source_field h(1.0, {triangle_source({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, 0.1, 0.5, 0.02)});
+  CHECK(h({0.5, 0.5, 0.05}) == 0.02);
+  CHECK(h({0.5, 0.5, 0.3}) == doctest::Approx(std::sqrt(0.02)));
+  CHECK(h({1.2, 1.2, 0}) > 0.02); // outside the hypotenuse by 0.28
+  CHECK(h({0.5, 0.5, 0.6}) == 1.0);
+}
+
+TEST_CASE("the tree gives what a loop over the sources gives") {
+  for (const auto growth : {source_growth::to_ambient, source_growth::doubling}) {
+    std::mt19937 random(7);
+    const auto sources = random_sources(random, 300, growth);
+    const source_field all(0.9, sources);
+    std::vector<source_field> each;
+    for (const auto& s : sources)
+      each.emplace_back(0.9, std::vector{s});
+    std::uniform_real_distribution<double> at(-1, 11);
+    int reached = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const vec3 p{at(random), at(random), at(random)};
+      double least = 0.9;
+      for (const auto& one : each)
+        least = std::min(least, one(p));
+      reached += least < 0.9 ? 1 : 0;
+      CHECK(all(p) == doctest::Approx(least).epsilon(1e-12));
+    }
+    CHECK(reached > 500);
+  }
+}
+
+TEST_CASE("smallest_size_in is a lower bound and gets sharp") {
+  for (const auto growth : {source_growth::to_ambient, source_growth::doubling}) {
+    std::mt19937 random(11);
+    const source_field h(0.9, random_sources(random, 100, growth));
+    std::uniform_real_distribution<double> at(0, 10);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 300; ++i) {
+      const vec3 corner{at(random), at(random), at(random)};
+      const vec3 extent{2 * unit(random), 2 * unit(random), 2 * unit(random)};
+      const box3 box{corner, corner + extent};
+      const double bound = h.smallest_size_in(box);
+      CHECK(bound > 0);
+      for (int j = 0; j < 50; ++j) {
+        const vec3 p{corner.x + unit(random) * extent.x, corner.y + unit(random) * extent.y,
+                     corner.z + unit(random) * extent.z};
+        CHECK(h(p) >= bound * (1 - 1e-9));
+      }
+      const vec3 tiny{1e-7, 1e-7, 1e-7};
+      CHECK(h.smallest_size_in({corner - tiny, corner + tiny}) == doctest::Approx(h(corner)).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("feature_size is half the inner radius of the sources in reach") {
+  const source_field h(2.0, {point_source({0, 0, 0}, 0.5, 1.5, 0.1), point_source({1, 0, 0}, 0, 0.6, 0.1)});
+  CHECK(h.feature_size({-1, 0, 0}) == 0.25);
+  CHECK(h.feature_size({0.9, 0, 0}) == 0.25);
+  CHECK(h.feature_size({1.55, 0, 0}) == 0.3);
+  CHECK(std::isinf(h.feature_size({5, 0, 0})));
+}
+
+TEST_CASE("values out of range are refused with the source's name") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double wrong : {0.0, -1.0, nan, inf}) {
+    CHECK_THROWS_AS(uniform_size{wrong}, sizing_error);
+    CHECK_THROWS_AS(source_field(wrong, {}), sizing_error);
+    CHECK_THROWS_AS(source_field(1, {point_source({}, 1, 2, wrong)}), sizing_error);
+    CHECK_THROWS_AS(source_field(1, {point_source({}, 0, wrong, 1)}), sizing_error);
+    CHECK_THROWS_AS(scaled(uniform_size(1), wrong), sizing_error);
+    CHECK_THROWS_AS(bounded(uniform_size(1), wrong, 2), sizing_error);
+  }
+  CHECK_THROWS_AS(source_field(1, {point_source({nan, 0, 0}, 1, 2, 1)}), sizing_error);
+  CHECK_THROWS_AS(source_field(1, {point_source({}, 3, 2, 1)}), sizing_error);
+  CHECK_THROWS_AS(bounded(uniform_size(1), 3, 2), sizing_error);
+  CHECK_THROWS_AS(minimum_of(std::vector<erased_sizing>{}), sizing_error);
+  grid_source named = point_source({}, 0, 1, -1);
+  named.name = "leading edge";
+  try {
+    source_field(1, {point_source({}, 0, 1, 1), named});
+    FAIL("not refused");
+  } catch (const sizing_error& e) {
+    CHECK(std::string(e.what()).find("source 1 (leading edge)") != std::string::npos);
+  }
+}
+
+TEST_CASE("compositions evaluate and keep their bounds") {
+  const source_field sources(2.0, {point_source({0, 0, 0}, 0.5, 1.5, 0.1)});
+  const minimum_of least(sources, uniform_size(1.0));
+  const bounded clamped(scaled(least, 3.0), 0.4, 10.0);
+  CHECK(least({0, 0, 0}) == 0.1);
+  CHECK(least({9, 0, 0}) == 1.0);
+  CHECK(clamped({0, 0, 0}) == 0.4);
+  CHECK(clamped({9, 0, 0}) == 3.0);
+  const box3 far{{8, 8, 8}, {9, 9, 9}};
+  CHECK(clamped.smallest_size_in(far) == 3.0);
+  const any_sizing run_time = keep_bounds(least);
+  CHECK(smallest_size_in(run_time, far) == 1.0);
+  CHECK(erased_sizing(run_time).smallest_size_in(far) == 1.0);
+  const any_sizing lambda = [](vec3 p) { return 1 + norm(p); };
+  CHECK(smallest_size_in(lambda, far) == 0.0);
+  CHECK(minimum_of(lambda, sources).smallest_size_in(far) == 0.0);
+}
