@@ -1,0 +1,202 @@
+/// @file
+/// The loops of one face: its coedges in order, closed in the parameter plane, domain on the left.
+#pragma once
+
+#include "dovetail/geometry/occt_coedge.hpp"
+#include "dovetail/geometry/occt_surface.hpp"
+
+#include <BRep_Tool.hxx>
+#include <TopExp.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dovetail::occt {
+
+/// A coedge with the edge it belongs to (as oriented in the FORWARD face).
+struct loop_edge {
+  TopoDS_Edge edge;
+  coedge_curve curve;
+};
+
+struct face_loops {
+  std::vector<std::vector<loop_edge>> loops;
+  std::vector<std::string> faults; ///< what keeps the face from being meshed; empty when nothing does
+};
+
+/// The parameter curve of an edge on a face, or a fault.
+inline bool make_coedge_curve(const TopoDS_Edge& edge, const TopoDS_Face& face, coedge_curve& made) {
+  double first = 0, last = 0;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  if (curve.IsNull() || !(last > first))
+    return false;
+  made.curve = Geom2dAdaptor_Curve(curve);
+  made.range = {first, last};
+  made.edge_range = made.range;
+  if (!BRep_Tool::Degenerated(edge)) {
+    double t0 = 0, t1 = 0;
+    const Handle(Geom_Curve) in_space = BRep_Tool::Curve(edge, t0, t1);
+    if (!in_space.IsNull() && t1 > t0)
+      made.edge_range = {t0, t1};
+  }
+  made.reversed = edge.Orientation() == TopAbs_REVERSED;
+  return true;
+}
+
+/// Orders and closes the loops of one face.
+class loop_builder {
+public:
+  loop_builder(const TopoDS_Face& forward_face, const face_surface& surface)
+      : face_(forward_face), surface_(surface) {
+    for (std::size_t k = 0; k < 2; ++k)
+      width_[k] = std::max(surface.box()[k][1] - surface.box()[k][0], 1e-300);
+  }
+
+  face_loops build() {
+    for (TopoDS_Iterator wires(face_); wires.More(); wires.Next())
+      if (wires.Value().ShapeType() == TopAbs_WIRE)
+        add_wire(TopoDS::Wire(wires.Value()));
+    if (result_.loops.empty() && result_.faults.empty())
+      result_.faults.emplace_back("has no boundary");
+    if (result_.faults.empty())
+      check_orientation();
+    return std::move(result_);
+  }
+
+private:
+  /// Wires may list their edges in any order; consecutive coedges share a vertex and a parameter point.
+  void add_wire(const TopoDS_Wire& wire) {
+    std::vector<loop_edge> left;
+    for (TopoDS_Iterator edges(wire); edges.More(); edges.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(edges.Value());
+      if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED)
+        continue; // an edge inside the face bounds nothing
+      loop_edge made{edge, {}};
+      if (!make_coedge_curve(edge, face_, made.curve)) {
+        result_.faults.emplace_back("has an edge without a curve in its parameter plane");
+        return;
+      }
+      left.push_back(std::move(made));
+    }
+    while (!left.empty()) {
+      std::vector<loop_edge> loop = take_loop(left);
+      if (!close_loop(loop))
+        return;
+      result_.loops.push_back(std::move(loop));
+    }
+  }
+
+  /// Takes one closed chain off `left`, starting with its first edge. Where several edges continue the chain
+  /// the one nearest in the parameter plane does (the two passages of a seam share their vertices).
+  std::vector<loop_edge> take_loop(std::vector<loop_edge>& left) const {
+    std::vector<loop_edge> loop{left.front()};
+    left.erase(left.begin());
+    const TopoDS_Vertex start = TopExp::FirstVertex(loop.front().edge, true);
+    for (;;) {
+      const TopoDS_Vertex at = TopExp::LastVertex(loop.back().edge, true);
+      const vec2 uv = loop.back().curve.end();
+      std::size_t best = left.size();
+      double best_gap = at.IsSame(start) ? gap(uv, loop.front().curve.start()) : unreachable;
+      if (at.IsSame(start) && best_gap <= same_parameter)
+        return loop;
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (!TopExp::FirstVertex(left[i].edge, true).IsSame(at))
+          continue;
+        const double g = gap(uv, left[i].curve.start());
+        if (g < best_gap)
+          best = i, best_gap = g;
+      }
+      if (best == left.size())
+        return loop;
+      loop.push_back(left[best]);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+  }
+
+  /// Removes the gaps between consecutive coedges: whole periods, then what tolerances leave.
+  bool close_loop(std::vector<loop_edge>& loop) {
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i)
+      loop[i + 1].curve.shift(whole_periods(loop[i + 1].curve.start() - loop[i].curve.end()));
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      coedge_curve& curve = loop[i].curve;
+      coedge_curve& next = loop[(i + 1) % loop.size()].curve;
+      const vec2 jump = next.start() - curve.end();
+      if (!is_closable(loop[i].edge, curve.end(), next.start())) {
+        result_.faults.push_back("has a boundary loop that does not close in its parameter plane near " +
+                                 to_text(surface_.point(curve.end())));
+        return false;
+      }
+      curve.shift_end(0.5 * jump);
+      next.shift_start(-0.5 * jump);
+    }
+    return true;
+  }
+
+  /// A gap is harmless when it is small in the plane and, in space, within a few tolerances.
+  bool is_closable(const TopoDS_Edge& edge, vec2 a, vec2 b) const {
+    const double g = gap(a, b);
+    if (g <= same_parameter)
+      return true;
+    const TopoDS_Vertex vertex = TopExp::LastVertex(edge, true);
+    const double tolerance =
+        std::max(vertex.IsNull() ? 0.0 : BRep_Tool::Tolerance(vertex), BRep_Tool::Tolerance(edge));
+    return g <= 0.05 && distance(surface_.point(a), surface_.point(b)) <= 4 * tolerance + 1e-9;
+  }
+
+  vec2 whole_periods(vec2 jump) const {
+    const auto part = [](double gap, double period) {
+      return period > 0 ? -period * std::round(gap / period) : 0.0;
+    };
+    return {part(jump.x, surface_.period()[0]), part(jump.y, surface_.period()[1])};
+  }
+
+  /// Distance relative to the face's rectangle, so that both parameters count alike.
+  double gap(vec2 a, vec2 b) const {
+    return std::max(std::abs(a.x - b.x) / width_[0], std::abs(a.y - b.y) / width_[1]);
+  }
+
+  /// One loop must run counter-clockwise, around all others, which run clockwise.
+  void check_orientation() {
+    int outer = 0;
+    for (const auto& loop : result_.loops)
+      outer += signed_area(loop) > 0 ? 1 : 0;
+    if (outer == 0)
+      result_.faults.emplace_back("has no outer boundary loop that keeps the face on its left");
+    if (outer > 1)
+      result_.faults.emplace_back("has several outer boundary loops");
+  }
+
+public:
+  /// Area enclosed by a loop in the parameter plane, by samples; positive counter-clockwise.
+  static double signed_area(const std::vector<loop_edge>& loop) {
+    constexpr int samples = 24;
+    double twice = 0;
+    const vec2 origin = loop.front().curve.start();
+    for (const auto& item : loop) {
+      const auto& range = item.curve.edge_range;
+      vec2 before = item.curve.start() - origin;
+      for (int i = 1; i <= samples; ++i) {
+        const double s = static_cast<double>(item.curve.reversed ? samples - i : i) / samples;
+        const vec2 now = item.curve.at(range[0] + s * (range[1] - range[0])) - origin;
+        twice += cross(before, now);
+        before = now;
+      }
+    }
+    return 0.5 * twice;
+  }
+
+private:
+  static constexpr double same_parameter = 1e-6;
+  static constexpr double unreachable = std::numeric_limits<double>::infinity();
+  const TopoDS_Face& face_;
+  const face_surface& surface_;
+  std::array<double, 2> width_{};
+  face_loops result_;
+};
+
+} // namespace dovetail::occt
