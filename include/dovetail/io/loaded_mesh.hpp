@@ -1,0 +1,38 @@
+/// @file
+/// A mesh as it is read from a file, with what else the file says about it.
+#pragma once
+
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+/// A named array of scalars, one per point.
+struct point_array {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// The simplices of a file, on one set of points.
+struct loaded_mesh {
+  simplicial_mesh<3> mesh; ///< tags: the region (material) of each tetrahedron, 0 when the file has none
+  std::vector<simplex<2>> triangles;      ///< in the file's orientation; indices into mesh.points
+  std::vector<local_id> triangle_tags;    ///< per triangle: its CAD face, patch or entity
+  std::vector<global_id> node_ids;        ///< per point: its global number in the file
+  std::vector<local_id> subdomains;       ///< per tetrahedron; empty when the file has no subdomains
+  std::vector<point_array> point_scalars; ///< all one-component point arrays
+  std::vector<std::pair<local_id, std::string>> region_names; ///< of the tags of the mesh
+
+  /// The values of a point array, or null when the file has none of that name.
+  const std::vector<double>* scalars(const std::string& name) const {
+    for (const auto& array : point_scalars)
+      if (array.name == name)
+        return &array.values;
+    return nullptr;
+  }
+};
+
+} // namespace dovetail::io

@@ -1,0 +1,54 @@
+/// @file
+/// The named boundary patches of a mesh: what a solver hangs its boundary conditions on.
+#pragma once
+
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dovetail::io {
+
+/// Patches in the order of their first CAD face.
+struct boundary_patches {
+  std::vector<std::string> names; ///< distinct, none empty
+  std::vector<local_id> of_face;  ///< per CAD face: its patch
+};
+
+/// Groups CAD faces by patch name. A face without a patch makes a patch of its own, called by the face's
+/// name, or "face N" (N counted from 1) when it has none. O(faces log faces).
+inline boundary_patches collect_patches(const distributed_mesh& mesh) {
+  auto faces = std::max(mesh.patch_names.size(), mesh.face_names.size());
+  for (const auto f : mesh.skeleton.cad_faces)
+    faces = std::max(faces, static_cast<std::size_t>(f + 1));
+  boundary_patches patches;
+  std::map<std::string, local_id> known;
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::string name = f < mesh.patch_names.size() ? mesh.patch_names[f] : "";
+    if (name.empty() && f < mesh.face_names.size())
+      name = mesh.face_names[f];
+    if (name.empty())
+      name = "face " + std::to_string(f + 1);
+    const auto [at, is_new] = known.try_emplace(name, static_cast<local_id>(patches.names.size()));
+    if (is_new)
+      patches.names.push_back(name);
+    patches.of_face.push_back(at->second);
+  }
+  return patches;
+}
+
+/// The name of every material: the given one, or "region N" (N counted from 1).
+inline std::vector<std::string> collect_material_names(const distributed_mesh& mesh) {
+  auto names = mesh.material_names;
+  for (const auto& piece : mesh.counts)
+    if (static_cast<std::size_t>(piece.material) >= names.size())
+      names.resize(static_cast<std::size_t>(piece.material) + 1);
+  for (std::size_t m = 0; m < names.size(); ++m)
+    if (names[m].empty())
+      names[m] = "region " + std::to_string(m + 1);
+  return names;
+}
+
+} // namespace dovetail::io
