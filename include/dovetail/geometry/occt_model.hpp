@@ -131,7 +131,12 @@ private:
 
   static box3 shape_bounds(const TopoDS_Shape& shape) {
     Bnd_Box box;
-    BRepBndLib::AddOptimal(shape, box, false, false);
+    try {
+      BRepBndLib::AddOptimal(shape, box, false, false);
+    } catch (const Standard_Failure&) { // some valid shapes have curves its optimiser cannot handle
+      box.SetVoid();
+      BRepBndLib::Add(shape, box, false);
+    }
     box3 result;
     result.include(occt::to_vec3(box.CornerMin()));
     result.include(occt::to_vec3(box.CornerMax()));
