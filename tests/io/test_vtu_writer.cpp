@@ -1,6 +1,6 @@
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "stacked_cubes.hpp"
+#include "io/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,123 @@
+/// @file
+/// One number for a whole mesh, to tell whether two runs gave the same.
+///
+/// The hash covers the points by global number and the elements by the global numbers of their points. It
+/// does not depend on the pieces, on the order of pieces, elements or an element's vertices (but on its
+/// orientation): it is a sum over points and elements, modulo 2^64.
+#pragma once
+
+#include "dovetail/core/hash.hpp"
+#include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/loaded_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace dovetail::io {
+
+/// Adds up the hashes of points and elements.
+class mesh_hasher {
+public:
+  void point(global_id id, vec3 at) {
+    content_hash hash;
+    hash.word(static_cast<std::uint64_t>(id));
+    for (int axis = 0; axis < 3; ++axis)
+      hash.number(at[axis]);
+    sum_ += hash.value();
+  }
+  /// An element given by the global numbers of its points.
+  void element(std::array<global_id, 4> vertices) {
+    bool mirrored = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (vertices[j] < vertices[i]) {
+        std::swap(vertices[i], vertices[j]);
+        mirrored = !mirrored;
+      }
+    };
+    order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+    content_hash hash;
+    hash.word(mirrored ? 2 : 1);
+    for (const auto v : vertices)
+      hash.word(static_cast<std::uint64_t>(v));
+    sum_ += hash.value();
+  }
+  /// Adds what another hasher has seen.
+  void merge(const mesh_hasher& other) { sum_ += other.sum_; }
+
+  std::uint64_t value() const {
+    content_hash hash;
+    hash.word(sum_);
+    return hash.value();
+  }
+
+private:
+  std::uint64_t sum_ = 0;
+};
+
+/// Adds the inner points and the elements of a piece. O(piece).
+inline void hash_piece(mesh_hasher& hasher, const mesh_piece& piece, const global_numbering& numbers) {
+  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
+  for (local_id i = shared; i < static_cast<local_id>(piece.mesh.points.size()); ++i)
+    hasher.point(global_point(piece, numbers, i), piece.mesh.points[static_cast<std::size_t>(i)]);
+  for (const auto& element : piece.mesh.elements) {
+    std::array<global_id, 4> vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      vertices[k] = global_point(piece, numbers, element[k]);
+    hasher.element(vertices);
+  }
+}
+
+/// Adds the points of the skeleton. O(skeleton).
+inline void hash_skeleton(mesh_hasher& hasher, const fine_skeleton& skeleton) {
+  global_id id = 0;
+  for (const auto& p : skeleton.points)
+    hasher.point(id++, p);
+}
+
+/// The hash of a distributed mesh; one piece in memory at a time.
+inline std::uint64_t mesh_hash(const distributed_mesh& mesh) {
+  const auto numbers = number_globally(mesh);
+  mesh_hasher hasher;
+  hash_skeleton(hasher, mesh.skeleton);
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p)
+    hash_piece(hasher, load_checked(mesh, static_cast<local_id>(p)), numbers);
+  return hasher.value();
+}
+
+/// The hash of a mesh held in memory, its points numbered as they are stored.
+inline std::uint64_t mesh_hash(const simplicial_mesh<3>& mesh) {
+  mesh_hasher hasher;
+  global_id id = 0;
+  for (const auto& p : mesh.points)
+    hasher.point(id++, p);
+  for (const auto& e : mesh.elements)
+    hasher.element({e[0], e[1], e[2], e[3]});
+  return hasher.value();
+}
+
+/// The hash of a mesh read from a file, by the global numbers of the file: that of the mesh it was written
+/// from.
+inline std::uint64_t mesh_hash(const loaded_mesh& loaded) {
+  if (loaded.node_ids.size() != loaded.mesh.points.size())
+    return mesh_hash(loaded.mesh);
+  const auto id = [&](local_id v) { return loaded.node_ids[static_cast<std::size_t>(v)]; };
+  mesh_hasher hasher;
+  for (std::size_t v = 0; v < loaded.node_ids.size(); ++v)
+    hasher.point(loaded.node_ids[v], loaded.mesh.points[v]);
+  for (const auto& e : loaded.mesh.elements)
+    hasher.element({id(e[0]), id(e[1]), id(e[2]), id(e[3])});
+  return hasher.value();
+}
+
+/// The hash as 16 hexadecimal digits, the form reports use.
+inline std::string hash_text(std::uint64_t hash) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t k = text.size(); k-- > 0; hash >>= 4)
+    text[k] = digits[hash & 15];
+  return text;
+}
+
+} // namespace dovetail::io
