@@ -135,12 +135,13 @@ TEST_CASE("smallest_size_in is a lower bound and gets sharp") {
   }
 }
 
-TEST_CASE("feature_size is half the inner radius of the sources in reach") {
+TEST_CASE("feature_size is half the inner radius or distance of the sources in reach") {
   const source_field h(2.0, {point_source({0, 0, 0}, 0.5, 1.5, 0.1), point_source({1, 0, 0}, 0, 0.6, 0.1)});
-  CHECK(h.feature_size({-1, 0, 0}) == 0.25);
-  CHECK(h.feature_size({0.9, 0, 0}) == 0.25);
-  CHECK(h.feature_size({1.55, 0, 0}) == 0.3);
+  CHECK(h.feature_size({-0.2, 0, 0}) == 0.25);
+  CHECK(h.feature_size({-1, 0, 0}) == 0.5);
+  CHECK(h.feature_size({0.9, 0, 0}) == doctest::Approx(0.05));
   CHECK(std::isinf(h.feature_size({5, 0, 0})));
+  CHECK(feature_size(keep_bounds(minimum_of(uniform_size(1), scaled(h, 2.0))), {-1, 0, 0}) == 0.5);
 }
 
 TEST_CASE("values out of range are refused with the source's name") {

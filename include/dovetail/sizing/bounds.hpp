@@ -8,6 +8,7 @@
 #include "dovetail/sizing/concepts.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,22 @@ double smallest_size_in(const H& h, const box3& box) {
     return h.smallest_size_in(box);
   else
     return 0.0;
+}
+
+/// A sizing field that knows the length scale of its own features (sources) at a point.
+template <class H>
+concept feature_aware_sizing_field = sizing_field<H> && requires(const H& h, vec3 p) {
+  { h.feature_size(p) } -> std::convertible_to<double>;
+};
+
+/// The length beyond which a mesh would step over a feature of `h` near p; infinite when there is none or the
+/// field does not know.
+template <sizing_field H>
+double feature_size(const H& h, vec3 p) {
+  if constexpr (feature_aware_sizing_field<H>)
+    return h.feature_size(p);
+  else
+    return std::numeric_limits<double>::infinity();
 }
 
 namespace sizing {

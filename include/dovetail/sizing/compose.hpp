@@ -36,6 +36,13 @@ public:
     return least;
   }
 
+  double feature_size(vec3 p) const {
+    double least = fields_.front().feature_size(p);
+    for (std::size_t i = 1; i < fields_.size(); ++i)
+      least = std::min(least, fields_[i].feature_size(p));
+    return least;
+  }
+
 private:
   std::vector<erased_sizing> fields_;
 };
@@ -49,6 +56,7 @@ public:
 
   double operator()(vec3 p) const { return factor_ * field_(p); }
   double smallest_size_in(const box3& box) const { return factor_ * dovetail::smallest_size_in(field_, box); }
+  double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); }
 
 private:
   H field_;
@@ -73,6 +81,7 @@ public:
     const double least = dovetail::smallest_size_in(field_, box);
     return least > 0 ? std::clamp(least, lower_, upper_) : 0.0;
   }
+  double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); }
 
 private:
   H field_;

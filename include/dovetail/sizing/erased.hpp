@@ -1,9 +1,10 @@
 /// @file
-/// A sizing field of any kind behind one type, with its lower bounds: what compositions are made of.
+/// A sizing field of any kind behind one type, with its bounds: what compositions are made of.
 #pragma once
 
 #include "dovetail/sizing/bounds.hpp"
 
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -21,18 +22,21 @@ public:
 
   double operator()(vec3 p) const { return held_->size(p); }
   double smallest_size_in(const box3& box) const { return held_->smallest_size_in(box); }
+  double feature_size(vec3 p) const { return held_->feature_size(p); }
 
 private:
   struct interface {
     virtual ~interface() = default;
     virtual double size(vec3 p) const = 0;
     virtual double smallest_size_in(const box3& box) const = 0;
+    virtual double feature_size(vec3 p) const = 0;
   };
   template <class H>
   struct model final : interface {
     explicit model(H h) : field(std::move(h)) {}
     double size(vec3 p) const override { return static_cast<double>(field(p)); }
     double smallest_size_in(const box3& box) const override { return dovetail::smallest_size_in(field, box); }
+    double feature_size(vec3 p) const override { return dovetail::feature_size(field, p); }
     H field;
   };
 
@@ -52,6 +56,12 @@ private:
 inline double smallest_size_in(const any_sizing& h, const box3& box) {
   const auto* inner = h.target<erased_sizing>();
   return inner ? inner->smallest_size_in(box) : 0.0;
+}
+
+/// The feature size of a run-time field, likewise.
+inline double feature_size(const any_sizing& h, vec3 p) {
+  const auto* inner = h.target<erased_sizing>();
+  return inner ? inner->feature_size(p) : std::numeric_limits<double>::infinity();
 }
 
 /// Wraps a field into `any_sizing` so that its lower bounds survive. An empty `any_sizing` stays empty.

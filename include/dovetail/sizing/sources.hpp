@@ -112,8 +112,9 @@ public:
   double ambient() const { return ambient_; }
   const std::vector<grid_source>& sources() const { return sources_; }
 
-  /// Half the smallest inner or, where that is zero, outer radius among the sources that reach p: the length
-  /// beyond which a mesh would step over a source. Infinite where none reaches.
+  /// The length beyond which a mesh would step over a source: half the smallest of, over the sources that
+  /// reach p, the inner radius or the distance to the source, whichever is larger. Infinite where none
+  /// reaches.
   double feature_size(vec3 p) const {
     double least = std::numeric_limits<double>::infinity();
     tree_.for_each([&](const box3& box, std::size_t) { return contains(box, p); },
@@ -121,7 +122,7 @@ public:
                      const auto i = static_cast<std::size_t>(id);
                      const auto [away, at] = nearest(i, p);
                      if (away < reach_at(sources_[i], at))
-                       least = std::min(least, feature_radius(sources_[i], at));
+                       least = std::min(least, std::max(mixed(sources_[i].inner_radius, at), away));
                    });
     return 0.5 * least;
   }
@@ -212,11 +213,6 @@ private:
     return s.growth == source_growth::to_ambient
                ? outer
                : inner + (outer - inner) * doublings_to_ambient(mixed(s.spacing, at));
-  }
-
-  static double feature_radius(const grid_source& s, const weights& at) {
-    const double inner = mixed(s.inner_radius, at);
-    return inner > 0 ? inner : mixed(s.outer_radius, at);
   }
 
   nearest_point nearest(std::size_t i, vec3 p) const {
