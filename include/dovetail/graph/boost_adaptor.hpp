@@ -1,0 +1,255 @@
+/// @file
+/// Makes a Boost graph out of any type that can enumerate its rows.
+///
+/// A graph type G takes part by specialising `graph_access<G>`. From that follow `boost::graph_traits<G>`,
+/// the property maps `vertex_index` and `edge_index`, and the free functions of Boost's IncidenceGraph,
+/// AdjacencyGraph, VertexListGraph and EdgeListGraph, found by argument-dependent lookup. The graphs are
+/// undirected and read-only views: every edge is met once from each end, and once in the edge list.
+#pragma once
+
+#include "dovetail/core/ids.hpp"
+#include "dovetail/graph/concepts.hpp"
+
+#include <boost/graph/properties.hpp>
+#include <boost/property_map/property_map.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+namespace dovetail {
+
+/// An edge as met from one end. `index` is the same from both ends, and two edges are equal when it is.
+struct graph_edge {
+  local_id source = no_id;
+  local_id target = no_id;
+  std::int64_t index = -1;
+
+  friend constexpr bool operator==(const graph_edge& a, const graph_edge& b) { return a.index == b.index; }
+};
+
+/// Specialise with these static members. A *slot* is a place where an edge may be; empty slots are skipped.
+///   std::size_t vertex_count(const G&)
+///   std::size_t row_slots(const G&, local_id v)                       slots of the row of vertex v
+///   bool row_edge(const G&, local_id v, std::size_t slot, graph_edge&) false for an empty slot
+///   std::size_t edge_slots(const G&)                                  slots of the edge list
+///   bool list_edge(const G&, std::size_t slot, graph_edge&)           false for an empty slot
+///   using edge_parallel_category = ...                                of Boost
+template <class G>
+struct graph_access;
+
+template <class G>
+concept accessible_graph = requires(const G& g, graph_edge& e) {
+  graph_access<G>::vertex_count(g);
+  graph_access<G>::row_edge(g, local_id{0}, std::size_t{0}, e);
+  graph_access<G>::list_edge(g, std::size_t{0}, e);
+};
+
+template <accessible_graph G>
+inline constexpr bool enable_graph<G> = true;
+
+namespace detail {
+
+/// Iterates over the filled slots of a row, yielding edges.
+template <class G>
+struct row_slots {
+  using value_type = graph_edge;
+  const G* graph = nullptr;
+  local_id vertex = no_id;
+
+  std::size_t size() const { return graph_access<G>::row_slots(*graph, vertex); }
+  bool read(std::size_t slot, value_type& e) const {
+    return graph_access<G>::row_edge(*graph, vertex, slot, e);
+  }
+};
+
+/// Iterates over the filled slots of a row, yielding the vertices at the other end.
+template <class G>
+struct neighbour_slots {
+  using value_type = local_id;
+  const G* graph = nullptr;
+  local_id vertex = no_id;
+
+  std::size_t size() const { return graph_access<G>::row_slots(*graph, vertex); }
+  bool read(std::size_t slot, value_type& v) const {
+    graph_edge e;
+    const bool filled = graph_access<G>::row_edge(*graph, vertex, slot, e);
+    v = e.target;
+    return filled;
+  }
+};
+
+/// Iterates over the filled slots of the edge list.
+template <class G>
+struct list_slots {
+  using value_type = graph_edge;
+  const G* graph = nullptr;
+
+  std::size_t size() const { return graph_access<G>::edge_slots(*graph); }
+  bool read(std::size_t slot, value_type& e) const { return graph_access<G>::list_edge(*graph, slot, e); }
+};
+
+/// All vertices.
+struct vertex_slots {
+  using value_type = local_id;
+  std::size_t count = 0;
+
+  std::size_t size() const { return count; }
+  bool read(std::size_t slot, value_type& v) const {
+    v = static_cast<local_id>(slot);
+    return true;
+  }
+};
+
+/// A multi-pass iterator over the filled slots of `Slots`, yielding by value.
+template <class Slots>
+class slot_iterator {
+public:
+  using value_type = typename Slots::value_type;
+  using reference = value_type;
+  using pointer = const value_type*;
+  using difference_type = std::ptrdiff_t;
+  using iterator_category = std::forward_iterator_tag;
+
+  slot_iterator() = default;
+  slot_iterator(Slots slots, std::size_t slot) : slots_(slots), slot_(slot), size_(slots.size()) { settle(); }
+
+  value_type operator*() const { return value_; }
+  const value_type* operator->() const { return &value_; }
+  slot_iterator& operator++() {
+    ++slot_;
+    settle();
+    return *this;
+  }
+  slot_iterator operator++(int) {
+    slot_iterator old = *this;
+    ++*this;
+    return old;
+  }
+  friend bool operator==(const slot_iterator& a, const slot_iterator& b) { return a.slot_ == b.slot_; }
+
+private:
+  void settle() {
+    while (slot_ < size_ && !slots_.read(slot_, value_))
+      ++slot_;
+  }
+
+  Slots slots_{};
+  std::size_t slot_ = 0;
+  std::size_t size_ = 0;
+  value_type value_{};
+};
+
+template <class Slots>
+std::pair<slot_iterator<Slots>, slot_iterator<Slots>> slot_range(Slots slots) {
+  return {slot_iterator<Slots>(slots, 0), slot_iterator<Slots>(slots, slots.size())};
+}
+
+struct view_traversal_tag : boost::incidence_graph_tag,
+                            boost::adjacency_graph_tag,
+                            boost::vertex_list_graph_tag,
+                            boost::edge_list_graph_tag {};
+
+/// Reads `graph_edge::index`.
+struct edge_index_map {
+  using value_type = std::int64_t;
+  using reference = std::int64_t;
+  using key_type = graph_edge;
+  using category = boost::readable_property_map_tag;
+
+  friend std::int64_t get(edge_index_map /*map*/, const graph_edge& e) { return e.index; }
+};
+
+} // namespace detail
+
+template <accessible_graph G>
+local_id source(const graph_edge& e, const G& /*graph*/) {
+  return e.source;
+}
+template <accessible_graph G>
+local_id target(const graph_edge& e, const G& /*graph*/) {
+  return e.target;
+}
+template <accessible_graph G>
+auto out_edges(local_id vertex, const G& g) {
+  return detail::slot_range(detail::row_slots<G>{&g, vertex});
+}
+template <accessible_graph G>
+auto adjacent_vertices(local_id vertex, const G& g) {
+  return detail::slot_range(detail::neighbour_slots<G>{&g, vertex});
+}
+template <accessible_graph G>
+auto vertices(const G& g) {
+  return detail::slot_range(detail::vertex_slots{graph_access<G>::vertex_count(g)});
+}
+template <accessible_graph G>
+auto edges(const G& g) {
+  return detail::slot_range(detail::list_slots<G>{&g});
+}
+template <accessible_graph G>
+std::size_t num_vertices(const G& g) {
+  return graph_access<G>::vertex_count(g);
+}
+/// Complexity: the number of edges.
+template <accessible_graph G>
+std::size_t num_edges(const G& g) {
+  const auto [first, last] = edges(g);
+  return static_cast<std::size_t>(std::distance(first, last));
+}
+template <accessible_graph G>
+std::size_t out_degree(local_id vertex, const G& g) {
+  const auto [first, last] = out_edges(vertex, g);
+  return static_cast<std::size_t>(std::distance(first, last));
+}
+template <accessible_graph G>
+boost::typed_identity_property_map<local_id> get(boost::vertex_index_t /*tag*/, const G& /*graph*/) {
+  return {};
+}
+template <accessible_graph G>
+local_id get(boost::vertex_index_t /*tag*/, const G& /*graph*/, local_id vertex) {
+  return vertex;
+}
+template <accessible_graph G>
+detail::edge_index_map get(boost::edge_index_t /*tag*/, const G& /*graph*/) {
+  return {};
+}
+template <accessible_graph G>
+std::int64_t get(boost::edge_index_t /*tag*/, const G& /*graph*/, const graph_edge& e) {
+  return e.index;
+}
+
+} // namespace dovetail
+
+namespace boost {
+
+template <dovetail::accessible_graph G>
+struct graph_traits<G> {
+  using vertex_descriptor = dovetail::local_id;
+  using edge_descriptor = dovetail::graph_edge;
+  using directed_category = undirected_tag;
+  using edge_parallel_category = typename dovetail::graph_access<G>::edge_parallel_category;
+  using traversal_category = dovetail::detail::view_traversal_tag;
+  using vertices_size_type = std::size_t;
+  using edges_size_type = std::size_t;
+  using degree_size_type = std::size_t;
+  using out_edge_iterator = dovetail::detail::slot_iterator<dovetail::detail::row_slots<G>>;
+  using adjacency_iterator = dovetail::detail::slot_iterator<dovetail::detail::neighbour_slots<G>>;
+  using vertex_iterator = dovetail::detail::slot_iterator<dovetail::detail::vertex_slots>;
+  using edge_iterator = dovetail::detail::slot_iterator<dovetail::detail::list_slots<G>>;
+  static vertex_descriptor null_vertex() { return dovetail::no_id; }
+};
+
+template <dovetail::accessible_graph G>
+struct property_map<G, vertex_index_t> {
+  using type = typed_identity_property_map<dovetail::local_id>;
+  using const_type = type;
+};
+template <dovetail::accessible_graph G>
+struct property_map<G, edge_index_t> {
+  using type = dovetail::detail::edge_index_map;
+  using const_type = type;
+};
+
+} // namespace boost

@@ -1,0 +1,144 @@
+/// @file
+/// Building and contracting csr graphs.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/graph/csr_graph.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// An undirected edge of a list.
+struct weighted_edge {
+  local_id a = no_id;
+  local_id b = no_id;
+  double weight = 1;
+};
+
+/// The graph with the given nodes and edges: parallel edges are merged (weights added), self loops dropped,
+/// rows sorted. Throws `usage_error` when an end is not a node. Linear but for sorting the rows.
+inline csr_graph make_csr_graph(std::vector<double> node_weights, std::span<const weighted_edge> edges) {
+  const std::size_t n = node_weights.size();
+  std::vector<std::int64_t> begins(n + 1, 0);
+  for (const weighted_edge& e : edges) {
+    if (e.a < 0 || e.b < 0 || static_cast<std::size_t>(std::max(e.a, e.b)) >= n)
+      throw usage_error("edge (" + std::to_string(e.a) + ", " + std::to_string(e.b) + ") leaves the " +
+                        std::to_string(n) + " nodes of the graph");
+    if (e.a != e.b) {
+      ++begins[static_cast<std::size_t>(e.a) + 1];
+      ++begins[static_cast<std::size_t>(e.b) + 1];
+    }
+  }
+  for (std::size_t v = 0; v < n; ++v)
+    begins[v + 1] += begins[v];
+  std::vector<std::pair<local_id, double>> half_edges(static_cast<std::size_t>(begins[n]));
+  std::vector<std::int64_t> next(begins.begin(), begins.end() - 1);
+  for (const weighted_edge& e : edges)
+    if (e.a != e.b) {
+      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.a)]++)] = {e.b, e.weight};
+      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.b)]++)] = {e.a, e.weight};
+    }
+
+  csr_graph graph;
+  graph.node_weights = std::move(node_weights);
+  graph.offsets.reserve(n + 1);
+  for (std::size_t v = 0; v < n; ++v) {
+    const auto first = half_edges.begin() + begins[v];
+    const auto last = half_edges.begin() + begins[v + 1];
+    std::stable_sort(first, last, [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (auto it = first; it != last; ++it)
+      if (it != first && (it - 1)->first == it->first) {
+        graph.edge_weights.back() += it->second;
+      } else {
+        graph.neighbours.push_back(it->first);
+        graph.edge_weights.push_back(it->second);
+      }
+    graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+/// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
+/// parallel add up, edges inside a label vanish.
+inline csr_graph contract(const csr_graph& graph, std::span<const local_id> label, local_id labels) {
+  std::vector<double> weights(static_cast<std::size_t>(labels), 0.0);
+  std::vector<weighted_edge> edges;
+  for (local_id v = 0; v < graph.node_count(); ++v) {
+    const local_id a = label[static_cast<std::size_t>(v)];
+    weights[static_cast<std::size_t>(a)] += graph.node_weights[static_cast<std::size_t>(v)];
+    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
+    const auto row = graph.row(v);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (v < row[k])
+        edges.push_back({a, label[static_cast<std::size_t>(row[k])], graph.edge_weights[begin + k]});
+  }
+  return make_csr_graph(std::move(weights), edges);
+}
+
+/// A piece of a graph with the numbers its nodes have in the whole.
+struct subgraph {
+  csr_graph graph;
+  std::vector<local_id> nodes; ///< of the whole, growing
+};
+
+/// The graph induced by the nodes whose `label` equals `wanted`. Linear in the size of the whole graph.
+inline subgraph induced_subgraph(const csr_graph& graph, std::span<const local_id> label, local_id wanted) {
+  subgraph piece;
+  std::vector<local_id> number(label.size(), no_id);
+  for (std::size_t v = 0; v < label.size(); ++v)
+    if (label[v] == wanted) {
+      number[v] = static_cast<local_id>(piece.nodes.size());
+      piece.nodes.push_back(static_cast<local_id>(v));
+    }
+  for (const local_id v : piece.nodes) {
+    piece.graph.node_weights.push_back(graph.node_weights[static_cast<std::size_t>(v)]);
+    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
+    const auto row = graph.row(v);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (const local_id other = number[static_cast<std::size_t>(row[k])]; other != no_id) {
+        piece.graph.neighbours.push_back(other);
+        piece.graph.edge_weights.push_back(graph.edge_weights[begin + k]);
+      }
+    piece.graph.offsets.push_back(static_cast<std::int64_t>(piece.graph.neighbours.size()));
+  }
+  return piece;
+}
+
+/// Connected components restricted to nodes of equal `label`, numbered in order of their smallest nodes.
+struct labelled_components {
+  std::vector<local_id> of_node;
+  local_id count = 0;
+};
+
+/// Components of the graph when only edges between nodes of the same label count. Linear.
+inline labelled_components components_within(const csr_graph& graph, std::span<const local_id> label) {
+  labelled_components found;
+  found.of_node.assign(label.size(), no_id);
+  std::vector<local_id> stack;
+  for (local_id seed = 0; seed < graph.node_count(); ++seed) {
+    if (found.of_node[static_cast<std::size_t>(seed)] != no_id)
+      continue;
+    const local_id component = found.count++;
+    found.of_node[static_cast<std::size_t>(seed)] = component;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const local_id v = stack.back();
+      stack.pop_back();
+      for (const local_id w : graph.row(v))
+        if (found.of_node[static_cast<std::size_t>(w)] == no_id &&
+            label[static_cast<std::size_t>(w)] == label[static_cast<std::size_t>(v)]) {
+          found.of_node[static_cast<std::size_t>(w)] = component;
+          stack.push_back(w);
+        }
+    }
+  }
+  return found;
+}
+
+} // namespace dovetail
