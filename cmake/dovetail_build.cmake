@@ -13,11 +13,13 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+# clang's -Wconversion includes -Wsign-conversion, g++'s does not: ids are signed and index vectors.
+set(dovetail_warnings -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wpedantic -Werror)
+
 # Linked privately by everything this project compiles.
 add_library(dovetail_developer INTERFACE)
 if(DOVETAIL_DEVELOPER AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  target_compile_options(dovetail_developer INTERFACE
-    -Wall -Wextra -Wshadow -Wconversion -Wpedantic -Werror)
+  target_compile_options(dovetail_developer INTERFACE ${dovetail_warnings})
 endif()
 
 option(DOVETAIL_SANITIZE "Address and undefined-behaviour sanitizers in our own executables" OFF)

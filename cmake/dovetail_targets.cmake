@@ -2,6 +2,7 @@
 # the third party is found. Each adapter's dependencies are written once more, for users, in dovetailConfig.cmake.in.
 
 find_package(Threads REQUIRED)
+find_package(Boost 1.71 REQUIRED CONFIG) # headers of Boost.Graph
 
 add_library(dovetail INTERFACE)
 add_library(dovetail::dovetail ALIAS dovetail)
@@ -9,7 +10,7 @@ target_compile_features(dovetail INTERFACE cxx_std_20)
 target_include_directories(dovetail INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-target_link_libraries(dovetail INTERFACE Threads::Threads)
+target_link_libraries(dovetail INTERFACE Threads::Threads Boost::headers)
 
 set(dovetail_components "")
 set(dovetail_missing_components "")
@@ -52,9 +53,6 @@ dovetail_adapter(gmsh FOUND "${Gmsh_FOUND}" LIBRARIES Gmsh::Gmsh)
 
 find_package(Eigen3 3.3 QUIET CONFIG)
 dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
-
-find_package(Boost 1.71 QUIET CONFIG)
-dovetail_adapter(boost FOUND "${Boost_FOUND}" LIBRARIES Boost::headers)
 
 find_package(nlohmann_json 3.7 QUIET CONFIG)
 dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)

@@ -1,0 +1,22 @@
+#!/bin/bash
+# Installs what is missing, builds, and runs every test. Arguments go to ctest (for example -R io).
+# The last line counts all tests: N passed, N failed, N skipped. Ends with an error when any failed.
+# With CI=true a test may be skipped only for want of the external models, not of anything that scripts/setup installs.
+set -uo pipefail
+source_directory=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$source_directory" || exit 1
+
+scripts/setup tests || exit 1
+
+require_all=OFF
+[[ ${CI:-} == true ]] && require_all=ON
+# A test that did not build is counted as failed below.
+scripts/build tests -DDOVETAIL_REQUIRE_ALL_TESTS=$require_all
+[[ -f build/CTestTestfile.cmake ]] || exit 1
+
+results=build/test_results.xml
+rm -f "$results"
+ctest --test-dir build --parallel "$(nproc)" --output-on-failure --output-junit "$source_directory/$results" "$@"
+[[ -f $results ]] || { echo "no test was run" >&2; exit 1; }
+
+scripts/count_tests "$results"

@@ -1,0 +1,5 @@
+#include "dovetail/core/predicates.hpp"
+
+int count_parts() {
+  return 2;
+}
