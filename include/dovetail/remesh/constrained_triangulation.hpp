@@ -1,0 +1,417 @@
+/// @file
+/// Constrained Delaunay triangulation of a plane domain given by closed loops.
+///
+/// Points are inserted one by one along a space-filling curve and made Delaunay by flips; missing segments
+/// are recovered by flips (S. W. Sloan, "A fast algorithm for generating constrained Delaunay
+/// triangulations", doi 10.1016/0045-7949(93)90239-A); the outside is removed by winding number. All
+/// decisions are exact.
+#pragma once
+
+#include "dovetail/core/predicates.hpp"
+#include "dovetail/remesh/corner_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// What `triangulate_loops` found. `table` is a triangulation of the domain exactly when `valid()`.
+struct loop_triangulation {
+  corner_table table;            ///< vertices are the given points; constraints are segment indices
+  std::vector<local_id> same_as; ///< per point: the point of lowest index with the same coordinates
+  std::vector<std::array<local_id, 2>> crossings; ///< pairs of segments that cross, touch or overlap
+  std::vector<local_id> misplaced; ///< segments that have the domain on their wrong side: a loop runs
+                                   ///< backwards or lies inside another one of its kind
+
+  bool valid() const { return crossings.empty() && misplaced.empty(); }
+};
+
+namespace detail {
+
+/// Index of a point along a Hilbert curve of order 16 over the unit square.
+inline std::uint32_t hilbert_index(std::uint32_t x, std::uint32_t y) {
+  std::uint32_t index = 0;
+  for (std::uint32_t s = 1u << 15; s > 0; s >>= 1) {
+    const std::uint32_t rx = (x & s) > 0, ry = (y & s) > 0;
+    index += s * s * ((3 * rx) ^ ry);
+    if (ry == 0) {
+      if (rx == 1) {
+        x = s - 1 - (x & (s - 1)) + (x & ~(2 * s - 1));
+        y = s - 1 - (y & (s - 1)) + (y & ~(2 * s - 1));
+      }
+      std::swap(x, y);
+    }
+  }
+  return index;
+}
+
+/// The permutation that sorts points along a space-filling curve of their bounding box.
+inline std::vector<local_id> space_filling_order(std::span<const vec2> points) {
+  vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
+  for (const vec2 p : points) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+  }
+  const double wx = upper.x > lower.x ? 65535 / (upper.x - lower.x) : 0;
+  const double wy = upper.y > lower.y ? 65535 / (upper.y - lower.y) : 0;
+  std::vector<std::pair<std::uint32_t, local_id>> keyed(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keyed[i] = {hilbert_index(static_cast<std::uint32_t>((points[i].x - lower.x) * wx),
+                              static_cast<std::uint32_t>((points[i].y - lower.y) * wy)),
+                static_cast<local_id>(i)};
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<local_id> order(points.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i)
+    order[i] = keyed[i].second;
+  return order;
+}
+
+/// Builds a `loop_triangulation`; see `triangulate_loops`.
+class loop_triangulator {
+public:
+  loop_triangulator(std::span<const vec2> points, std::span<const std::array<local_id, 2>> segments)
+      : points_(points.begin(), points.end()), segments_(segments) {}
+
+  loop_triangulation run() {
+    insert_points();
+    net_.assign(segments_.size(), 0);
+    for (local_id s = 0; s < static_cast<local_id>(segments_.size()); ++s)
+      recover_segment(s);
+    if (result_.crossings.empty())
+      remove_outside();
+    return std::move(result_);
+  }
+
+private:
+  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+  vec2 xy(local_id v) const { return points_[at(v)]; }
+  vec2 corner_xy(local_id c) const { return xy(table().vertex[at(c)]); }
+  corner_table& table() { return result_.table; }
+  const corner_table& table() const { return result_.table; }
+
+  void insert_points() {
+    const std::size_t count = points_.size();
+    const std::vector<local_id> order = space_filling_order(points_);
+    table().corner_of.assign(count, no_id);
+    result_.same_as.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+      result_.same_as[i] = static_cast<local_id>(i);
+    add_enclosing_triangle();
+    for (const local_id v : order)
+      insert(v);
+    // The first of a group of equal points was whichever came first along the curve; name it by lowest index.
+    for (local_id v = 0; v < static_cast<local_id>(count); ++v)
+      rename_to_lowest(v);
+  }
+
+  /// Adds a triangle that holds all points far from its sides. Its vertices are ordinary points: the domain
+  /// is bounded by constraints, so they have no influence on the triangles that stay.
+  void add_enclosing_triangle() {
+    vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
+    for (const vec2 p : points_) {
+      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+    }
+    const double size = std::max({upper.x - lower.x, upper.y - lower.y, 1e-300});
+    const vec2 center = 0.5 * (lower + upper);
+    enclosing_ = static_cast<local_id>(points_.size());
+    for (const vec2 corner : {vec2{-30, -20}, vec2{30, -20}, vec2{0, 40}}) {
+      points_.push_back(center + size * corner);
+      table().add_vertex();
+    }
+    last_ = table().add_triangle(enclosing_, enclosing_ + 1, enclosing_ + 2);
+  }
+
+  void insert(local_id v) {
+    const vec2 p = xy(v);
+    local_id t = last_;
+    local_id came_from = no_id;
+    for (bool moved = true; moved;) { // walk; exact orientations and a Delaunay triangulation: it ends
+      moved = false;
+      for (local_id i = 0; i < 3 && !moved; ++i) {
+        const local_id c = 3 * t + i, across = table().twin[at(c)];
+        if (across == no_id || across == came_from)
+          continue;
+        if (orient2d(xy(table().tail(c)), xy(table().head(c)), p) < 0) {
+          came_from = c;
+          t = corner_table::triangle_of(across);
+          moved = true;
+        }
+      }
+    }
+    last_ = t;
+    local_id on_side = no_id;
+    for (local_id i = 0; i < 3; ++i) {
+      const local_id c = 3 * t + i;
+      if (corner_xy(c) == p) {
+        result_.same_as[at(v)] = table().vertex[at(c)];
+        return;
+      }
+      if (orient2d(xy(table().tail(c)), xy(table().head(c)), p) == 0)
+        on_side = c;
+    }
+    if (on_side == no_id) {
+      for (const local_id s : table().split_triangle(t, v))
+        legalise_.push_back(3 * s + 2);
+    } else {
+      for (const local_id c : table().split_side(on_side, v))
+        legalise_.push_back(c);
+    }
+    restore_delaunay();
+    last_ = corner_table::triangle_of(table().corner_of[at(v)]);
+  }
+
+  /// Flips the sides opposite the queued corners, and those their flips expose, until all are Delaunay.
+  void restore_delaunay() {
+    while (!legalise_.empty()) {
+      const local_id c = legalise_.back();
+      legalise_.pop_back();
+      if (!table().free_side(c))
+        continue;
+      const local_id d = table().twin[at(c)];
+      if (in_circle(corner_xy(c), xy(table().tail(c)), xy(table().head(c)), corner_xy(d)) <= 0)
+        continue;
+      table().flip(c); // inside the circle implies strictly convex
+      for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
+        legalise_.push_back(e);
+    }
+  }
+
+  void rename_to_lowest(local_id v) {
+    const local_id group = result_.same_as[at(v)];
+    if (group <= v)
+      return;
+    // v is the lowest index of its group, as indices are visited upwards: it takes over the group's corners.
+    const local_id first = table().corner_of[at(group)];
+    table().for_each_corner(group, [&](local_id c) { table().vertex[at(c)] = v; });
+    table().corner_of[at(v)] = first;
+    table().corner_of[at(group)] = no_id;
+    for (local_id w = v; w < enclosing_; ++w)
+      if (result_.same_as[at(w)] == group)
+        result_.same_as[at(w)] = v;
+  }
+
+  /// Makes segment s a constrained side, or reports what it crosses.
+  void recover_segment(local_id s) {
+    const local_id a = result_.same_as[at(segments_[at(s)][0])];
+    const local_id b = result_.same_as[at(segments_[at(s)][1])];
+    if (a == b) {
+      result_.crossings.push_back({s, s});
+      return;
+    }
+    std::vector<local_id>& crossed = crossed_;
+    crossed.clear();
+    const local_id start = first_step(a, b, s);
+    if (start == no_id)
+      return;
+    if (table().head(start) == b || table().tail(start) == b) {
+      constrain(start, b, s);
+      return;
+    }
+    if (!collect_crossed(start, a, b, s))
+      return;
+    flip_crossed(a, b, s);
+  }
+
+  /// The corner of `a` whose triangle the segment to b enters, or that has b as a neighbour; no_id when the
+  /// segment passes exactly through another vertex.
+  local_id first_step(local_id a, local_id b, local_id s) {
+    local_id found = no_id, blocked = no_id;
+    table().for_each_corner(a, [&](local_id c) {
+      const local_id p = table().tail(c), q = table().head(c);
+      if (p == b || q == b) {
+        found = c;
+        return;
+      }
+      const double left_of_p = orient2d(xy(a), xy(p), xy(b)), left_of_q = orient2d(xy(a), xy(q), xy(b));
+      if (left_of_p > 0 && left_of_q < 0 && found == no_id)
+        found = c;
+      if (left_of_p == 0 && dot(xy(p) - xy(a), xy(b) - xy(a)) > 0)
+        blocked = p;
+    });
+    if (found == no_id && blocked != no_id)
+      report_touched(s, blocked);
+    return found;
+  }
+
+  /// Collects the sides that the segment from a to b crosses, as pairs of vertices; false when it hits a
+  /// constraint or a vertex, which is reported.
+  bool collect_crossed(local_id start, local_id a, local_id b, local_id s) {
+    local_id c = start;
+    for (;;) {
+      if (table().constraint[at(c)] != no_id) {
+        result_.crossings.push_back({table().constraint[at(c)], s});
+        return false;
+      }
+      crossed_.push_back(c);
+      const local_id d = table().twin[at(c)], apex = table().vertex[at(d)];
+      if (apex == b)
+        return true;
+      const double side = orient2d(xy(a), xy(b), xy(apex));
+      if (side == 0) {
+        report_touched(s, apex);
+        return false;
+      }
+      c = separates(corner_table::next(d), a, b) ? corner_table::next(d) : corner_table::previous(d);
+    }
+  }
+  bool separates(local_id c, local_id a, local_id b) const {
+    return (orient2d(xy(a), xy(b), xy(table().tail(c))) > 0) !=
+           (orient2d(xy(a), xy(b), xy(table().head(c))) > 0);
+  }
+
+  void flip_crossed(local_id a, local_id b, local_id s) {
+    // A flip keeps the ids of the two triangles but renames sides, so a crossed side is found by vertices.
+    std::vector<std::array<local_id, 2>>& queue = crossed_sides_;
+    queue.clear();
+    for (const local_id c : crossed_)
+      queue.push_back({table().tail(c), table().head(c)});
+    std::size_t head = 0, refused = 0;
+    created_.clear();
+    while (head < queue.size() && refused < queue.size() - head + 1) {
+      const auto [p, q] = queue[head++];
+      const local_id c = corner_opposite(p, q);
+      const local_id d = table().twin[at(c)];
+      const local_id x = table().vertex[at(c)], y = table().vertex[at(d)];
+      const bool convex =
+          orient2d(xy(x), xy(table().tail(c)), xy(y)) > 0 && orient2d(xy(y), xy(table().head(c)), xy(x)) > 0;
+      if (!convex) {
+        queue.push_back({p, q});
+        ++refused;
+        continue;
+      }
+      refused = 0;
+      table().flip(c);
+      const bool still_crosses = x != a && x != b && y != a && y != b &&
+                                 (orient2d(xy(a), xy(b), xy(x)) > 0) != (orient2d(xy(a), xy(b), xy(y)) > 0);
+      if (still_crosses)
+        queue.push_back({x, y});
+      else
+        created_.push_back({x, y});
+    }
+    const local_id c = corner_opposite(a, b);
+    if (c == no_id) { // cannot happen with exact predicates; reported rather than trusted
+      result_.crossings.push_back({s, s});
+      return;
+    }
+    constrain_side(c, s);
+    for (const auto& [x, y] : created_)
+      if (const local_id e = corner_opposite(x, y); e != no_id)
+        legalise_.push_back(e);
+    restore_delaunay();
+  }
+
+  /// The corner whose opposite side joins p and q, in either direction; no_id when they are not neighbours.
+  local_id corner_opposite(local_id p, local_id q) const {
+    local_id found = no_id;
+    table().for_each_corner(p, [&](local_id c) {
+      if (table().tail(c) == q)
+        found = corner_table::previous(c);
+    });
+    return found;
+  }
+
+  void constrain(local_id corner_at_a, local_id b, local_id s) {
+    const local_id c = table().tail(corner_at_a) == b ? corner_table::previous(corner_at_a)
+                                                      : corner_table::next(corner_at_a);
+    constrain_side(c, s);
+  }
+
+  /// Marks a side as lying on segment s; a side that two segments share keeps the first and their sum.
+  void constrain_side(local_id c, local_id s) {
+    local_id& mine = table().constraint[at(c)];
+    if (mine == no_id)
+      mine = table().constraint[at(table().twin[at(c)])] = s;
+    net_[at(mine)] += start_of(mine) == start_of(s) ? 1 : -1;
+  }
+  local_id start_of(local_id s) const { return result_.same_as[at(segments_[at(s)][0])]; }
+
+  void report_touched(local_id s, local_id v) {
+    local_id other = s;
+    table().for_each_corner(v, [&](local_id c) {
+      for (const local_id side : {corner_table::next(c), corner_table::previous(c)})
+        if (table().constraint[at(side)] != no_id)
+          other = table().constraint[at(side)];
+    });
+    if (other == s) // the touched segment has not been recovered yet
+      for (local_id k = 0; k < static_cast<local_id>(segments_.size()) && other == s; ++k)
+        for (const local_id end : segments_[at(k)])
+          if (k != s && result_.same_as[at(end)] == v)
+            other = k;
+    result_.crossings.push_back({std::min(s, other), std::max(s, other)});
+  }
+
+  /// Keeps the triangles of winding number one.
+  void remove_outside() {
+    std::vector<std::int32_t> winding(at(table().triangle_slots()), unknown);
+    std::vector<local_id> stack{corner_table::triangle_of(table().corner_of[at(enclosing_)])};
+    winding[at(stack[0])] = 0;
+    while (!stack.empty()) {
+      const local_id t = stack.back();
+      stack.pop_back();
+      for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
+        const local_id d = table().twin[at(c)];
+        if (d == no_id || winding[at(corner_table::triangle_of(d))] != unknown)
+          continue;
+        const local_id s = table().constraint[at(d)];
+        int step = 0;
+        if (s != no_id)
+          step = table().tail(d) == start_of(s) ? net_[at(s)] : -net_[at(s)];
+        winding[at(corner_table::triangle_of(d))] = winding[at(t)] + step;
+        stack.push_back(corner_table::triangle_of(d));
+      }
+    }
+    report_misplaced(winding);
+    for (local_id t = 0; t < table().triangle_slots(); ++t)
+      if (winding[at(t)] != 1)
+        table().remove_triangle(t);
+    refresh_vertices();
+  }
+
+  void report_misplaced(const std::vector<std::int32_t>& winding) {
+    for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
+      if (const local_id s = table().constraint[at(c)]; s != no_id) {
+        const std::int32_t w = winding[at(corner_table::triangle_of(c))];
+        if (w != 0 && w != 1)
+          result_.misplaced.push_back(s);
+      }
+    std::sort(result_.misplaced.begin(), result_.misplaced.end());
+    result_.misplaced.erase(std::unique(result_.misplaced.begin(), result_.misplaced.end()),
+                            result_.misplaced.end());
+  }
+
+  void refresh_vertices() {
+    table().corner_of.assign(at(enclosing_), no_id);
+    for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
+      if (const local_id v = table().vertex[at(c)]; v != no_id)
+        table().corner_of[at(v)] = c;
+  }
+
+  static constexpr std::int32_t unknown = -1000000;
+
+  std::vector<vec2> points_; // the given points, then the enclosing triangle's
+  std::span<const std::array<local_id, 2>> segments_;
+  loop_triangulation result_;
+  std::vector<std::int32_t> net_; // per segment on a side: segments along it minus segments against it
+  local_id enclosing_ = 0;
+  local_id last_ = 0;
+  std::vector<local_id> legalise_, crossed_;
+  std::vector<std::array<local_id, 2>> crossed_sides_, created_;
+};
+
+} // namespace detail
+
+/// Triangulates the domain to the left of closed loops of segments over `points`. Every segment is a side of
+/// the result; a segment passed once in each direction (a slit) has the domain on both sides. Crossing,
+/// touching or overlapping segments and wrongly oriented loops are reported, never triangulated wrongly.
+/// Complexity: about n log n.
+inline loop_triangulation triangulate_loops(std::span<const vec2> points,
+                                            std::span<const std::array<local_id, 2>> segments) {
+  return detail::loop_triangulator(points, segments).run();
+}
+
+} // namespace dovetail

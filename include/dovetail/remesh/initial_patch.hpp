@@ -1,0 +1,145 @@
+/// @file
+/// The starting state of the patch remesher: the boundary loops triangulated in the parameter plane, and long
+/// edges split until none bridges a strongly curved part of the surface.
+#pragma once
+
+#include "dovetail/remesh/edge_operations.hpp"
+
+namespace dovetail::detail {
+
+/// Factors that make lengths in the parameter plane resemble those in 3-space on average.
+inline vec2 parameter_scale(const std::vector<surface_frame>& frames) {
+  vec2 sum{0, 0};
+  for (const surface_frame& f : frames)
+    sum = sum + vec2{norm(f.du), norm(f.dv)};
+  const double count = static_cast<double>(std::max<std::size_t>(frames.size(), 1));
+  const vec2 mean{sum.x / count, sum.y / count};
+  const double largest = std::max(mean.x, mean.y);
+  if (!(largest > 0) || !std::isfinite(largest))
+    return {1, 1};
+  return {std::max(mean.x, 1e-9 * largest), std::max(mean.y, 1e-9 * largest)};
+}
+
+/// Sets the target size of boundary vertices to the mean length of their segments: the patch has to match
+/// them whatever the sizing field says.
+template <class S>
+void set_boundary_sizes(patch_state<S>& s, const patch_boundary& boundary) {
+  std::vector<double> length_sum(boundary.points.size(), 0);
+  std::vector<int> count(boundary.points.size(), 0);
+  for (const auto& [a, b] : boundary.segments) {
+    const double length = distance(boundary.points[s.at(a)], boundary.points[s.at(b)]);
+    if (boundary.labels[s.at(a)] == boundary.labels[s.at(b)])
+      continue;
+    for (const local_id v : {a, b}) {
+      length_sum[s.at(v)] += length;
+      ++count[s.at(v)];
+    }
+  }
+  for (std::size_t v = 0; v < length_sum.size(); ++v)
+    s.size[v] = count[v] > 0 && length_sum[v] > 0 ? length_sum[v] / count[v] : s.sizing(s.point[v]);
+}
+
+/// Fills the state from the loops; the crossings and misplaced segments of `mesh` tell why it could not.
+template <class S>
+bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& mesh) {
+  const std::size_t count = boundary.uv.size();
+  std::vector<surface_frame> frames(count);
+  for (std::size_t i = 0; i < count; ++i)
+    frames[i] = s.surface.frame(boundary.uv[i]);
+  s.scale = parameter_scale(frames);
+  std::vector<vec2> scaled(count);
+  for (std::size_t i = 0; i < count; ++i)
+    scaled[i] = {boundary.uv[i].x * s.scale.x, boundary.uv[i].y * s.scale.y};
+
+  loop_triangulation loops = triangulate_loops(scaled, boundary.segments);
+  mesh.crossings = loops.crossings;
+  mesh.misplaced = loops.misplaced;
+  if (!loops.valid())
+    return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    surface_frame& f = frames[i];
+    f.du = f.du / s.scale.x;
+    f.dv = f.dv / s.scale.y;
+    f.point = boundary.points[i];
+    s.add_vertex(scaled[i], f, 0);
+    s.label[i] = boundary.labels[i];
+  }
+  s.frozen = static_cast<local_id>(count);
+  for (const auto& [a, b] : boundary.segments)
+    if (boundary.labels[s.at(a)] == boundary.labels[s.at(b)])
+      s.pole[s.at(a)] = s.pole[s.at(b)] = 1;
+  s.table = std::move(loops.table);
+  set_boundary_sizes(s, boundary);
+  return true;
+}
+
+/// True when the straight edge a-b is a poor stand-in for the surface curve between the same parameters: it
+/// turns by more than about 90 degrees.
+template <class S>
+bool bridges_curvature(const patch_state<S>& s, local_id a, local_id b) {
+  const double chord = s.length(a, b);
+  const vec2 d = s.xy[s.at(b)] - s.xy[s.at(a)];
+  const double at_a = norm(d.x * s.du[s.at(a)] + d.y * s.dv[s.at(a)]);
+  const double at_b = norm(d.x * s.du[s.at(b)] + d.y * s.dv[s.at(b)]);
+  if (std::max(at_a, at_b) < 1.05 * chord && dot(s.normal[s.at(a)], s.normal[s.at(b)]) > 0.9)
+    return false;
+  double length = 0;
+  vec3 from = s.point[s.at(a)];
+  for (int i = 1; i <= 4; ++i) {
+    const vec3 to = i == 4 ? s.point[s.at(b)] : s.frame_at(s.xy[s.at(a)] + (0.25 * i) * d).point;
+    length += distance(from, to);
+    from = to;
+  }
+  return chord < 0.9 * length && length > 0.3 * s.target(a, b);
+}
+
+/// Makes the patch Delaunay in the scaled parameter plane around the queued corners.
+template <class S>
+void make_plane_delaunay(patch_state<S>& s, std::vector<local_id>& queue) {
+  while (!queue.empty()) {
+    const local_id c = queue.back();
+    queue.pop_back();
+    if (!s.table.free_side(c))
+      continue;
+    const local_id d = s.table.twin[s.at(c)];
+    if (in_circle(s.xy[s.at(s.table.vertex[s.at(c)])], s.xy[s.at(s.table.tail(c))],
+                  s.xy[s.at(s.table.head(c))], s.xy[s.at(s.table.vertex[s.at(d)])]) <= 0)
+      continue;
+    s.table.flip(c);
+    for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
+      queue.push_back(e);
+  }
+}
+
+/// Splits edges until none bridges strong curvature; afterwards lengths and angles in 3-space mean something.
+template <class S>
+void resolve_curvature(patch_state<S>& s) {
+  std::vector<local_id> queue;
+  const std::size_t most_vertices = 20 * s.point.size() + 20000;
+  for (int round = 0; round < 30; ++round) {
+    bool any = false;
+    for (local_id c = 0; c < static_cast<local_id>(s.table.vertex.size()); ++c) {
+      if (!s.table.alive(c / 3) || !s.table.free_side(c) || s.table.twin[s.at(c)] < c ||
+          s.point.size() > most_vertices)
+        continue;
+      const local_id a = s.table.tail(c), b = s.table.head(c);
+      if (!bridges_curvature(s, a, b))
+        continue;
+      const vec2 middle = 0.5 * (s.xy[s.at(a)] + s.xy[s.at(b)]);
+      if (middle == s.xy[s.at(a)] || middle == s.xy[s.at(b)])
+        continue;
+      flip_queue unused;
+      const local_id v = split_at_middle(s, c, unused);
+      if (v == no_id)
+        continue;
+      s.size[s.at(v)] = s.sizing(s.point[s.at(v)]);
+      s.table.for_each_corner(v, [&](local_id e) { queue.push_back(e); });
+      make_plane_delaunay(s, queue);
+      any = true;
+    }
+    if (!any)
+      return;
+  }
+}
+
+} // namespace dovetail::detail

@@ -1,0 +1,103 @@
+/// @file
+/// The input and output of the patch remesher: one piece of a surface with a planar parameter domain.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/core/vector.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/mesh/simplex.hpp"
+
+#include <array>
+#include <concepts>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// The frozen boundary of a patch: closed loops of segments with the domain on their left in the parameter
+/// plane, in any number and order; holes need no cuts. Vertices with equal labels are the same vertex of
+/// 3-space: a seam passes it twice with different parameters, a slit twice with equal ones, and a pole is a
+/// run of segments whose ends all have the same label.
+struct patch_boundary {
+  std::vector<vec2> uv;
+  std::vector<vec3> points;
+  std::vector<local_id> labels;
+  std::vector<std::array<local_id, 2>> segments;
+  /// Pairs of labels that no inner edge may join, because another patch already joins them by an edge that is
+  /// not on the boundary.
+  std::vector<std::array<local_id, 2>> forbidden_edges = {};
+};
+
+/// A parametric surface under a patch. `s.frame(uv)` is its point and derivatives, `s.project(p, uv)` the
+/// parameters of the point nearest p, started from seed uv. Models: plane_surface, triangle_surface,
+/// model_surface.
+template <class S>
+concept patch_surface = requires(const S& s, vec3 p, vec2 uv) {
+  { s.frame(uv) } -> std::same_as<surface_frame>;
+  { s.project(p, uv) } -> std::same_as<vec2>;
+};
+
+/// The mesh of a patch. Vertex ids: the boundary's vertices first, then the inner ones. Where two boundary
+/// vertices have both the same label and the same parameters, triangles name the lower index. At a pole they
+/// name the boundary vertex whose parameters belong to the corner.
+struct patch_mesh {
+  std::vector<vec2> inner_uv;
+  std::vector<vec3> inner_points;    ///< exactly the surface at `inner_uv`
+  std::vector<simplex<2>> triangles; ///< counter-clockwise in the parameter plane
+  std::vector<std::array<local_id, 2>>
+      crossings;                   ///< segments that cross, touch or overlap; no triangles then
+  std::vector<local_id> misplaced; ///< segments with the domain on their wrong side; no triangles then
+  local_id folded = 0; ///< triangles whose normal disagrees with the surface's; 0 unless the loop forces them
+  std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
+  report summary;
+
+  bool ok() const { return crossings.empty() && misplaced.empty() && folded == 0 && repeated_edges.empty(); }
+};
+
+/// Encodes a patch mesh for executors; the summary keeps its counters and warnings only.
+inline byte_buffer encode(const patch_mesh& mesh) {
+  byte_writer out;
+  out.array(mesh.inner_uv);
+  out.array(mesh.inner_points);
+  out.array(mesh.triangles);
+  out.array(mesh.crossings);
+  out.array(mesh.misplaced);
+  out.value(mesh.folded);
+  out.array(mesh.repeated_edges);
+  out.text(mesh.summary.name);
+  out.value(mesh.summary.seconds);
+  out.value<std::uint64_t>(mesh.summary.counters.size());
+  for (const auto& [key, value] : mesh.summary.counters) {
+    out.text(key);
+    out.value(value);
+  }
+  out.value<std::uint64_t>(mesh.summary.warnings.size());
+  for (const std::string& warning : mesh.summary.warnings)
+    out.text(warning);
+  return out.take();
+}
+
+/// Reads back what `encode` wrote; throws `input_error` when the data end early.
+inline patch_mesh decode_patch_mesh(const byte_buffer& buffer) {
+  byte_reader in(buffer);
+  patch_mesh mesh;
+  mesh.inner_uv = in.array<vec2>();
+  mesh.inner_points = in.array<vec3>();
+  mesh.triangles = in.array<simplex<2>>();
+  mesh.crossings = in.array<std::array<local_id, 2>>();
+  mesh.misplaced = in.array<local_id>();
+  mesh.folded = in.value<local_id>();
+  mesh.repeated_edges = in.array<std::array<local_id, 2>>();
+  mesh.summary.name = in.text();
+  mesh.summary.seconds = in.value<double>();
+  for (auto left = in.value<std::uint64_t>(); left > 0; --left) {
+    std::string key = in.text();
+    mesh.summary.counters.emplace_back(std::move(key), in.value<double>());
+  }
+  for (auto left = in.value<std::uint64_t>(); left > 0; --left)
+    mesh.summary.warnings.push_back(in.text());
+  return mesh;
+}
+
+} // namespace dovetail

@@ -1,0 +1,80 @@
+/// @file
+/// Keeps a patch a manifold in 3-space: two inner edges never join the same two vertices.
+///
+/// Inner edges whose ends both lie on the boundary ("chords") are the only ones that can coincide: with each
+/// other across a seam, with a boundary segment, or with a chord of another patch.
+#pragma once
+
+#include "dovetail/remesh/smoothing.hpp"
+
+#include <map>
+
+namespace dovetail::detail {
+
+using label_pair = std::array<local_id, 2>;
+
+inline label_pair ordered(local_id a, local_id b) {
+  return a < b ? label_pair{a, b} : label_pair{b, a};
+}
+
+/// Counts, per pair of labels, the different edges of 3-space that join them, and returns the chords that
+/// must be split to leave at most one. A triangle on a pole has two sides that are one edge of 3-space.
+template <class S>
+std::vector<local_id> repeated_chords(const patch_state<S>& s, const patch_boundary& boundary) {
+  std::map<label_pair, int> edges;
+  for (const auto& [a, b] : boundary.segments)
+    edges[ordered(s.label[s.at(a)], s.label[s.at(b)])] = 1;
+  for (const label_pair& pair : boundary.forbidden_edges)
+    edges[ordered(pair[0], pair[1])] = 1;
+  const auto is_chord = [&](local_id c) {
+    return s.table.free_side(c) && !s.inner(s.table.tail(c)) && !s.inner(s.table.head(c));
+  };
+  const auto corners = static_cast<local_id>(s.table.vertex.size());
+  for (local_id c = 0; c < corners; ++c) {
+    if (s.table.vertex[s.at(c)] == no_id)
+      continue;
+    const local_id a = s.table.tail(c), b = s.table.head(c);
+    if (is_chord(c) && s.table.twin[s.at(c)] > c)
+      ++edges[ordered(s.label[s.at(a)], s.label[s.at(b)])];
+    // The apex of a vanishing triangle sees both its sides as one edge.
+    const local_id apex = s.table.vertex[s.at(c)];
+    if (!s.inner(apex) && s.pole[s.at(a)] && s.pole[s.at(b)] && s.label[s.at(a)] == s.label[s.at(b)])
+      --edges[ordered(s.label[s.at(apex)], s.label[s.at(a)])];
+  }
+  std::vector<local_id> repeated;
+  for (local_id c = 0; c < corners; ++c) {
+    if (s.table.vertex[s.at(c)] == no_id || !is_chord(c) || s.table.twin[s.at(c)] < c)
+      continue;
+    const local_id a = s.label[s.at(s.table.tail(c))], b = s.label[s.at(s.table.head(c))];
+    if (a == b || edges[ordered(a, b)] > 1)
+      repeated.push_back(c);
+  }
+  return repeated;
+}
+
+/// Splits repeated chords and smooths around the new vertices. What cannot be split is listed in the mesh.
+template <class S>
+void separate_repeated_edges(patch_state<S>& s, const patch_boundary& boundary, flip_queue& flips,
+                             patch_mesh& mesh) {
+  for (int round = 0; round < 4; ++round) {
+    const std::vector<local_id> chords = repeated_chords(s, boundary);
+    if (chords.empty())
+      return;
+    std::vector<label_pair> sides;
+    for (const local_id c : chords)
+      sides.push_back({s.table.tail(c), s.table.head(c)});
+    std::vector<local_id> added;
+    for (std::size_t i = 0; i < chords.size(); ++i)
+      if (s.table.tail(chords[i]) == sides[i][0] && s.table.head(chords[i]) == sides[i][1])
+        if (const local_id v = split_at_middle(s, chords[i], flips); v != no_id)
+          added.push_back(v);
+    flips.raise_quality(s, false);
+    smoother smooth(s);
+    for (const local_id v : added)
+      smooth.maximise_worst(v);
+  }
+  for (const local_id c : repeated_chords(s, boundary))
+    mesh.repeated_edges.push_back(ordered(s.label[s.at(s.table.tail(c))], s.label[s.at(s.table.head(c))]));
+}
+
+} // namespace dovetail::detail

@@ -1,0 +1,151 @@
+/// @file
+/// Moves inner vertices of a `patch_state` within the surface towards well-shaped stars.
+#pragma once
+
+#include "dovetail/remesh/edge_operations.hpp"
+
+namespace dovetail::detail {
+
+/// Gauss-Seidel smoothing in index order. A vertex is visited again only while it or a neighbour moves.
+template <class S>
+class smoother {
+public:
+  explicit smoother(patch_state<S>& state) : s_(state) {}
+
+  /// One pass over the vertices that are awake; returns how many moved noticeably.
+  std::size_t pass() {
+    awake_.resize(s_.point.size(), 1);
+    next_.assign(s_.point.size(), 0);
+    std::size_t moved = 0;
+    for (local_id v = s_.frozen; v < static_cast<local_id>(s_.point.size()); ++v) {
+      if (!awake_[s_.at(v)] || s_.table.corner_of[s_.at(v)] == no_id)
+        continue;
+      if (!improve(v))
+        continue;
+      ++moved;
+      next_[s_.at(v)] = 1;
+      for (const auto& [a, b] : link_)
+        next_[s_.at(a)] = 1;
+    }
+    awake_.swap(next_);
+    return moved;
+  }
+  /// Makes the next pass visit v.
+  void wake(local_id v) {
+    awake_.resize(s_.point.size(), 1);
+    awake_[s_.at(v)] = 1;
+  }
+  void wake_all() { awake_.assign(s_.point.size(), 1); }
+
+  /// Moves v to where the worst triangle of its star is best, by a shrinking pattern search.
+  bool maximise_worst(local_id v) {
+    collect_link(s_, v, link_);
+    bool any = false;
+    double reach = 0.3 * link_radius(v);
+    for (int round = 0; round < 6; ++round) {
+      const vec3 n = s_.normal[s_.at(v)];
+      const vec3 x = normalized(s_.du[s_.at(v)]), y = cross(n, x);
+      bool better = false;
+      for (int k = 0; k < 6 && !better; ++k) {
+        const double angle = 1.0471975511965976 * (k + 0.5 * (round % 2));
+        better = try_step(v, reach * (std::cos(angle) * x + std::sin(angle) * y), worst_rule{});
+      }
+      any = any || better;
+      if (!better)
+        reach *= 0.5;
+    }
+    return any;
+  }
+
+private:
+  struct star {
+    double least = 1;
+    double sum = 0;
+  };
+  /// Accepts a move that improves the sum without making a bad star worse.
+  struct balanced_rule {
+    bool operator()(const star& before, const star& after) const {
+      constexpr double good_enough = 0.36;
+      if (before.least < good_enough && after.least < before.least)
+        return before.least < 0 ? false : after.least >= good_enough;
+      if (after.least < good_enough)
+        return after.least > before.least + 1e-4 ||
+               (after.least >= before.least && after.sum > before.sum + 1e-4);
+      return before.least < good_enough || after.sum > before.sum + 1e-3;
+    }
+  };
+  struct worst_rule {
+    bool operator()(const star& before, const star& after) const { return after.least > before.least + 1e-4; }
+  };
+
+  bool improve(local_id v) {
+    collect_link(s_, v, link_);
+    const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
+    if (norm_squared(step) < 1e-4 * s_.size[s_.at(v)] * s_.size[s_.at(v)])
+      return false;
+    return try_step(v, step, balanced_rule{}) || try_step(v, 0.4 * step, balanced_rule{});
+  }
+
+  /// The mean of the apexes that would make each triangle of the star equilateral.
+  vec3 wanted_point(local_id v) const {
+    constexpr double height = 0.8660254037844386;
+    const vec3 n = s_.normal[s_.at(v)];
+    vec3 sum{};
+    for (const auto& [a, b] : link_) {
+      const vec3 pa = s_.point[s_.at(a)], pb = s_.point[s_.at(b)];
+      sum += midpoint(pa, pb) + height * cross(n, pb - pa);
+    }
+    return sum / static_cast<double>(link_.size());
+  }
+
+  double link_radius(local_id v) const {
+    double sum = 0;
+    for (const auto& [a, b] : link_)
+      sum += s_.length(v, a);
+    return sum / static_cast<double>(link_.size());
+  }
+
+  template <class Rule>
+  bool try_step(local_id v, vec3 step, Rule accepts) {
+    const std::size_t i = s_.at(v);
+    const vec2 step_xy = patch_state<S>::parameter_step(s_.du[i], s_.dv[i], step);
+    const vec2 to = s_.xy[i] + step_xy;
+    if (to == s_.xy[i])
+      return false;
+    for (const auto& [a, b] : link_)
+      if (!(orient2d(s_.xy[s_.at(a)], s_.xy[s_.at(b)], to) > 0))
+        return false;
+    const star before = measure(v);
+    const saved_vertex old{s_.xy[i], s_.point[i], s_.du[i], s_.dv[i], s_.normal[i]};
+    s_.place(v, to, s_.frame_at(to));
+    if (accepts(before, measure(v)))
+      return true;
+    s_.xy[i] = old.xy;
+    s_.point[i] = old.point;
+    s_.du[i] = old.du;
+    s_.dv[i] = old.dv;
+    s_.normal[i] = old.normal;
+    return false;
+  }
+
+  star measure(local_id v) const {
+    star result;
+    for (const auto& [a, b] : link_) {
+      const double q = s_.quality(v, a, b);
+      result.least = std::min(result.least, q);
+      result.sum += q;
+    }
+    return result;
+  }
+
+  struct saved_vertex {
+    vec2 xy;
+    vec3 point, du, dv, normal;
+  };
+
+  patch_state<S>& s_;
+  std::vector<std::uint8_t> awake_, next_;
+  std::vector<std::array<local_id, 2>> link_;
+};
+
+} // namespace dovetail::detail
