@@ -3,72 +3,23 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/geometry/occt_imprint.hpp"
+#include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
-#include <BRepBuilderAPI_MakeSolid.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
-#include <BRepGProp.hxx>
-#include <BRepLib.hxx>
-#include <BRep_Builder.hxx>
-#include <GProp_GProps.hxx>
-#include <ShapeBuild_ReShape.hxx>
-#include <ShapeFix_Shape.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Shell.hxx>
-
-#include <functional>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace dovetail::occt {
 
-inline double volume_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  return properties.Mass();
-}
-
-/// ShapeFix on the whole shape: wires, missing curves and seams, face and shell orientation.
-inline void fix_shape(attributed_shape& input) {
-  ShapeFix_Shape fix(input.shape);
-  fix.Perform();
-  const TopoDS_Shape before = input.shape;
-  input.shape = fix.Shape();
-  inherit_attributes(input.names, before, [&](const TopoDS_Shape& old) { return fix.Context()->Apply(old); });
-}
-
-/// Sews all faces together at the given tolerance and makes a solid of each closed shell.
-inline void sew_faces(attributed_shape& input, double tolerance) {
-  BRepBuilderAPI_Sewing sewing(tolerance);
-  const TopTools_IndexedMapOfShape faces = sub_shapes(input.shape, TopAbs_FACE);
-  for (int i = 1; i <= faces.Extent(); ++i)
-    sewing.Add(faces(i));
-  sewing.Perform();
-  inherit_attributes(input.names, input.shape, [&](const TopoDS_Shape& old) {
-    return old.ShapeType() == TopAbs_FACE && sewing.IsModified(old) ? sewing.Modified(old) : old;
-  });
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  const TopTools_IndexedMapOfShape shells = sub_shapes(sewing.SewedShape(), TopAbs_SHELL);
-  for (int i = 1; i <= shells.Extent(); ++i) {
-    BRepBuilderAPI_MakeSolid solid(TopoDS::Shell(shells(i)));
-    builder.Add(all, solid.Solid());
-  }
-  input.shape = all;
-}
-
-/// Turns solids inside out whose shells enclose a negative volume.
-inline void orient_solids(attributed_shape& input) {
+/// The same shape as solids that enclose a positive volume; what is in no solid is left out.
+inline void keep_oriented_solids(attributed_shape& input) {
   TopoDS_Compound all;
   const BRep_Builder builder;
   builder.MakeCompound(all);
   const TopTools_IndexedMapOfShape solids = sub_shapes(input.shape, TopAbs_SOLID);
   for (int i = 1; i <= solids.Extent(); ++i) {
-    TopoDS_Solid solid = TopoDS::Solid(solids(i));
-    if (solid.Orientation() != TopAbs_FORWARD)
-      solid.Orientation(TopAbs_FORWARD);
+    TopoDS_Shape solid = solids(i).Oriented(TopAbs_FORWARD);
     if (volume_of(solid) < 0)
       solid.Reverse();
     builder.Add(all, solid);
@@ -76,26 +27,75 @@ inline void orient_solids(attributed_shape& input) {
   input.shape = all;
 }
 
+/// A shape without a solid: its faces are sewn, at growing tolerance, until shells close. Throws
+/// `geometry_error` naming the first open edge when they do not.
+inline void make_solids_of_faces(attributed_shape& input, report& made) {
+  const double size = size_of(input.shape);
+  std::string open;
+  for (const double relative : {1e-7, 1e-6, 1e-5, 1e-4}) {
+    attributed_shape trial = input;
+    open = sew_faces(trial, relative * size);
+    if (!open.empty() || sub_shapes(trial.shape, TopAbs_SOLID).IsEmpty())
+      continue;
+    made.warnings.push_back("the file has no solid; its faces were sewn at tolerance " +
+                            to_text(relative * size));
+    input = std::move(trial);
+    return;
+  }
+  throw geometry_error(input.source + ": the file has no solid, and its faces do not enclose one: " + open +
+                       "; close the surface in the CAD system");
+}
+
+/// Tries one repair on a copy and keeps it when it leaves fewer faults. Returns whether no fault is left.
+template <class Repair>
+bool try_repair(attributed_shape& input, brep& data, report& made, const std::string& what, Repair&& repair) {
+  attributed_shape trial = input;
+  try {
+    repair(trial);
+    if (sub_shapes(trial.shape, TopAbs_SOLID).Extent() < sub_shapes(input.shape, TopAbs_SOLID).Extent())
+      return false;
+    keep_oriented_solids(trial);
+    brep better = brep_builder(trial.shape, trial.names).build();
+    if (better.faults.size() >= data.faults.size())
+      return false;
+    made.warnings.push_back("repaired by " + what + ", for " + data.faults.front());
+    data = std::move(better);
+    input = std::move(trial);
+  } catch (const Standard_Failure&) { // this repair cannot cope with the shape; another one may
+    return false;
+  }
+  return data.faults.empty();
+}
+
+/// The `brep` of a shape, healed. A shape without faults is not touched. Throws `geometry_error` naming the
+/// first entity that no repair mends.
 inline brep healed_brep(attributed_shape input, report& made) {
-  if (sub_shapes(input.shape, TopAbs_FACE).Extent() == 0)
-    throw geometry_error(input.source + ": the shape has no faces");
-  const bool had_solids = sub_shapes(input.shape, TopAbs_SOLID).Extent() > 0;
-  if (!had_solids) {
-    sew_faces(input, 1e-3);
-    made.warnings.push_back("the shape has no solid; its faces were sewn");
-  }
-  if (sub_shapes(input.shape, TopAbs_SOLID).Extent() == 0)
-    throw geometry_error(input.source + ": the shape has no solid and its faces enclose none");
-  orient_solids(input);
+  if (sub_shapes(input.shape, TopAbs_FACE).IsEmpty())
+    throw geometry_error(input.source + ": the file has no faces, so nothing bounds a volume");
+  if (sub_shapes(input.shape, TopAbs_SOLID).IsEmpty())
+    make_solids_of_faces(input, made);
+  else if (TopExp_Explorer(input.shape, TopAbs_FACE, TopAbs_SOLID).More())
+    made.warnings.emplace_back("faces that belong to no solid are left out");
+  keep_oriented_solids(input);
+
   brep data = brep_builder(input.shape, input.names).build();
+  const double size = size_of(input.shape);
   if (!data.faults.empty()) {
-    fix_shape(input);
-    orient_solids(input);
-    data = brep_builder(input.shape, input.names).build();
-    made.warnings.push_back("the shape was repaired");
+    const std::string first = data.faults.front();
+    const std::size_t count = data.faults.size();
+    const bool sound =
+        try_repair(input, data, made, "fixing faces and wires", [](auto& shape) { fix_shape(shape); }) ||
+        try_repair(input, data, made, "removing small edges and faces",
+                   [&](auto& shape) { remove_small_entities(shape, 1e-5 * size); }) ||
+        try_repair(input, data, made, "sewing", [&](auto& shape) { sew_faces(shape, 1e-6 * size); }) ||
+        try_repair(input, data, made, "sewing", [&](auto& shape) { sew_faces(shape, 1e-4 * size); });
+    if (!sound)
+      throw geometry_error(input.source + ": " + first +
+                           (count > 1 ? " (and " + std::to_string(count - 1) + " more faults)" : "") +
+                           "; repair the model in the CAD system");
   }
-  if (!data.faults.empty())
-    throw geometry_error(input.source + ": " + data.faults.front());
+  if (data.solids.size() > 1)
+    imprint_touching_solids(input, data, made);
   return data;
 }
 

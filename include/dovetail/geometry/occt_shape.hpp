@@ -44,6 +44,13 @@ inline std::string to_text(vec3 p) {
   return text.data();
 }
 
+/// A length with six digits.
+inline std::string to_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
 /// Calls `action`; a failure inside OCCT becomes a `geometry_error` that starts with `what`.
 template <class Action>
 auto guarded(const std::string& what, Action&& action) -> decltype(action()) {
