@@ -182,7 +182,7 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
   box3 domain;
   for (const vec3& p : mesh.points)
     domain.include(p);
-  const double largest_unsampled = domain.diagonal() / 48;
+  const double largest_unsampled = domain.diagonal() / 24;
 
   std::vector<cell> cells;
   cells.reserve(mesh.elements.size());

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/candidate_octree.hpp"
 #include "dovetail/sizing/bounds.hpp"
 #include "dovetail/sizing/distance.hpp"
 
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,26 +71,31 @@ public:
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       check(sources_[i], i);
       laws_.push_back(prepared(sources_[i]));
-      boxes.push_back(inflated(core_box(sources_[i]), laws_.back().reach));
+      laws_.back().reached = inflated(core_box(sources_[i]), laws_.back().reach);
+      boxes.push_back(laws_.back().reached);
     }
     tree_ = box_tree(boxes);
     least_in_node_ =
         tree_.reduce<double>([&](local_id i) { return laws_[static_cast<std::size_t>(i)].log_least; },
                              [](double a, double b) { return std::min(a, b); });
+    locate();
   }
 
   double operator()(vec3 p) const {
     double least = log_ambient_;
     local_id winner = no_id;
-    tree_.for_each(
-        [&](const box3& box, std::size_t node) { return least_in_node_[node] < least && contains(box, p); },
-        [&](local_id i) {
-          const double candidate = log_size(i, p, 0.0);
-          if (candidate < least) {
-            least = candidate;
-            winner = i;
-          }
-        });
+    for (const local_id i : located_.candidates(p)) {
+      const law& l = laws_[static_cast<std::size_t>(i)];
+      if (l.log_least >= least) // so are those after it
+        break;
+      if (!contains(l.reached, p))
+        continue;
+      const double candidate = log_size(i, p, 0.0);
+      if (candidate < least) {
+        least = candidate;
+        winner = i;
+      }
+    }
     if (winner == no_id)
       return ambient_;
     // Inside the inner radius of a source of one spacing, that spacing to the last bit, not exp(log(.)).
@@ -134,6 +141,7 @@ private:
     double least = 0;     ///< the smallest spacing of the source
     double log_least = 0; ///< its logarithm
     double reach = 0;     ///< beyond this distance the source asks for the ambient size or more
+    box3 reached;         ///< beyond this box likewise
     bool constant = true; ///< the same radii and spacing at all corners
     /// How fast they change along the source, per length; infinite on a degenerate source with unequal
     /// corners.
@@ -145,6 +153,20 @@ private:
     double distance;
     weights at;
   };
+
+  /// Fills the octree that evaluations use; finest sources first, so that an evaluation can stop early.
+  void locate() {
+    std::vector<local_id> order(sources_.size());
+    std::iota(order.begin(), order.end(), local_id{0});
+    std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+      return laws_[static_cast<std::size_t>(a)].log_least < laws_[static_cast<std::size_t>(b)].log_least;
+    });
+    located_ = candidate_octree(tree_.bounds(), order, [&](local_id id, const box3& box) {
+      const auto i = static_cast<std::size_t>(id);
+      return laws_[i].reached.overlaps(box) &&
+             nearest(i, box.center()).distance <= laws_[i].reach + 0.5001 * box.diagonal();
+    });
+  }
 
   static double moved(double slope, double by) { return by > 0 ? slope * by : 0; }
 
@@ -280,6 +302,7 @@ private:
   double log_ambient_;
   std::vector<grid_source> sources_;
   std::vector<law> laws_;
+  candidate_octree located_;
   box_tree tree_;
   std::vector<double> least_in_node_; ///< per tree node: log of the smallest spacing below it
 };
