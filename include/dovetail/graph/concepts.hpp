@@ -3,8 +3,9 @@
 ///
 /// A type takes part by `enable_graph<G>`: `boost::graph_traits<T>` is a hard error for other types, so the
 /// opt-in is tested first and every concept here is safe to ask of any type. Models: boost::adjacency_list
-/// and the like (specialise `enable_graph` for the type used), csr_graph (graph/csr_boost.hpp), element_dual and side_dual (graph/dual.hpp).
-/// Valid expressions and complexity are those of Boost's documentation for the concept of the same name.
+/// and the like (specialise `enable_graph` for the type used), csr_graph (graph/csr_boost.hpp), element_dual
+/// and side_dual (graph/dual.hpp). Valid expressions and complexity are those of Boost's documentation for
+/// the concept of the same name.
 #pragma once
 
 #include <boost/graph/graph_traits.hpp>

@@ -20,9 +20,9 @@ struct csr_graph {
 
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
   std::span<const local_id> row(local_id node) const {
-    return std::span(neighbours)
-        .subspan(static_cast<std::size_t>(offsets[node]),
-                 static_cast<std::size_t>(offsets[node + 1] - offsets[node]));
+    const auto begin = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node)]);
+    const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node) + 1]);
+    return std::span(neighbours).subspan(begin, end - begin);
   }
 };
 
