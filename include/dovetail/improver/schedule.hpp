@@ -1,0 +1,113 @@
+/// @file
+/// In which order the operations are tried: passes over the poor elements, cheap operations first.
+#pragma once
+
+#include "dovetail/improver/edge_removal.hpp"
+#include "dovetail/improver/face_removal.hpp"
+#include "dovetail/improver/operation_log.hpp"
+#include "dovetail/improver/vertex_smoothing.hpp"
+
+#include <vector>
+
+namespace dovetail::improvement {
+
+struct schedule_limits {
+  float target = 0.17F;     ///< elements with a smaller value are worked on
+  int passes = 8;           ///< sweeps over the poor elements
+  double least_gain = 0.02; ///< a sweep that mends a smaller part of the poor elements is the last
+  apex_search_limits search = {};
+};
+
+template <shape_measure Measure>
+class schedule {
+public:
+  schedule(tet_complex& mesh, const schedule_limits& limits) : mesh_(mesh), limits_(limits) {}
+
+  void run() {
+    std::vector<local_id> poor;
+    collect_poor(poor);
+    for (int pass = 0; pass < limits_.passes && !poor.empty(); ++pass) {
+      const std::size_t before = poor.size();
+      const std::size_t accepted = log_.total_accepted();
+      for (const local_id e : poor)
+        if (is_poor(e))
+          mend(e);
+      collect_poor(poor);
+      const bool mended = poor.size() < before && static_cast<double>(before - poor.size()) >=
+                                                      limits_.least_gain * static_cast<double>(before);
+      ++passes_;
+      if (!mended || log_.total_accepted() == accepted)
+        break;
+    }
+  }
+  const operation_log& log() const { return log_; }
+  int passes() const { return passes_; }
+
+private:
+  bool is_poor(local_id e) const { return mesh_.is_alive(e) && mesh_.value(e) < limits_.target; }
+  void collect_poor(std::vector<local_id>& poor) const {
+    poor.clear();
+    for (local_id e = 0; e < mesh_.element_slots(); ++e)
+      if (is_poor(e))
+        poor.push_back(e);
+  }
+
+  /// Tries to replace or move element `e`; returns when it is no longer poor or nothing helps.
+  void mend(local_id e) {
+    if (flip(e) && !is_poor(e))
+      return;
+    if (is_poor(e))
+      smooth(e);
+  }
+
+  /// Executes the best removal of an edge or side of `e`.
+  bool flip(local_id e) {
+    best_.clear();
+    best_.worst = -2;
+    for (int edge = 0; edge < 6 && best_.worst < limits_.target; ++edge)
+      if (collect_shell(mesh_, e, edge, shell_))
+        log_.record(operation::edge_removal, [&] {
+          const float bar = worst_value(mesh_, shell_.elements.view());
+          return edges_.find(mesh_, shell_, bar, trial_) && keep_better();
+        });
+    for (int side = 0; side < 4 && best_.worst < limits_.target; ++side)
+      log_.record(operation::face_removal,
+                  [&] { return faces_.find(mesh_, e, side, trial_) && keep_better(); });
+    if (best_.fresh.size == 0)
+      return false;
+    execute(best_);
+    return true;
+  }
+  bool keep_better() {
+    if (!(trial_.worst > best_.worst) || !is_sound(mesh_, trial_))
+      return false;
+    std::swap(best_, trial_);
+    return true;
+  }
+  void execute(const local_change& change) {
+    std::array<local_id, static_cast<std::size_t>(max_cavity)> ids;
+    mesh_.replace(change.old.view(), change.fresh.view(), change.values.view(),
+                  {ids.data(), static_cast<std::size_t>(change.fresh.size)});
+  }
+
+  void smooth(local_id e) {
+    const auto corners = mesh_.vertices(e);
+    auto search = limits_.search;
+    search.enough = limits_.target;
+    for (const local_id v : corners)
+      if (mesh_.is_free(v) && is_poor(e))
+        log_.record(operation::smoothing, [&] { return smoothing_.improve(mesh_, v, search); });
+  }
+
+  tet_complex& mesh_;
+  schedule_limits limits_;
+  operation_log log_;
+  int passes_ = 0;
+  edge_shell shell_;
+  local_change best_, trial_;
+  edge_removal<Measure> edges_;
+  face_removal<Measure> faces_;
+  vertex_smoothing<Measure> smoothing_;
+};
+
+} // namespace dovetail::improvement

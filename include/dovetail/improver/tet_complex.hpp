@@ -1,0 +1,222 @@
+/// @file
+/// The mesh as the improver sees it: elements with neighbours, cached measures and vertex stars, changed by
+/// replacing one small set of elements by another that fills the same cavity.
+#pragma once
+
+#include "dovetail/core/vector.hpp"
+#include "dovetail/improver/cavity_matcher.hpp"
+#include "dovetail/improver/tet_adjacency.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dovetail::improvement {
+
+/// What may happen to a vertex.
+enum class vertex_kind : std::uint8_t {
+  free,    ///< may be moved and removed
+  fixed,   ///< on a fixed side, or frozen by the caller
+  removed, ///< was removed: its number may be taken by a new vertex
+  unused   ///< in no element from the start; left alone
+};
+
+/// Flat arrays, 32-bit ids. A *fixed* side is never removed: it has no element across it, or it is frozen, or
+/// it parts two tags. Invariants: `across` is an involution; `element_at(v)` names an element that has v, for
+/// every vertex in use; a dead element has `no_id` as its first vertex.
+class tet_complex {
+public:
+  tet_complex(std::vector<vec3> points, std::vector<simplex<3>> elements, std::vector<local_id> tags)
+      : points_(std::move(points)), elements_(std::move(elements)), tags_(std::move(tags)),
+        across_(match_sides(elements_, points_.size())), values_(elements_.size(), 0.0F),
+        fixed_sides_(elements_.size(), 0), element_marks_(elements_.size(), 0),
+        element_at_(points_.size(), no_id), kinds_(points_.size(), vertex_kind::unused),
+        alive_(elements_.size()) {
+    for (local_id e = 0; e < element_slots(); ++e)
+      for (const local_id v : elements_[index(e)]) {
+        element_at_[index(v)] = e;
+        kinds_[index(v)] = vertex_kind::free;
+      }
+  }
+
+  // -- what there is ---------------------------------------------------------------------------------------
+  /// Element ids are in [0, element_slots()); dead ones among them are skipped with `is_alive`.
+  local_id element_slots() const { return static_cast<local_id>(elements_.size()); }
+  local_id vertex_slots() const { return static_cast<local_id>(points_.size()); }
+  std::size_t element_count() const { return alive_; }
+  bool is_alive(local_id e) const { return elements_[index(e)][0] != no_id; }
+  const simplex<3>& vertices(local_id e) const { return elements_[index(e)]; }
+  local_id vertex(local_id e, int corner) const { return elements_[index(e)][index(corner)]; }
+  const vec3& point(local_id v) const { return points_[index(v)]; }
+  half_side across(local_id e, int side) const { return across_[index(e)][index(side)]; }
+  bool is_fixed(local_id e, int side) const { return ((fixed_sides_[index(e)] >> side) & 1U) != 0; }
+  bool has_fixed_side(local_id e) const { return fixed_sides_[index(e)] != 0; }
+  local_id element_at(local_id v) const { return element_at_[index(v)]; }
+  vertex_kind kind(local_id v) const { return kinds_[index(v)]; }
+  bool is_gap(local_id v) const { return kinds_[index(v)] == vertex_kind::removed; }
+  bool is_free(local_id v) const { return kinds_[index(v)] == vertex_kind::free; }
+  bool has_tags() const { return !tags_.empty(); }
+  local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
+  float value(local_id e) const { return values_[index(e)]; }
+
+  /// The corner of `e` at which `v` lies; `v` must be one of its vertices.
+  int corner_of(local_id e, local_id v) const {
+    const auto& element = elements_[index(e)];
+    return element[0] == v ? 0 : element[1] == v ? 1 : element[2] == v ? 2 : 3;
+  }
+
+  // -- marks: a set of elements that is emptied in O(1) ----------------------------------------------------
+  void clear_marks() {
+    if (++current_mark_ == 0) {
+      std::fill(element_marks_.begin(), element_marks_.end(), 0U);
+      current_mark_ = 1;
+    }
+  }
+  void mark(local_id e) { element_marks_[index(e)] = current_mark_; }
+  void unmark(local_id e) { element_marks_[index(e)] = current_mark_ - 1; }
+  bool is_marked(local_id e) const { return element_marks_[index(e)] == current_mark_; }
+
+  // -- changes ---------------------------------------------------------------------------------------------
+  void set_value(local_id e, float value) { values_[index(e)] = value; }
+  void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
+  void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
+  void fix_side(local_id e, int side) {
+    fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
+  }
+  /// A new free vertex that is in no element yet.
+  local_id add_vertex(vec3 p) {
+    if (!free_vertices_.empty()) {
+      const local_id v = free_vertices_.back();
+      free_vertices_.pop_back();
+      points_[index(v)] = p;
+      kinds_[index(v)] = vertex_kind::free;
+      return v;
+    }
+    points_.push_back(p);
+    element_at_.push_back(no_id);
+    kinds_.push_back(vertex_kind::free);
+    return vertex_slots() - 1;
+  }
+  /// Gives up a vertex that no element uses any more.
+  void release_vertex(local_id v) {
+    kinds_[index(v)] = vertex_kind::removed;
+    element_at_[index(v)] = no_id;
+    free_vertices_.push_back(v);
+  }
+
+  /// Replaces the elements `old` by `fresh`, which must fill exactly the same cavity: every side of a fresh
+  /// element lies against another one or on the cavity's boundary. `ids` (as long as `fresh`) receives the
+  /// new elements' numbers. O(old + fresh). Vertices inside the cavity that `fresh` does not use are left
+  /// without an element; the caller releases them.
+  void replace(std::span<const local_id> old, std::span<const simplex<3>> fresh,
+               std::span<const float> values, std::span<local_id> ids) {
+    clear_marks();
+    for (const local_id e : old)
+      mark(e);
+    matcher_.start(4 * (old.size() + fresh.size()));
+    for (const local_id e : old)
+      for (int side = 0; side < 4; ++side) {
+        const half_side outer = across(e, side);
+        if (outer == no_id || !is_marked(element_of(outer)))
+          matcher_.offer(sorted_side(vertices(e), side), {outer, is_fixed(e, side)});
+      }
+    const local_id tag_of_cavity = tag(old[0]);
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      ids[i] = i < old.size() ? old[i] : new_element();
+    for (std::size_t i = fresh.size(); i < old.size(); ++i)
+      kill(old[i]);
+    alive_ = alive_ + fresh.size() - old.size();
+    for (std::size_t i = 0; i < fresh.size(); ++i) {
+      const local_id e = ids[i];
+      elements_[index(e)] = fresh[i];
+      values_[index(e)] = values[i];
+      fixed_sides_[index(e)] = 0;
+      if (has_tags())
+        tags_[index(e)] = tag_of_cavity;
+      for (const local_id v : fresh[i])
+        element_at_[index(v)] = e;
+      for (int side = 0; side < 4; ++side) {
+        const auto key = sorted_side(fresh[i], side);
+        if (const auto match = matcher_.take(key))
+          join(e, side, *match);
+        else
+          matcher_.offer(key, {half_side_of(e, side), false});
+      }
+    }
+  }
+
+  /// The class invariant holds (see above); O(elements). For tests.
+  bool is_consistent() const {
+    for (local_id e = 0; e < element_slots(); ++e)
+      for (int side = 0; is_alive(e) && side < 4; ++side) {
+        const half_side other = across(e, side);
+        if (other == no_id ? !is_fixed(e, side)
+                           : !is_alive(element_of(other)) || element_of(other) == e ||
+                                 across(element_of(other), side_of(other)) != half_side_of(e, side) ||
+                                 sorted_side(vertices(element_of(other)), side_of(other)) !=
+                                     sorted_side(vertices(e), side) ||
+                                 is_fixed(element_of(other), side_of(other)) != is_fixed(e, side))
+          return false;
+      }
+    for (local_id v = 0; v < vertex_slots(); ++v)
+      if (kind(v) == vertex_kind::free || kind(v) == vertex_kind::fixed) {
+        const local_id e = element_at(v);
+        if (e == no_id || !is_alive(e) || vertex(e, corner_of(e, v)) != v)
+          return false;
+      }
+    return true;
+  }
+
+  // -- the result ------------------------------------------------------------------------------------------
+  std::vector<vec3>& points() { return points_; }
+  std::vector<simplex<3>>& elements() { return elements_; }
+  std::vector<local_id>& tags() { return tags_; }
+
+private:
+  static constexpr std::size_t index(local_id i) { return static_cast<std::size_t>(i); }
+
+  void join(local_id e, int side, cavity_side other) {
+    across_[index(e)][index(side)] = other.outer;
+    if (other.is_fixed)
+      fix_side(e, side);
+    if (other.outer != no_id)
+      across_[index(element_of(other.outer))][index(side_of(other.outer))] = half_side_of(e, side);
+  }
+  local_id new_element() {
+    if (!dead_elements_.empty()) {
+      const local_id e = dead_elements_.back();
+      dead_elements_.pop_back();
+      return e;
+    }
+    elements_.emplace_back();
+    across_.emplace_back();
+    values_.push_back(0);
+    fixed_sides_.push_back(0);
+    element_marks_.push_back(0);
+    if (has_tags())
+      tags_.push_back(0);
+    return element_slots() - 1;
+  }
+  void kill(local_id e) {
+    elements_[index(e)][0] = no_id;
+    dead_elements_.push_back(e);
+  }
+
+  std::vector<vec3> points_;
+  std::vector<simplex<3>> elements_;
+  std::vector<local_id> tags_;
+  std::vector<std::array<half_side, 4>> across_;
+  std::vector<float> values_;
+  std::vector<std::uint8_t> fixed_sides_;
+  std::vector<std::uint32_t> element_marks_;
+  std::uint32_t current_mark_ = 0;
+  std::vector<local_id> element_at_;
+  std::vector<vertex_kind> kinds_;
+  std::vector<local_id> dead_elements_, free_vertices_;
+  std::size_t alive_;
+  cavity_matcher matcher_;
+};
+
+} // namespace dovetail::improvement
