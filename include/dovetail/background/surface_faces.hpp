@@ -1,0 +1,114 @@
+/// @file
+/// From discretised curves to the patch of one CAD face, and the remeshing of many faces by an executor.
+#pragma once
+
+#include "dovetail/background/surface_curves.hpp"
+#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/surfaces.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::background {
+
+/// The boundary loops of a face, and where each segment comes from.
+struct face_patch {
+  patch_boundary boundary;                     ///< labels are surface points
+  std::vector<std::array<local_id, 2>> origin; ///< per segment: curve, index of its interval
+};
+
+/// Assembles the loops of a face from its curves' points.
+template <geometry_model G>
+face_patch make_face_patch(const G& model, local_id f, const curve_points& curves) {
+  const geometry_topology& topology = model.topology();
+  face_patch made;
+  patch_boundary& b = made.boundary;
+  int k = 0;
+  for (const auto& loop : topology.faces[static_cast<std::size_t>(f)].loops) {
+    const auto first = static_cast<local_id>(b.uv.size());
+    for (const auto& coedge : loop) {
+      const auto& t = curves.t[static_cast<std::size_t>(coedge.curve)];
+      const std::size_t count = t.size() - 1;
+      for (std::size_t i = 0; i < count; ++i) { // the last point starts the next coedge
+        const std::size_t j = coedge.reversed ? count - i : i;
+        const local_id id = curves.point_id(topology, coedge.curve, j);
+        b.uv.push_back(model.curve_uv(f, k, t[j]));
+        b.labels.push_back(id);
+        b.points.push_back(static_cast<std::size_t>(id) < topology.vertices.size()
+                               ? topology.vertices[static_cast<std::size_t>(id)].point
+                               : model.curve_point(coedge.curve, t[j]));
+        const auto at = static_cast<local_id>(b.uv.size()) - 1;
+        b.segments.push_back({at, at + 1});
+        made.origin.push_back({coedge.curve, static_cast<local_id>(coedge.reversed ? j - 1 : j)});
+      }
+      ++k;
+    }
+    if (!b.segments.empty())
+      b.segments.back()[1] = first;
+  }
+  return made;
+}
+
+/// What became of one face: its mesh, or why there is none.
+struct face_result {
+  patch_mesh mesh;
+  std::string failure; ///< an exception's text; empty when there was none
+};
+
+/// A face to be meshed again with finer inner size or with edges forbidden.
+struct face_request {
+  local_id face = no_id;
+  double size_factor = 1; ///< the size inside the face is multiplied by this
+  std::vector<std::array<local_id, 2>> forbidden_edges = {};
+};
+
+/// Meshes the requested faces through an executor, in batches so that a model that is not thread-safe is
+/// copied once per batch. Results do not depend on the batches.
+template <geometry_model G, executor E>
+std::vector<face_result> remesh_faces(const G& model, std::span<const face_request> requests,
+                                      const curve_points& curves, const any_sizing& sizing,
+                                      const remesh::patch_remesher& remesher, const E& run_tasks) {
+  const auto workers = static_cast<std::size_t>(std::max(1, static_cast<int>(run_tasks.workers())));
+  const std::size_t batches = std::min<std::size_t>(requests.size(), workers > 1 ? 8 * workers : 1);
+  const auto mesh_one = [&](const G& own, const face_request& request) {
+    face_result result;
+    try {
+      face_patch patch = make_face_patch(own, request.face, curves);
+      patch.boundary.forbidden_edges = request.forbidden_edges;
+      const any_sizing inner = [&sizing, factor = request.size_factor](vec3 p) { return factor * sizing(p); };
+      result.mesh = remesher(remesh::model_surface<G>{&own, request.face}, patch.boundary, inner);
+    } catch (const std::exception& failure) {
+      result.failure = failure.what();
+    }
+    return result;
+  };
+  std::vector<face_result> results(requests.size());
+  const auto outcomes = run_tasks.run(
+      batches,
+      [&](std::size_t batch) {
+        const G own = model;
+        byte_writer out;
+        for (std::size_t i = batch; i < requests.size(); i += batches) {
+          const face_result result = mesh_one(own, requests[i]);
+          out.array(encode(result.mesh));
+          out.text(result.failure);
+        }
+        return out.take();
+      },
+      run_options{.stage = "coarse surface"});
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    if (!outcomes[batch].ok)
+      throw mesher_error("meshing the faces of the coarse surface failed: " + outcomes[batch].failure);
+    byte_reader in(outcomes[batch].result);
+    for (std::size_t i = batch; i < requests.size(); i += batches) {
+      results[i].mesh = decode_patch_mesh(in.array<std::byte>());
+      results[i].failure = in.text();
+    }
+  }
+  return results;
+}
+
+} // namespace dovetail::background

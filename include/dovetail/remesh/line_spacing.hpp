@@ -1,0 +1,109 @@
+/// @file
+/// Points along a parametric line, spaced by a sizing field.
+#pragma once
+
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/sizing/concepts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace dovetail::remesh {
+
+/// Spacing of points along a line. A pure function of the line, its parameter range and the field: whoever
+/// asks for a shared line gets the same points.
+struct line_spacing {
+  int minimum_segments = 1;
+  double largest_turn = std::numeric_limits<double>::infinity(); ///< of the tangent per segment, in radians
+  double smallest_turn_size = 0; ///< the turn never asks for segments shorter than this
+  int deepest = 16;              ///< halvings of the range while integrating
+
+  /// Parameters t[0] = first < ... < t[n] = last, first < last. Neighbours are about one target length apart:
+  /// n = max(minimum_segments, round(integral of |C'| / h)). `curve(t)` gives a `curve_frame`.
+  /// Complexity: about three evaluations of the curve and the field per segment.
+  template <class Curve>
+  std::vector<double> operator()(const Curve& curve, double first, double last,
+                                 const any_sizing& sizing) const {
+    std::vector<leaf> leaves;
+    const auto sample = [&](double t) {
+      const curve_frame f = curve(t);
+      return sampled{t, f.point, f.derivative, norm(f.derivative) / sizing(f.point)};
+    };
+    constexpr int starting_parts = 4;
+    sampled from = sample(first);
+    for (int i = 1; i <= starting_parts; ++i) {
+      const sampled to = sample(i == starting_parts ? last : first + (last - first) * i / starting_parts);
+      integrate(sample, from, to, 2, leaves);
+      from = to;
+    }
+    return positions(leaves, first, last);
+  }
+
+private:
+  struct sampled {
+    double t;
+    vec3 point, derivative;
+    double density; ///< segments per unit of parameter
+  };
+  /// A part of the range over which the number of segments grows nearly linearly.
+  struct leaf {
+    double t0, t1, segments;
+  };
+
+  template <class Sample>
+  void integrate(const Sample& sample, const sampled& a, const sampled& b, int depth,
+                 std::vector<leaf>& leaves) const {
+    const sampled m = sample(0.5 * (a.t + b.t));
+    const double width = b.t - a.t;
+    const double simpson = width * (a.density + 4 * m.density + b.density) / 6;
+    const double trapezoid = 0.5 * width * (a.density + b.density);
+    const double turned =
+        angle_between(a.derivative, m.derivative) + angle_between(m.derivative, b.derivative);
+    const double by_turn = turn_segments(turned, distance(a.point, m.point) + distance(m.point, b.point));
+    const bool smooth = std::abs(simpson - trapezoid) <= 0.02 * std::max(simpson, 0.1) && simpson <= 2 &&
+                        by_turn <= std::max(0.5, 1.1 * simpson);
+    if (depth < deepest && !smooth) {
+      integrate(sample, a, m, depth + 1, leaves);
+      integrate(sample, m, b, depth + 1, leaves);
+      return;
+    }
+    leaves.push_back({a.t, b.t, std::max(simpson, by_turn)});
+  }
+
+  double turn_segments(double angle, double length) const {
+    const double wanted = angle / largest_turn;
+    return smallest_turn_size > 0 ? std::min(wanted, length / smallest_turn_size) : wanted;
+  }
+
+  std::vector<double> positions(const std::vector<leaf>& leaves, double first, double last) const {
+    double total = 0;
+    for (const leaf& l : leaves)
+      total += l.segments;
+    const auto count = static_cast<std::size_t>(
+        std::max(static_cast<double>(minimum_segments), std::min(std::round(total), 1e8)));
+    std::vector<double> t{first};
+    t.reserve(count + 1);
+    double before = 0;
+    std::size_t next = 1;
+    for (const leaf& l : leaves) {
+      while (next < count) {
+        const double wanted = total * static_cast<double>(next) / static_cast<double>(count);
+        if (wanted > before + l.segments)
+          break;
+        const double part = l.segments > 0 ? (wanted - before) / l.segments : 0.5;
+        t.push_back(l.t0 + part * (l.t1 - l.t0));
+        ++next;
+      }
+      before += l.segments;
+    }
+    while (t.size() < count) // rounding of the last sum, or a line of length zero
+      t.push_back(t.back() + (last - t.back()) / static_cast<double>(count - t.size() + 1));
+    t.push_back(last);
+    return t;
+  }
+};
+
+} // namespace dovetail::remesh
