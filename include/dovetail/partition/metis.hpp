@@ -1,0 +1,97 @@
+/// @file
+/// Adapter: METIS as a graph partitioner.
+#pragma once
+
+#include "dovetail/partition/bisection.hpp"
+#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/refinement.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dovetail::partition {
+
+/// Multilevel partitioning by METIS (k-way, or recursive bisection), then, where METIS missed the limit or
+/// left a part empty, a repair by single moves. Real weights are scaled to METIS's 32-bit integers.
+struct metis {
+  double imbalance = 1.03; ///< heaviest part over average part
+  bool recursive = false;  ///< recursive bisection instead of k-way
+  int seed = 1;
+  int trials = 4; ///< partitions tried; the one with the smallest cut is taken (k-way and recursive)
+
+  /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts,
+  /// when the graph exceeds METIS's integers, or when METIS fails.
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    detail::require_partitionable(graph, parts);
+    if (parts == 1)
+      return std::vector<local_id>(graph.node_weights.size(), 0);
+    // With almost as many parts as nodes METIS fails half-way and prints about it.
+    const bool is_tiny = graph.node_count() < 3 * parts;
+    std::vector<local_id> part = is_tiny ? recursive_bisection(graph, parts, imbalance) : call(graph, parts);
+    detail::fill_empty_parts(graph, part, parts);
+    partition_refiner(graph, part, equal_limits(graph, parts, imbalance)).balance();
+    return part;
+  }
+
+private:
+  /// METIS adds weights up in `idx_t`; sums stay below this, with room for its internal multiples.
+  static constexpr double largest_sum = std::numeric_limits<idx_t>::max() / 8.0;
+
+  /// Integers of at least 1 in proportion to `weights`; the weights themselves when these are small integers.
+  static std::vector<idx_t> integers(std::span<const double> weights, const char* what) {
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const bool as_they_are = sum <= largest_sum && std::all_of(weights.begin(), weights.end(), [](double w) {
+                               return w >= 1 && w == std::floor(w);
+                             });
+    const auto count = static_cast<double>(weights.size());
+    if (count > largest_sum)
+      throw partition_error("METIS has 32-bit integers, too small for " + std::to_string(weights.size()) +
+                            " " + what + "; use a coarser mesh or another partitioner");
+    // Rounding up to 1 adds at most `count`, so scale to what is left.
+    const double scale = as_they_are ? 1.0 : sum > 0 ? (largest_sum - count) / sum : 0.0;
+    std::vector<idx_t> scaled(weights.size());
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      scaled[k] = std::max(idx_t{1}, static_cast<idx_t>(std::lround(weights[k] * scale)));
+    return scaled;
+  }
+
+  std::vector<local_id> call(const csr_graph& graph, int parts) const {
+    std::vector<idx_t> node_weights = integers(graph.node_weights, "nodes");
+    std::vector<idx_t> edge_weights = integers(graph.edge_weights, "edges");
+    std::vector<idx_t> offsets(graph.offsets.begin(), graph.offsets.end());
+    std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
+    std::array<idx_t, METIS_NOPTIONS> options{};
+    METIS_SetDefaultOptions(options.data());
+    options[METIS_OPTION_SEED] = seed;
+    options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_NCUTS] = std::max(1, trials);
+    options[METIS_OPTION_UFACTOR] = std::max(1, static_cast<idx_t>(std::lround((imbalance - 1) * 1000)));
+    idx_t n = graph.node_count();
+    idx_t constraints = 1;
+    idx_t wanted = parts;
+    idx_t cut = 0;
+    std::vector<idx_t> part(static_cast<std::size_t>(n));
+    // The k-way method is not meant for few nodes per part.
+    const bool bisect = recursive || n < 10 * parts;
+    const int status = (bisect ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
+        &n, &constraints, offsets.data(), neighbours.data(), node_weights.data(), nullptr,
+        edge_weights.data(), &wanted, nullptr, nullptr, options.data(), &cut, part.data());
+    if (status != METIS_OK)
+      throw partition_error("METIS failed with status " + std::to_string(status) + " on a graph of " +
+                            std::to_string(n) + " nodes and " + std::to_string(parts) + " parts");
+    return {part.begin(), part.end()};
+  }
+};
+
+static_assert(graph_partitioner<metis>);
+
+} // namespace dovetail::partition

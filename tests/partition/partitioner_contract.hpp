@@ -1,0 +1,115 @@
+/// @file
+/// What every graph_partitioner has to satisfy; each model's test calls it.
+#pragma once
+
+#include "dovetail/graph/contraction.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/part_weights.hpp"
+#include "support/jittered_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <set>
+
+namespace dovetail_test {
+
+/// The element graph of a mesh, with node and edge weights at random when `seed` is not 0.
+template <int D>
+dovetail::csr_graph element_graph(const dovetail::simplicial_mesh<D>& mesh, std::uint64_t seed = 0) {
+  const auto sides = dovetail::build_sides(mesh);
+  random_numbers random(seed);
+  std::vector<double> weights(mesh.elements.size(), 1.0);
+  if (seed != 0)
+    for (double& w : weights)
+      w = 0.2 + 5 * random.unit() * random.unit();
+  std::vector<dovetail::weighted_edge> edges;
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (sides.is_interior(static_cast<dovetail::local_id>(s)))
+      edges.push_back({sides.elements[s][0], sides.elements[s][1], seed == 0 ? 1.0 : 0.5 + random.unit()});
+  return dovetail::make_csr_graph(std::move(weights), edges);
+}
+
+inline void check_partition(const dovetail::csr_graph& graph, const std::vector<dovetail::local_id>& part,
+                            int parts, double imbalance) {
+  REQUIRE(part.size() == graph.node_weights.size());
+  for (const auto p : part)
+    REQUIRE((p >= 0 && p < parts));
+  CHECK(std::set<dovetail::local_id>(part.begin(), part.end()).size() == static_cast<std::size_t>(parts));
+  const auto weights = dovetail::part_weights(graph, part, parts);
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double heaviest_node = *std::max_element(graph.node_weights.begin(), graph.node_weights.end());
+  const double allowed = std::max(imbalance * total / parts, total / parts + heaviest_node);
+  CHECK(*std::max_element(weights.begin(), weights.end()) <= allowed * (1 + 1e-12));
+}
+
+template <dovetail::graph_partitioner Partitioner>
+void check_partitioner_contract(const Partitioner& partitioner, double imbalance) {
+  using dovetail::csr_graph;
+  using dovetail::local_id;
+  using dovetail::make_csr_graph;
+  using dovetail::weighted_edge;
+
+  SUBCASE("meshes: range, no empty part, balance, repeatable") {
+    for (const int parts : {1, 2, 3, 7, 16, 32})
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        CAPTURE(parts);
+        CAPTURE(seed);
+        const csr_graph cubes = element_graph(jittered_cubes(8), seed);
+        const auto part = partitioner(cubes, parts);
+        check_partition(cubes, part, parts, imbalance);
+        CHECK(partitioner(cubes, parts) == part);
+        const csr_graph squares = element_graph(jittered_squares(20), seed);
+        check_partition(squares, partitioner(squares, parts), parts, imbalance);
+      }
+  }
+  SUBCASE("a cut of a cube in two is close to the best one") {
+    const csr_graph cube = element_graph(jittered_cubes(8));
+    const auto part = partitioner(cube, 2);
+    CHECK(dovetail::edge_cut(cube, part) <= 1.5 * 2 * 8 * 8); // a plane cuts two triangles per cell
+  }
+  SUBCASE("heavy edges are avoided") {
+    // A ring of 12 nodes whose only cheap edges are 0-1 and 6-7.
+    std::vector<weighted_edge> ring;
+    for (local_id v = 0; v < 12; ++v)
+      ring.push_back({v, (v + 1) % 12, v == 0 || v == 6 ? 1.0 : 1000.0});
+    const csr_graph graph = make_csr_graph(std::vector<double>(12, 1.0), ring);
+    CHECK(dovetail::edge_cut(graph, partitioner(graph, 2)) == 2);
+  }
+  SUBCASE("as many parts as nodes, single nodes, no edges") {
+    const csr_graph graph = element_graph(jittered_squares(3), 5);
+    const int all = graph.node_count();
+    check_partition(graph, partitioner(graph, all), all, imbalance);
+    check_partition(graph, partitioner(graph, all - 1), all - 1, imbalance);
+    const csr_graph single = make_csr_graph({3.0}, {});
+    CHECK(partitioner(single, 1) == std::vector<local_id>{0});
+    const csr_graph loose = make_csr_graph(std::vector<double>(50, 1.0), {});
+    check_partition(loose, partitioner(loose, 7), 7, imbalance);
+  }
+  SUBCASE("one node much heavier than the rest") {
+    csr_graph graph = element_graph(jittered_cubes(4));
+    graph.node_weights[100] = 500;
+    check_partition(graph, partitioner(graph, 8), 8, imbalance);
+  }
+  SUBCASE("weights of any magnitude") {
+    for (const double scale : {1e-9, 1e12}) {
+      csr_graph graph = element_graph(jittered_cubes(5), 3);
+      for (double& w : graph.node_weights)
+        w *= scale;
+      for (double& w : graph.edge_weights)
+        w *= scale;
+      check_partition(graph, partitioner(graph, 8), 8, imbalance);
+    }
+  }
+  SUBCASE("what cannot be done is a typed error") {
+    const csr_graph graph = element_graph(jittered_squares(2));
+    CHECK_THROWS_AS(partitioner(graph, 0), dovetail::partition_error);
+    CHECK_THROWS_AS(partitioner(graph, 9), dovetail::partition_error);
+    csr_graph broken = graph;
+    broken.node_weights[1] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH_AS(partitioner(broken, 2), doctest::Contains("node 1"), dovetail::partition_error);
+  }
+}
+
+} // namespace dovetail_test

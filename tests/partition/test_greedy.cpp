@@ -1,0 +1,36 @@
+#include "dovetail/partition/greedy.hpp"
+#include "partition/partitioner_contract.hpp"
+
+using namespace dovetail;
+
+TEST_CASE("greedy satisfies the partitioner contract") {
+  dovetail_test::check_partitioner_contract(partition::greedy{}, 1.03);
+}
+
+TEST_CASE("greedy with a looser limit keeps to it") {
+  const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(6), 9);
+  const partition::greedy loose{.imbalance = 1.2};
+  dovetail_test::check_partition(graph, loose(graph, 10), 10, 1.2);
+}
+
+TEST_CASE("refinement never makes the cut worse and finds the obvious move") {
+  dovetail_test::random_numbers random(4);
+  const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(5), 2);
+  std::vector<local_id> part(graph.node_weights.size());
+  for (std::size_t v = 0; v < part.size(); ++v)
+    part[v] = static_cast<local_id>(v * 4 / part.size());
+  for (int k = 0; k < 100; ++k)
+    part[random.bits() % part.size()] = static_cast<local_id>(random.bits() % 4);
+  const double before = edge_cut(graph, part);
+  partition_refiner(graph, part, equal_limits(graph, 4, 1.1)).refine();
+  CHECK(edge_cut(graph, part) < 0.8 * before);
+  CHECK(imbalance_of(graph, part, 4) <= 1.1);
+}
+
+TEST_CASE("matching halves a mesh's graph and keeps its weight") {
+  const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(6));
+  const auto coarse = match_heavy_edges(graph, 1e9, 1);
+  CHECK(coarse.graph.node_count() < graph.node_count() * 6 / 10);
+  CHECK(std::accumulate(coarse.graph.node_weights.begin(), coarse.graph.node_weights.end(), 0.0) ==
+        doctest::Approx(graph.node_count()));
+}
