@@ -1,5 +1,5 @@
 /// @file
-/// The role `mesher<M, D>`: fill a bounded piece with elements without touching its boundary.
+/// The role `piece_mesher<M, D>`: fill a bounded piece with elements without touching its boundary.
 ///
 /// Valid expressions for `const M& m`, `const mesher_input<D>& in`, `const any_sizing& h`:
 ///   m(in, h)    -> mesher_result<D>
@@ -44,7 +44,7 @@ struct mesher_result {
 };
 
 template <class M, int D>
-concept mesher = std::copy_constructible<M> &&
+concept piece_mesher = std::copy_constructible<M> &&
     requires(const M& m, const mesher_input<D>& in, const any_sizing& h) {
   { m(in, h) } -> std::same_as<mesher_result<D>>;
   { M::traits } -> std::convertible_to<mesher_traits>;
@@ -52,6 +52,6 @@ concept mesher = std::copy_constructible<M> &&
 
 /// A mesher that may be used on subdomains: it keeps the boundary it is given.
 template <class M, int D>
-concept boundary_keeping_mesher = mesher<M, D> && M::traits.keeps_boundary;
+concept boundary_keeping_mesher = piece_mesher<M, D> && M::traits.keeps_boundary;
 
 } // namespace dovetail

@@ -1,0 +1,233 @@
+/// @file
+/// What every boundary-keeping volume mesher must do; each model's test includes this and calls it.
+#pragma once
+
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/validity.hpp"
+#include "dovetail/mesher/checks.hpp"
+#include "mesher/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace contract {
+
+using namespace dovetail;
+
+inline double volume_of(const simplicial_mesh<3>& mesh) {
+  double sum = 0;
+  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  for (const auto& [a, b, c, d] : mesh.elements)
+    sum += signed_volume(at(a), at(b), at(c), at(d));
+  return sum;
+}
+
+inline std::vector<std::array<local_id, 2>> unique_edges(const simplicial_mesh<3>& mesh) {
+  std::vector<std::array<local_id, 2>> edges;
+  for (const auto& element : mesh.elements)
+    for (const auto& r : numbering::ridges<3>) {
+      const local_id a = element[static_cast<std::size_t>(r[0])];
+      const local_id b = element[static_cast<std::size_t>(r[1])];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+inline double mean_edge(const simplicial_mesh<3>& mesh) {
+  const auto edges = unique_edges(mesh);
+  double sum = 0;
+  for (const auto& [a, b] : edges)
+    sum += distance(mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)]);
+  return sum / static_cast<double>(edges.size());
+}
+
+/// The oriented boundary triangles of a mesh, each rotated to start at its lowest vertex, sorted.
+inline std::vector<simplex<2>> rotated(std::vector<simplex<2>> triangles) {
+  for (auto& t : triangles)
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+inline std::vector<simplex<2>> hull(const simplicial_mesh<3>& mesh) {
+  const auto sides = build_sides(mesh);
+  std::vector<simplex<2>> triangles;
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (sides.is_boundary(static_cast<local_id>(s)))
+      triangles.push_back(sides.vertices[s]);
+  return rotated(triangles);
+}
+
+/// The promises of the concept, checked independently of the library's own checks.
+inline void require_contract(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {
+  REQUIRE(mesh.points.size() >= input.boundary.points.size());
+  CHECK(std::equal(input.boundary.points.begin(), input.boundary.points.end(), mesh.points.begin()));
+  const auto faults = check_validity(mesh);
+  CHECK_MESSAGE(faults.valid(), faults.text());
+  CHECK(hull(mesh) == rotated(input.boundary.elements));
+  CHECK(volume_of(mesh) == doctest::Approx(enclosed_volume(input.boundary.points, input.boundary.elements)));
+  CHECK(mesh.tags == std::vector<local_id>(mesh.elements.size(), input.material));
+}
+
+template <class M>
+simplicial_mesh<3> mesh_and_check(const M& mesher, const shapes::surface& boundary, const any_sizing& size) {
+  const mesher_input<3> input{boundary, 5};
+  auto result = mesher(input, size);
+  require_contract(input, result.mesh);
+  CHECK(result.summary.get("elements") == static_cast<double>(result.mesh.elements.size()));
+  return result.mesh;
+}
+
+/// Named shapes with a size that suits each; those a manifold mesher must accept too.
+inline std::vector<std::pair<std::string, std::pair<shapes::surface, double>>> manifold_shapes() {
+  auto one_void = shapes::cube(8);
+  shapes::append(one_void, shapes::sphere(2, 0.3, {0.5, 0.5, 0.5}), true);
+  auto two_voids = shapes::cube(8);
+  shapes::append(two_voids, shapes::sphere(2, 0.2, {0.25, 0.5, 0.5}), true);
+  shapes::append(two_voids, shapes::cube(3, 0.3, {0.6, 0.35, 0.35}), true);
+  // A solid inside a void inside a solid: two pieces of material.
+  auto nested = shapes::sphere(3, 1);
+  shapes::append(nested, shapes::sphere(2, 0.7), true);
+  shapes::append(nested, shapes::sphere(1, 0.3), false);
+  const auto l_shape = shapes::cells(
+      shapes::block({0, 0, 0}, {8, 8, 4}, [](int x, int y, int) { return x < 4 || y < 4; }), {0.1, 0.1, 0.1});
+  const auto slab = shapes::cells(shapes::block({0, 0, 0}, {10, 10, 1}), {0.1, 0.1, 1e-4});
+  return {{"cube", {shapes::cube(8), 0.14}},
+          {"cube far from the origin", {shapes::cube(6, 1e-3, {1e3, -1e3, 500}), 2e-4}},
+          {"sphere", {shapes::sphere(3), 0.15}},
+          {"torus", {shapes::torus(12), 0.2}},
+          {"L-shape", {l_shape, 0.12}},
+          {"thin slab", {slab, 0.1}},
+          {"cube with a void", {one_void, 0.14}},
+          {"cube with two voids", {two_voids, 0.14}},
+          {"nested shells", {nested, 0.25}}};
+}
+
+template <class M>
+void check_shapes(const M& mesher) {
+  for (const auto& [name, shape] : manifold_shapes()) {
+    CAPTURE(name);
+    const double h = shape.second;
+    mesh_and_check(mesher, shape.first, [h](vec3) { return h; });
+  }
+}
+
+/// Boundaries with an edge or a vertex where sheets touch, and an inner interface listed in both directions.
+template <class M>
+void check_non_manifold(const M& mesher) {
+  const any_sizing one = [](vec3) { return 1.0; };
+  mesh_and_check(mesher, shapes::cells({{0, 0, 0}, {1, 1, 0}}, {1, 1, 1}), one);
+  mesh_and_check(mesher, shapes::cells({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1}), one);
+  const auto voids_at_an_edge = shapes::block({0, 0, 0}, {4, 4, 3}, [](int x, int y, int z) {
+    return z != 1 || !((x == 1 && y == 1) || (x == 2 && y == 2));
+  });
+  mesh_and_check(mesher, shapes::cells(voids_at_an_edge, {1, 1, 1}), one);
+
+  auto halves = shapes::cells(shapes::block({0, 0, 0}, {4, 2, 2}), {1, 1, 1});
+  const auto wall = shapes::cells(shapes::block({0, 0, 0}, {2, 2, 2}), {1, 1, 1});
+  mesher_input<3> input{halves, 5};
+  for (const auto& t : wall.elements) { // the wall x = 2, in both directions
+    simplex<2> copy{};
+    bool on_wall = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec3 p = wall.points[static_cast<std::size_t>(t[k])];
+      on_wall = on_wall && p.x == 2;
+      const auto same = std::find(input.boundary.points.begin(), input.boundary.points.end(), p);
+      if (on_wall && same == input.boundary.points.end()) {
+        input.boundary.points.push_back(p);
+        copy[k] = static_cast<local_id>(input.boundary.points.size()) - 1;
+      } else {
+        copy[k] = static_cast<local_id>(same - input.boundary.points.begin());
+      }
+    }
+    if (on_wall) {
+      input.boundary.elements.push_back(copy);
+      input.boundary.elements.push_back({copy[0], copy[2], copy[1]});
+    }
+  }
+  REQUIRE(input.boundary.elements.size() == halves.elements.size() + 16);
+  const auto mesh = mesher(input, one).mesh;
+  check_mesher_result(input, mesh);
+  CHECK(volume_of(mesh) == doctest::Approx(16.0));
+  CHECK(check_validity(mesh).valid());
+}
+
+/// The mean edge is the size, on a field with a boundary of the same size.
+template <class M>
+void check_calibration(const M& mesher) {
+  for (const auto& boundary : {shapes::cube(24), shapes::sphere(4)}) {
+    const double h = shapes::mean_edge(boundary);
+    const auto mesh = mesh_and_check(mesher, boundary, [h](vec3) { return h; });
+    CHECK(mean_edge(mesh) / h == doctest::Approx(1.0).epsilon(0.05));
+  }
+}
+
+/// Edges follow a field that grows away from a point inside, and are not much finer than it anywhere.
+template <class M>
+void check_grading(const M& mesher) {
+  const vec3 source{0.4, 0.5, 0.6};
+  const any_sizing size = [source](vec3 p) { return 0.015 + 0.25 * distance(p, source); };
+  const auto boundary = shapes::cube(10);
+  const auto mesh = mesh_and_check(mesher, boundary, size);
+  double sum = 0;
+  std::size_t count = 0;
+  std::size_t tiny = 0;
+  for (const auto& [a, b] : unique_edges(mesh)) {
+    const vec3 p = mesh.points[static_cast<std::size_t>(a)];
+    const vec3 q = mesh.points[static_cast<std::size_t>(b)];
+    const double ratio = distance(p, q) / size(midpoint(p, q));
+    if (distance(midpoint(p, q), source) > 0.3)
+      continue; // the boundary is of another size
+    sum += ratio;
+    ++count;
+    tiny += ratio < 0.3;
+  }
+  REQUIRE(count > 1000);
+  CHECK(sum / static_cast<double>(count) == doctest::Approx(1.0).epsilon(0.1));
+  CHECK(tiny * 200 < count);
+}
+
+/// A second call on the same input, with another call between, gives the same mesh.
+template <class M>
+void check_repeats(const M& mesher) {
+  const mesher_input<3> input{shapes::torus(10), 0};
+  const any_sizing size = [](vec3) { return 0.15; };
+  const auto first = mesher(input, size).mesh;
+  mesher(mesher_input<3>{shapes::cube(4, 100), 0}, [](vec3) { return 20.0; });
+  const auto second = mesher(input, size).mesh;
+  CHECK(first.points == second.points);
+  CHECK(first.elements == second.elements);
+}
+
+/// Bad sizes and bad boundaries end in typed errors.
+template <class M>
+void check_errors(const M& mesher) {
+  const mesher_input<3> input{shapes::cube(4), 0};
+  CHECK_THROWS_AS(mesher(input, [](vec3) { return 0.0; }), sizing_error);
+  CHECK_THROWS_AS(mesher(input, [](vec3) { return -1.0; }), sizing_error);
+  CHECK_THROWS_AS(mesher(input, [](vec3 p) { return p.x > 0.5 ? std::nan("") : 0.3; }), sizing_error);
+  const any_sizing fine = [](vec3) { return 0.3; };
+  CHECK_THROWS_AS(mesher(mesher_input<3>{}, fine), mesher_error);
+  auto open = input;
+  open.boundary.elements.pop_back();
+  CHECK_THROWS_AS(mesher(open, fine), mesher_error);
+  auto inverted = input;
+  for (auto& t : inverted.boundary.elements)
+    std::swap(t[1], t[2]);
+  CHECK_THROWS_AS(mesher(inverted, fine), mesher_error);
+  auto dangling = input;
+  dangling.boundary.elements[0][1] = 10000;
+  CHECK_THROWS_AS(mesher(dangling, fine), mesher_error);
+  auto repeated = input;
+  repeated.boundary.elements.push_back(repeated.boundary.elements.front());
+  CHECK_THROWS_AS(mesher(repeated, fine), mesher_error);
+}
+
+} // namespace contract

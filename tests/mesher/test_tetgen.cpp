@@ -1,0 +1,71 @@
+#include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "mesher/mesher_contract.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dovetail;
+
+TEST_CASE("TetGen keeps the boundary and fills every shape") {
+  contract::check_shapes(mesher::tetgen{});
+}
+
+TEST_CASE("TetGen accepts non-manifold boundaries and inner interfaces") {
+  contract::check_non_manifold(mesher::tetgen{});
+}
+
+TEST_CASE("TetGen's mean edge is the size asked for") {
+  contract::check_calibration(mesher::tetgen{});
+}
+
+TEST_CASE("TetGen follows a graded field") {
+  contract::check_grading(mesher::tetgen{});
+}
+
+TEST_CASE("TetGen repeats itself within a process") {
+  static_assert(mesher::tetgen::traits.repeats_in_process);
+  contract::check_repeats(mesher::tetgen{});
+}
+
+TEST_CASE("TetGen's failures are typed") {
+  contract::check_errors(mesher::tetgen{});
+}
+
+TEST_CASE("Every fallback fulfils the contract") {
+  const auto ladder = ladder_of(mesher::tetgen{});
+  REQUIRE(ladder.size() == 5);
+  for (std::size_t rung = 1; rung < ladder.size(); ++rung) {
+    CAPTURE(rung);
+    contract::check_shapes(ladder[rung]);
+  }
+}
+
+TEST_CASE("Voids are found whether or not hole points are given") {
+  auto shell = shapes::cube(6);
+  shapes::append(shell, shapes::sphere(1, 0.3, {0.5, 0.5, 0.5}), true);
+  const auto points = points_in_voids(shell);
+  REQUIRE(points.size() == 1);
+  CHECK(distance(points[0], {0.5, 0.5, 0.5}) < 0.3);
+  contract::mesh_and_check(mesher::tetgen{.use_hole_points = false}, shell, [](vec3) { return 0.2; });
+}
+
+TEST_CASE("The watchdog ends a refinement that exceeds its budget") {
+  const mesher_input<3> input{shapes::cube(4), 0};
+  const mesher::tetgen impatient{.call_budget_factor = 0.01};
+  try {
+    impatient(input, [](vec3) { return 0.02; });
+    FAIL("no exception");
+  } catch (const mesher_error& e) {
+    CHECK(std::string(e.what()).find("without end") != std::string::npos);
+  }
+  CHECK(mesher::tetgen{}(input, [](vec3) { return 0.2; }).mesh.elements.size() > 100); // still usable
+}
+
+TEST_CASE("The size scale multiplies the field") {
+  const auto boundary = shapes::cube(12);
+  const mesher_input<3> input{boundary, 0};
+  const any_sizing size = [](vec3) { return 0.05; };
+  const any_sizing doubled = [](vec3) { return 0.1; };
+  CHECK(mesher::tetgen{.size_scale = 2}(input, size).mesh.elements ==
+        mesher::tetgen{}(input, doubled).mesh.elements);
+}
