@@ -2,8 +2,8 @@
 /// Adapter: METIS as a graph partitioner.
 #pragma once
 
-#include "dovetail/partition/bisection.hpp"
 #include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/refinement.hpp"
 
 #include <metis.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -21,7 +22,9 @@
 namespace dovetail::partition {
 
 /// Multilevel partitioning by METIS (k-way, or recursive bisection), then, where METIS missed the limit or
-/// left a part empty, a repair by single moves. Real weights are scaled to METIS's 32-bit integers.
+/// left a part empty, a repair by single moves. Graphs that METIS cannot handle
+/// quietly (a node as heavy as a part, hardly more nodes than parts) go to `greedy`. Real weights are scaled
+/// to METIS's 32-bit integers.
 struct metis {
   double imbalance = 1.03; ///< heaviest part over average part
   bool recursive = false;  ///< recursive bisection instead of k-way
@@ -34,15 +37,23 @@ struct metis {
     detail::require_partitionable(graph, parts);
     if (parts == 1)
       return std::vector<local_id>(graph.node_weights.size(), 0);
-    // With almost as many parts as nodes METIS fails half-way and prints about it.
-    const bool is_tiny = graph.node_count() < 3 * parts;
-    std::vector<local_id> part = is_tiny ? recursive_bisection(graph, parts, imbalance) : call(graph, parts);
+    if (prints_and_fails(graph, parts))
+      return greedy{.imbalance = imbalance, .seed = static_cast<std::uint64_t>(seed)}(graph, parts);
+    std::vector<local_id> part = call(graph, parts);
     detail::fill_empty_parts(graph, part, parts);
     partition_refiner(graph, part, equal_limits(graph, parts, imbalance)).balance();
     return part;
   }
 
 private:
+  /// With few nodes per part, or one that fills a part, METIS runs into empty pieces and prints about it.
+  static bool prints_and_fails(const csr_graph& graph, int parts) {
+    const auto& weights = graph.node_weights;
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    return graph.node_count() < 3 * parts || graph.neighbours.empty() ||
+           *std::max_element(weights.begin(), weights.end()) >= total / parts;
+  }
+
   /// METIS adds weights up in `idx_t`; sums stay below this, with room for its internal multiples.
   static constexpr double largest_sum = std::numeric_limits<idx_t>::max() / 8.0;
 
