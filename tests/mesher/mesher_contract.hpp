@@ -85,8 +85,14 @@ simplicial_mesh<3> mesh_and_check(const M& mesher, const shapes::surface& bounda
   return result.mesh;
 }
 
-/// Named shapes with a size that suits each; those a manifold mesher must accept too.
-inline std::vector<std::pair<std::string, std::pair<shapes::surface, double>>> manifold_shapes() {
+struct named_shape {
+  std::string name;
+  shapes::surface boundary;
+  double size; ///< one that suits it
+};
+
+/// Shapes that every mesher must accept.
+inline std::vector<named_shape> manifold_shapes() {
   auto one_void = shapes::cube(8);
   shapes::append(one_void, shapes::sphere(2, 0.3, {0.5, 0.5, 0.5}), true);
   auto two_voids = shapes::cube(8);
@@ -99,23 +105,23 @@ inline std::vector<std::pair<std::string, std::pair<shapes::surface, double>>> m
   const auto l_shape = shapes::cells(
       shapes::block({0, 0, 0}, {8, 8, 4}, [](int x, int y, int) { return x < 4 || y < 4; }), {0.1, 0.1, 0.1});
   const auto slab = shapes::cells(shapes::block({0, 0, 0}, {10, 10, 1}), {0.1, 0.1, 1e-4});
-  return {{"cube", {shapes::cube(8), 0.14}},
-          {"cube far from the origin", {shapes::cube(6, 1e-3, {1e3, -1e3, 500}), 2e-4}},
-          {"sphere", {shapes::sphere(3), 0.15}},
-          {"torus", {shapes::torus(12), 0.2}},
-          {"L-shape", {l_shape, 0.12}},
-          {"thin slab", {slab, 0.1}},
-          {"cube with a void", {one_void, 0.14}},
-          {"cube with two voids", {two_voids, 0.14}},
-          {"nested shells", {nested, 0.25}}};
+  return {{"cube", shapes::cube(8), 0.14},
+          {"cube far from the origin", shapes::cube(6, 1e-3, {1e3, -1e3, 500}), 2e-4},
+          {"sphere", shapes::sphere(3), 0.15},
+          {"torus", shapes::torus(12), 0.2},
+          {"L-shape", l_shape, 0.12},
+          {"thin slab", slab, 0.1},
+          {"cube with a void", one_void, 0.14},
+          {"cube with two voids", two_voids, 0.14},
+          {"nested shells", nested, 0.25}};
 }
 
 template <class M>
 void check_shapes(const M& mesher) {
-  for (const auto& [name, shape] : manifold_shapes()) {
-    CAPTURE(name);
-    const double h = shape.second;
-    mesh_and_check(mesher, shape.first, [h](vec3) { return h; });
+  for (const named_shape& shape : manifold_shapes()) {
+    CAPTURE(shape.name);
+    const double h = shape.size;
+    mesh_and_check(mesher, shape.boundary, [h](vec3) { return h; });
   }
 }
 
