@@ -31,7 +31,7 @@ struct bounding_entity {
 struct skeleton_entity {
   host on;                       ///< the CAD entity that it is, or is part of; {3, material} inside a solid
   std::vector<local_id> sharers; ///< ascending subdomains; empty for entities of the CAD model
-  std::vector<bounding_entity> boundary; ///< entities of one dimension less; sorted
+  std::vector<bounding_entity> boundary; ///< entities of one dimension less; sorted, but a line's start first
 };
 
 struct skeleton_entities {
@@ -139,6 +139,9 @@ inline void finish_boundaries(skeleton_entities& entities) {
   for (auto& dimension : entities.of_dimension)
     for (auto& entity : dimension)
       keep_distinct(entity.boundary);
+  for (auto& line : entities.of_dimension[1]) // readers take the first vertex for the start
+    std::stable_partition(line.boundary.begin(), line.boundary.end(),
+                          [](const bounding_entity& vertex) { return !vertex.reversed; });
 }
 
 /// The ascending subdomains at each point, as (point, subdomain) pairs in order. O(triangles log triangles).

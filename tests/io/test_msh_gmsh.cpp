@@ -1,0 +1,284 @@
+// Gmsh itself rereads what the MSH writer writes.
+#include "dovetail/io/msh_writer.hpp"
+#include "io/scratch_folder.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <gmsh.h>
+#include <map>
+#include <set>
+
+using namespace dovetail;
+
+namespace {
+
+/// A file opened in Gmsh, with Gmsh's messages.
+class gmsh_session {
+public:
+  explicit gmsh_session(const std::filesystem::path& path) {
+    gmsh::initialize();
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+    gmsh::open(path.string());
+    gmsh::logger::get(log_);
+    gmsh::logger::stop();
+  }
+  ~gmsh_session() { gmsh::finalize(); }
+
+  /// All messages but information, one per line.
+  std::string complaints() const {
+    std::string found;
+    for (const auto& line : log_)
+      if (!line.starts_with("Info") && !line.starts_with("Progress"))
+        found += line + "\n";
+    return found;
+  }
+
+private:
+  std::vector<std::string> log_;
+};
+
+std::vector<int> partitions_of(int dimension, int tag) {
+  std::vector<int> partitions;
+  gmsh::model::getPartitions(dimension, tag, partitions);
+  return partitions;
+}
+
+bool is_ghost(int dimension, int tag) {
+  std::string type;
+  gmsh::model::getType(dimension, tag, type);
+  return type == "Ghost volume";
+}
+
+gmsh::vectorpair entities(int dimension) {
+  gmsh::vectorpair found;
+  gmsh::model::getEntities(found, dimension);
+  return found;
+}
+
+std::size_t element_count(int dimension, int tag) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dimension, tag);
+  std::size_t count = 0;
+  for (const auto& of_type : tags)
+    count += of_type.size();
+  return count;
+}
+
+std::set<std::size_t> own_nodes(int dimension, int tag) {
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(tags, coordinates, parameters, dimension, tag, false, false);
+  return {tags.begin(), tags.end()};
+}
+
+/// The nodes of an entity and of all entities on its boundary.
+std::set<std::size_t> closure_nodes(int dimension, int tag) {
+  auto nodes = own_nodes(dimension, tag);
+  if (dimension == 0)
+    return nodes;
+  std::vector<int> upward, downward;
+  gmsh::model::getAdjacencies(dimension, tag, upward, downward);
+  for (const int side : downward)
+    nodes.merge(closure_nodes(dimension - 1, std::abs(side)));
+  return nodes;
+}
+
+std::set<std::size_t> element_nodes(int dimension, int tag) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dimension, tag);
+  std::set<std::size_t> all;
+  for (const auto& of_type : nodes)
+    all.insert(of_type.begin(), of_type.end());
+  return all;
+}
+
+const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.2};
+
+} // namespace
+
+TEST_CASE("Gmsh rereads a whole mesh without complaint, with its groups and counts") {
+  const testing::scratch_folder folder("msh_whole");
+  for (const bool binary : {true, false}) {
+    io::msh_writer{.binary = binary}(cubes.distributed(), folder);
+    const gmsh_session session(folder / "mesh.msh");
+    CHECK(session.complaints() == std::string());
+    CHECK(entities(0).size() == 12);
+    CHECK(entities(1).size() == 20);
+    CHECK(entities(2).size() == 11);
+    CHECK(entities(3).size() == 2);
+    CHECK(element_count(3, 1) == 6 * 6 * 6 * 6 / 2);
+    CHECK(element_count(3, 2) == 6 * 6 * 6 * 6 / 2);
+    CHECK(element_count(2, 1) == 2 * 6 * 6);
+    CHECK(element_count(2, 2) == 2 * 6 * 6); // the material interface
+    CHECK(element_count(1, 1) == 6);
+    CHECK(own_nodes(3, 1).size() == 5 * 5 * 2);
+    CHECK(own_nodes(2, 2).size() == 5 * 5);
+    CHECK(own_nodes(1, 1).size() == 5);
+
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups);
+    std::set<std::string> names;
+    for (const auto& [dimension, tag] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      names.insert(std::to_string(dimension) + " " + name);
+    }
+    CHECK(names == std::set<std::string>{"2 floor", "2 cad face 1", "2 roof", "2 side walls",
+                                         "3 solid '0' <&>", "3 solid '1' <&>"});
+  }
+}
+
+TEST_CASE("faces of the model are closed by their curves, and volumes by their faces, with signs") {
+  const testing::scratch_folder folder("msh_boundary");
+  for (const bool partitioned : {false, true}) {
+    io::msh_writer{.partitioned = partitioned}(cubes.distributed(), folder);
+    const gmsh_session session(folder / "mesh.msh");
+    for (int dimension = 1; dimension <= 3; ++dimension)
+      for (const auto& [d, tag] : entities(dimension)) {
+        gmsh::vectorpair boundary;
+        gmsh::model::getBoundary({{d, tag}}, boundary, false, true, false);
+        CHECK(boundary.size() == (dimension == 1 ? 2U : dimension == 2 ? 4U : 6U));
+        // The boundary of the boundary vanishes.
+        std::map<int, int> sum;
+        for (const auto& side : boundary)
+          if (dimension > 1) {
+            gmsh::vectorpair ridges;
+            gmsh::model::getBoundary({{side.first, std::abs(side.second)}}, ridges, false, true, false);
+            // Gmsh forgets the orientation of a curve's ends, and knows their order instead.
+            int at = 0;
+            for (const auto& ridge : ridges) {
+              const int sign = dimension == 2 ? (at++ == 0 ? -1 : 1) : ridge.second < 0 ? -1 : 1;
+              sum[std::abs(ridge.second)] += sign * (side.second < 0 ? -1 : 1);
+            }
+          }
+        for (const auto& [ridge, total] : sum)
+          CHECK(total == 0);
+      }
+  }
+}
+
+TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal counts per partition") {
+  const testing::scratch_folder folder("msh_partitioned");
+  const auto mesh = cubes.distributed();
+  for (const bool binary : {true, false})
+    for (const bool ghosts : {false, true}) {
+      io::msh_writer{.partitioned = true, .ghosts = ghosts, .binary = binary}(mesh, folder);
+      const gmsh_session session(folder / "mesh.msh");
+      CHECK(session.complaints() == std::string());
+      std::map<int, std::size_t> elements;
+      std::array<std::size_t, 4> partitioned{};
+      std::set<std::size_t> all_nodes;
+      std::size_t node_sum = 0;
+      for (int dimension = 0; dimension <= 3; ++dimension)
+        for (const auto& [d, tag] : entities(dimension)) {
+          const auto partitions = partitions_of(d, tag);
+          const auto own = own_nodes(d, tag);
+          all_nodes.insert(own.begin(), own.end());
+          node_sum += own.size();
+          if (partitions.empty())
+            continue;
+          if (is_ghost(d, tag))
+            continue;
+          ++partitioned[static_cast<std::size_t>(dimension)];
+          if (dimension == 3)
+            elements[partitions.front()] += element_count(d, tag);
+          int parent_dimension = -1, parent = -1;
+          gmsh::model::getParent(d, tag, parent_dimension, parent);
+          CHECK(parent_dimension >= dimension);
+          CHECK(parent > 0);
+          // A node is filed under the lowest-dimensional entity it lies on, which is in the closure.
+          const auto used = element_nodes(d, tag);
+          const auto closure = closure_nodes(d, tag);
+          CHECK(std::includes(closure.begin(), closure.end(), used.begin(), used.end()));
+          CHECK(std::includes(used.begin(), used.end(), own.begin(), own.end()));
+        }
+      // 3 levels in each direction: a grid of 3^3 points.
+      const bool right_counts = partitioned == std::array<std::size_t, 4>{27, 54, 36, 8};
+      CHECK(right_counts);
+      REQUIRE(elements.size() == 8);
+      for (std::size_t s = 0; s < 8; ++s)
+        CHECK(elements[static_cast<int>(s) + 1] == static_cast<std::size_t>(mesh.counts[s].elements));
+      CHECK(all_nodes.size() == 7 * 7 * 7);
+      CHECK(node_sum == all_nodes.size());
+    }
+}
+
+TEST_CASE("ghosts are the elements that touch another partition in a point") {
+  const testing::scratch_folder folder("msh_ghosts");
+  const auto mesh = cubes.distributed();
+  io::msh_writer{.partitioned = true, .ghosts = true}(mesh, folder);
+  const gmsh_session session(folder / "mesh.msh");
+  std::map<int, std::set<std::size_t>> nodes_of_partition; // of own elements
+  std::map<int, std::map<std::size_t, std::set<std::size_t>>> elements_of_partition;
+  std::map<int, std::set<std::size_t>> ghosts_of_partition;
+  for (const auto& [d, tag] : entities(3)) {
+    const auto partitions = partitions_of(d, tag);
+    if (partitions.empty())
+      continue;
+    if (is_ghost(d, tag)) {
+      std::vector<std::size_t> tags;
+      std::vector<int> owners;
+      gmsh::model::mesh::getGhostElements(d, tag, tags, owners);
+      ghosts_of_partition[partitions.front()] = {tags.begin(), tags.end()};
+      continue;
+    }
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> element_tags, nodes;
+    gmsh::model::mesh::getElements(types, element_tags, nodes, d, tag);
+    REQUIRE(types == std::vector<int>{4});
+    nodes_of_partition[partitions.front()].insert(nodes[0].begin(), nodes[0].end());
+    for (std::size_t e = 0; e < element_tags[0].size(); ++e)
+      elements_of_partition[partitions.front()][element_tags[0][e]] = {
+          nodes[0].begin() + static_cast<std::ptrdiff_t>(4 * e),
+          nodes[0].begin() + static_cast<std::ptrdiff_t>(4 * e + 4)};
+  }
+  REQUIRE(elements_of_partition.size() == 8);
+  for (const auto& [partition, own_nodes_] : nodes_of_partition) {
+    std::set<std::size_t> expected;
+    for (const auto& [other, elements] : elements_of_partition)
+      if (other != partition)
+        for (const auto& [element, nodes] : elements)
+          if (std::any_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return own_nodes_.count(n) > 0; }))
+            expected.insert(element);
+    CHECK_FALSE(expected.empty());
+    CHECK(ghosts_of_partition[partition] == expected);
+  }
+}
+
+TEST_CASE("gmsh -check finds no fault") {
+  if (std::system("gmsh -version > /dev/null 2>&1") != 0) {
+    MESSAGE("skipped: the gmsh command is not installed");
+    return;
+  }
+  const testing::scratch_folder folder("msh_check");
+  for (const bool partitioned : {false, true}) {
+    io::msh_writer{.partitioned = partitioned}(cubes.distributed(), folder);
+    const auto command =
+        "gmsh -check '" + (folder / "mesh.msh").string() + "' > '" + (folder / "log").string() + "' 2>&1";
+    CHECK(std::system(command.c_str()) == 0);
+    const auto log = testing::file_content(folder / "log");
+    CHECK(log.find("Done checking mesh coherence") != std::string::npos);
+    CHECK(log.find("Warning") == std::string::npos);
+    CHECK(log.find("Error") == std::string::npos);
+  }
+}
+
+TEST_CASE("long and odd names survive as far as Gmsh allows") {
+  const testing::scratch_folder folder("msh_names");
+  auto mesh = cubes.distributed();
+  mesh.patch_names[0] = std::string(400, 'x');
+  mesh.patch_names[2] = "line\nbreak \"quoted\" \xc3\xa4";
+  io::msh_writer{}(mesh, folder);
+  const gmsh_session session(folder / "mesh.msh");
+  CHECK(session.complaints() == std::string());
+  std::string name;
+  gmsh::model::getPhysicalName(2, 1, name);
+  CHECK(name == std::string(120, 'x'));
+  gmsh::model::getPhysicalName(2, 3, name);
+  CHECK(name == "line break 'quoted' \xc3\xa4");
+}
