@@ -10,6 +10,10 @@ target_compile_features(dovetail INTERFACE cxx_std_20)
 target_include_directories(dovetail INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+# The exact predicates are exact only when the compiler does not fuse a product and a sum on its own; nor would the mesh
+# be the same on machines with and without fused operations. (By default g++ fuses where -march offers it.)
+target_compile_options(dovetail INTERFACE
+  "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>")
 target_link_libraries(dovetail INTERFACE Threads::Threads Boost::headers)
 
 set(dovetail_components "")
