@@ -57,6 +57,7 @@ inline void fix_vertices(tet_complex& mesh, const frozen_entities<3>& frozen) {
   for (local_id v = 0; v < std::min(frozen.points, mesh.vertex_slots()); ++v)
     if (mesh.kind(v) != vertex_kind::unused)
       mesh.set_kind(v, vertex_kind::fixed);
+  mesh.finish_kinds();
 }
 
 } // namespace detail

@@ -5,6 +5,7 @@
 #include "dovetail/improver/edge_removal.hpp"
 #include "dovetail/improver/face_removal.hpp"
 #include "dovetail/improver/operation_log.hpp"
+#include "dovetail/improver/vertex_insertion.hpp"
 #include "dovetail/improver/vertex_smoothing.hpp"
 
 #include <vector>
@@ -15,6 +16,7 @@ struct schedule_limits {
   float target = 0.17F;     ///< elements with a smaller value are worked on
   int passes = 8;           ///< sweeps over the poor elements
   double least_gain = 0.02; ///< a sweep that mends a smaller part of the poor elements is the last
+  int hard_passes = 3;      ///< sweeps in which vertices are inserted and removed as well
   apex_search_limits search = {};
 };
 
@@ -24,21 +26,8 @@ public:
   schedule(tet_complex& mesh, const schedule_limits& limits) : mesh_(mesh), limits_(limits) {}
 
   void run() {
-    std::vector<local_id> poor;
-    collect_poor(poor);
-    for (int pass = 0; pass < limits_.passes && !poor.empty(); ++pass) {
-      const std::size_t before = poor.size();
-      const std::size_t accepted = log_.total_accepted();
-      for (const local_id e : poor)
-        if (is_poor(e))
-          mend(e);
-      collect_poor(poor);
-      const bool mended = poor.size() < before && static_cast<double>(before - poor.size()) >=
-                                                      limits_.least_gain * static_cast<double>(before);
-      ++passes_;
-      if (!mended || log_.total_accepted() == accepted)
-        break;
-    }
+    sweep_until_settled(limits_.passes, [this](local_id e) { mend(e); });
+    sweep_until_settled(limits_.hard_passes, [this](local_id e) { mend_hard(e); });
   }
   const operation_log& log() const { return log_; }
   int passes() const { return passes_; }
@@ -52,12 +41,64 @@ private:
         poor.push_back(e);
   }
 
+  /// Sweeps over the poor elements as long as it pays.
+  template <class Mend>
+  void sweep_until_settled(int passes, const Mend& mend_one) {
+    collect_poor(poor_);
+    for (int pass = 0; pass < passes && !poor_.empty(); ++pass) {
+      const std::size_t before = poor_.size();
+      const std::size_t accepted = log_.total_accepted();
+      for (const local_id e : poor_)
+        if (is_poor(e))
+          mend_one(e);
+      collect_poor(poor_);
+      ++passes_;
+      const bool pays = poor_.size() < before && static_cast<double>(before - poor_.size()) >=
+                                                     limits_.least_gain * static_cast<double>(before);
+      if (!pays || log_.total_accepted() == accepted)
+        break;
+    }
+  }
+
   /// Tries to replace or move element `e`; returns when it is no longer poor or nothing helps.
   void mend(local_id e) {
     if (flip(e) && !is_poor(e))
       return;
     if (is_poor(e))
       smooth(e);
+  }
+
+  /// Also inserts and removes vertices.
+  void mend_hard(local_id e) {
+    mend(e);
+    if (is_poor(e) && !contract(e))
+      insert(e);
+  }
+  bool contract(local_id e) {
+    const auto corners = mesh_.vertices(e);
+    for (const local_id from : corners)
+      for (const local_id to : corners)
+        if (from != to && mesh_.is_free(from) &&
+            log_.record(operation::contraction, [&] { return contraction_.improve(mesh_, from, to); }))
+          return true;
+    return false;
+  }
+  bool insert(local_id e) {
+    insertion_limits limits;
+    limits.search = limits_.search;
+    limits.search.enough = limits_.target;
+    const auto corners = mesh_.vertices(e);
+    vec3 center = 0.25 * (mesh_.point(corners[0]) + mesh_.point(corners[1]) + mesh_.point(corners[2]) +
+                          mesh_.point(corners[3]));
+    if (log_.record(operation::insertion, [&] { return insertion_.improve(mesh_, {&e, 1}, center, limits); }))
+      return true;
+    for (int edge = 0; edge < 6; ++edge)
+      if (collect_shell(mesh_, e, edge, shell_) && log_.record(operation::insertion, [&] {
+            return insertion_.improve(mesh_, shell_.elements.view(),
+                                      midpoint(mesh_.point(shell_.a), mesh_.point(shell_.b)), limits);
+          }))
+        return true;
+    return false;
   }
 
   /// Executes the best removal of an edge or side of `e`.
@@ -108,6 +149,9 @@ private:
   edge_removal<Measure> edges_;
   face_removal<Measure> faces_;
   vertex_smoothing<Measure> smoothing_;
+  vertex_insertion<Measure> insertion_;
+  edge_contraction<Measure> contraction_;
+  std::vector<local_id> poor_;
 };
 
 } // namespace dovetail::improvement

@@ -67,6 +67,14 @@ public:
     return element[0] == v ? 0 : element[1] == v ? 1 : element[2] == v ? 2 : 3;
   }
 
+  /// Some element has `v`.
+  bool is_used(local_id v) const {
+    const local_id e = element_at(v);
+    return e != no_id && is_alive(e) && vertex(e, corner_of(e, v)) == v;
+  }
+  /// One more vertex can be removed without leaving a gap in the numbers under the last fixed one.
+  bool can_release() const { return free_above_ > gaps_below_; }
+
   // -- marks: a set of elements that is emptied in O(1) ----------------------------------------------------
   void clear_marks() {
     if (++current_mark_ == 0) {
@@ -82,6 +90,15 @@ public:
   void set_value(local_id e, float value) { values_[index(e)] = value; }
   void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
   void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
+  /// To be called once when all fixed vertices are known.
+  void finish_kinds() {
+    last_fixed_ = no_id;
+    for (local_id v = 0; v < vertex_slots(); ++v)
+      if (kind(v) == vertex_kind::fixed || kind(v) == vertex_kind::unused)
+        last_fixed_ = v;
+    free_above_ = vertex_slots() - 1 - last_fixed_;
+    gaps_below_ = 0;
+  }
   void fix_side(local_id e, int side) {
     fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
   }
@@ -90,6 +107,7 @@ public:
     if (!free_vertices_.empty()) {
       const local_id v = free_vertices_.back();
       free_vertices_.pop_back();
+      count_vertex(v, 1);
       points_[index(v)] = p;
       kinds_[index(v)] = vertex_kind::free;
       return v;
@@ -97,12 +115,14 @@ public:
     points_.push_back(p);
     element_at_.push_back(no_id);
     kinds_.push_back(vertex_kind::free);
+    count_vertex(vertex_slots() - 1, 1);
     return vertex_slots() - 1;
   }
   /// Gives up a vertex that no element uses any more.
   void release_vertex(local_id v) {
     kinds_[index(v)] = vertex_kind::removed;
     element_at_[index(v)] = no_id;
+    count_vertex(v, -1);
     free_vertices_.push_back(v);
   }
 
@@ -184,6 +204,12 @@ private:
     if (other.outer != no_id)
       across_[index(element_of(other.outer))][index(side_of(other.outer))] = half_side_of(e, side);
   }
+  void count_vertex(local_id v, local_id change) {
+    if (v > last_fixed_)
+      free_above_ += change;
+    else
+      gaps_below_ -= change;
+  }
   local_id new_element() {
     if (!dead_elements_.empty()) {
       const local_id e = dead_elements_.back();
@@ -215,6 +241,7 @@ private:
   std::vector<local_id> element_at_;
   std::vector<vertex_kind> kinds_;
   std::vector<local_id> dead_elements_, free_vertices_;
+  local_id last_fixed_ = no_id, free_above_ = 0, gaps_below_ = 0;
   std::size_t alive_;
   cavity_matcher matcher_;
 };

@@ -1,0 +1,124 @@
+/// @file
+/// Inserts a vertex: a cavity is grown around the place where the worst of the new elements would be, and the
+/// place moved to suit it, until the cavity's old elements are beaten. Free vertices that the cavity swallows
+/// are removed with it, so that with a large first cavity this also contracts edges.
+///
+/// In the spirit of the insertion of B. M. Klingner and J. R. Shewchuk, "Aggressive tetrahedral mesh
+/// improvement", with a greedy search instead of a lexicographic one.
+#pragma once
+
+#include "dovetail/improver/star_cavity.hpp"
+
+namespace dovetail::improvement {
+
+struct insertion_limits {
+  int growth = 12; ///< elements added to the first cavity at most
+  apex_search_limits search = {};
+};
+
+template <shape_measure Measure>
+class vertex_insertion {
+public:
+  /// Replaces a cavity that contains the elements `seed` by the star of a new vertex near `place`, if that
+  /// beats the elements replaced. O(growth x cavity).
+  bool improve(tet_complex& mesh, std::span<const local_id> seed, vec3 place,
+               const insertion_limits& limits) {
+    cavity_.clear();
+    for (const local_id e : seed)
+      if (!cavity_.elements.push(e))
+        return false;
+    float best_gain = 1e-4F;
+    best_.clear();
+    for (int step = 0; step <= limits.growth; ++step) {
+      if (!find_outline(mesh, cavity_, no_id))
+        break;
+      const float bar = worst_value(mesh, cavity_.elements.view());
+      const float reached = settle(mesh, place, limits.search);
+      if (std::min(reached, limits.search.enough) - bar > best_gain &&
+          keeps_fixed_vertices(mesh, cavity_, no_id)) {
+        best_gain = std::min(reached, limits.search.enough) - bar;
+        best_ = cavity_;
+        best_place_ = place;
+        best_bar_ = bar;
+        if (reached > limits.search.enough)
+          break;
+      }
+      if (!grow(mesh, place))
+        break;
+    }
+    return best_.elements.size > 0 && commit(mesh);
+  }
+
+private:
+  /// Moves `place` to where the worst new element is best; returns its value.
+  float settle(const tet_complex& mesh, vec3& place, const apex_search_limits& limits) {
+    double length = 0;
+    for (const auto& side : cavity_.outline)
+      length = std::max(length, norm_squared(mesh.point(side[0]) - place));
+    batch_.start(place, std::sqrt(length));
+    for (const auto& side : cavity_.outline)
+      batch_.add(mesh.point(side[0]), mesh.point(side[1]), mesh.point(side[2]));
+    batch_.finish();
+    triple<float> p{0, 0, 0};
+    const float reached = search_.climb(batch_, p, limits);
+    place = batch_.to_global(p);
+    return reached;
+  }
+  /// Takes in the element behind the worst new element that is not on a fixed side.
+  bool grow(const tet_complex& mesh, vec3 place) {
+    half_side worst_side = no_id;
+    double worst = 3;
+    for (int i = 0; i < cavity_.outline.size; ++i) {
+      const half_side inner = cavity_.inner[i];
+      if (mesh.is_fixed(element_of(inner), side_of(inner)))
+        continue;
+      const auto& side = cavity_.outline[i];
+      const double value =
+          measure_of<Measure>(place, mesh.point(side[0]), mesh.point(side[1]), mesh.point(side[2]));
+      if (value < worst) {
+        worst = value;
+        worst_side = inner;
+      }
+    }
+    return worst_side != no_id &&
+           cavity_.elements.push(element_of(mesh.across(element_of(worst_side), side_of(worst_side))));
+  }
+  bool commit(tet_complex& mesh) {
+    const local_id v = mesh.add_vertex(best_place_);
+    if (fill_from<Measure>(mesh, best_, v, best_bar_, change_))
+      return true;
+    mesh.release_vertex(v);
+    return false;
+  }
+
+  star_cavity cavity_, best_;
+  vec3 best_place_;
+  float best_bar_ = 0;
+  star_batch<Measure> batch_;
+  apex_search<Measure> search_;
+  local_change change_;
+};
+
+/// Contracts an edge: the star of a free vertex is filled from one of its neighbours.
+template <shape_measure Measure>
+class edge_contraction {
+public:
+  /// Removes the free vertex `from` by moving it onto `to`, if that beats the elements around `from`.
+  /// O(star).
+  bool improve(tet_complex& mesh, local_id from, local_id to) {
+    if (!collect_star(mesh, from, star_))
+      return false;
+    cavity_.clear();
+    for (const local_id e : star_)
+      cavity_.elements.push(e);
+    return find_outline(mesh, cavity_, to) && keeps_fixed_vertices(mesh, cavity_, to) &&
+           fill_from<Measure>(mesh, cavity_, to, worst_value(mesh, star_.view()), change_);
+  }
+
+private:
+  bounded_list<local_id, max_star> star_;
+  star_cavity cavity_;
+  local_change change_;
+};
+
+} // namespace dovetail::improvement
