@@ -1,0 +1,154 @@
+/// @file
+/// The executor that runs tasks in forked worker processes: a crash, leak or hang costs one task. Linux.
+#pragma once
+
+#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/worker_process.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include <poll.h>
+
+namespace dovetail::parallel {
+
+/// A model of `executor`. Workers are forked for each call of `run`, so tasks see all data as they are then,
+/// without copying; they end with the call, and with this process if it dies. Their standard streams are
+/// silent. A worker whose task failed is replaced, so that nothing of the failure reaches other tasks.
+/// Refuses with `usage_error` in a process that has other threads: forking copies locks but not their
+/// holders.
+struct processes {
+  int worker_count = 0; ///< 0: one per hardware thread
+
+  int workers() const {
+    return worker_count > 0 ? worker_count
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+  bool shares_process() const { return false; }
+
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options = {}) const;
+};
+
+} // namespace dovetail::parallel
+
+namespace dovetail::detail {
+
+/// Number of threads of this process; 1 when the system does not tell.
+inline std::size_t thread_count() {
+  std::error_code failed;
+  std::size_t count = 0;
+  for (std::filesystem::directory_iterator it("/proc/self/task", failed), end; !failed && it != end;
+       it.increment(failed))
+    ++count;
+  return std::max<std::size_t>(count, 1);
+}
+
+/// One run of `processes`: the parent's loop. Whichever way it ends, its workers are killed and reaped.
+class process_pool {
+public:
+  process_pool(std::size_t count, const task_function& task, const run_options& options, std::size_t workers)
+      : task_(task), options_(options), outcomes_(count), workers_(std::min(workers, count)) {
+    const auto order = start_order(count, options);
+    waiting_.assign(order.begin(), order.end());
+  }
+
+  std::vector<task_outcome> run() {
+    options_.on_progress(options_.stage, 0, outcomes_.size());
+    while (done_ < outcomes_.size()) {
+      hand_out();
+      wait_for_news();
+      const std::size_t before = done_;
+      collect();
+      if (done_ != before)
+        options_.on_progress(options_.stage, done_, outcomes_.size());
+      else
+        stop_if_requested(options_.on_progress);
+    }
+    return std::move(outcomes_);
+  }
+
+private:
+  void hand_out() {
+    bool any_running = false;
+    for (worker_process& worker : workers_) {
+      if (waiting_.empty())
+        return;
+      if (worker.busy() || (!worker.running() && !worker.start(task_, sockets()))) {
+        any_running = any_running || worker.running();
+        continue;
+      }
+      worker.assign(waiting_.front());
+      waiting_.pop_front();
+      any_running = true;
+    }
+    if (!any_running)
+      throw usage_error("the system refuses to start a worker process; run with the serial executor");
+  }
+
+  std::vector<int> sockets() const {
+    std::vector<int> open;
+    for (const worker_process& worker : workers_)
+      if (worker.running())
+        open.push_back(worker.socket());
+    return open;
+  }
+
+  /// Sleeps until a worker sends something, at most a tenth of a second.
+  void wait_for_news() const {
+    std::vector<pollfd> watched;
+    for (const worker_process& worker : workers_)
+      if (worker.busy())
+        watched.push_back({worker.socket(), POLLIN, 0});
+    ::poll(watched.data(), watched.size(), 100); // an interrupting signal is as good as news
+  }
+
+  void collect() {
+    for (worker_process& worker : workers_) {
+      if (!worker.busy())
+        continue;
+      task_outcome outcome;
+      const bool ended = worker.receive(outcome);
+      if (!ended && worker.seconds_on_task() <= options_.limit_seconds)
+        continue;
+      if (!ended)
+        outcome = worker.give_up(options_.limit_seconds);
+      if (!outcome.ok)
+        worker.end();
+      outcomes_[worker.task()] = std::move(outcome);
+      ++done_;
+    }
+  }
+
+  const task_function& task_;
+  const run_options& options_;
+  std::vector<task_outcome> outcomes_;
+  std::deque<std::size_t> waiting_;
+  std::size_t done_ = 0;
+  std::vector<worker_process> workers_;
+};
+
+} // namespace dovetail::detail
+
+namespace dovetail::parallel {
+
+inline std::vector<task_outcome> processes::run(std::size_t count, const task_function& task,
+                                                const run_options& options) const {
+  const std::size_t threads = detail::thread_count();
+  if (threads > 1)
+    throw usage_error("worker processes cannot be forked from a process with " + std::to_string(threads) +
+                      " threads; use the serial or threads executor, or end the threads first");
+  if (count == 0)
+    return {};
+  return detail::process_pool(count, task, options, static_cast<std::size_t>(workers())).run();
+}
+
+static_assert(executor<processes>);
+
+} // namespace dovetail::parallel

@@ -1,0 +1,69 @@
+/// @file
+/// What all executors share: one task run in this process, and the order in which tasks are started.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/parallel/concepts.hpp"
+
+#include <cstddef>
+#include <exception>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// An executor says whether it runs tasks side by side in threads of one process: what a task calls must then
+/// be thread-safe. One that does not say is taken not to.
+template <class E>
+bool runs_in_threads(const E& e) {
+  if constexpr (requires { e.shares_process(); })
+    return e.shares_process() && e.workers() > 1;
+  else
+    return false;
+}
+
+namespace detail {
+
+/// Runs one task here; its exception becomes a failed outcome.
+inline task_outcome run_task(const task_function& task, std::size_t index) {
+  task_outcome outcome;
+  const stopwatch clock;
+  try {
+    outcome.result = task(index);
+    outcome.ok = true;
+  } catch (const std::exception& e) {
+    outcome.failure = e.what();
+  } catch (...) {
+    outcome.failure = "an exception that is not a std::exception";
+  }
+  outcome.seconds = clock.seconds();
+  return outcome;
+}
+
+/// `options.order`, or 0, 1, 2, ...; throws `usage_error` when it is not a permutation of the tasks.
+inline std::vector<std::size_t> start_order(std::size_t count, const run_options& options) {
+  std::vector<std::size_t> order = options.order;
+  if (order.empty()) {
+    order.resize(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    return order;
+  }
+  std::vector<bool> seen(count, false);
+  for (const std::size_t task : order) {
+    if (order.size() != count || task >= count || seen[task])
+      throw usage_error("run_options::order must list each of the " + std::to_string(count) +
+                        " tasks exactly once");
+    seen[task] = true;
+  }
+  return order;
+}
+
+inline void stop_if_requested(const progress& on_progress) {
+  if (on_progress.stop_requested && on_progress.stop_requested())
+    throw cancelled();
+}
+
+} // namespace detail
+} // namespace dovetail

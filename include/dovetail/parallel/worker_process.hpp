@@ -1,0 +1,283 @@
+/// @file
+/// One forked worker: takes task numbers from its parent over a socket and sends results back. Linux.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/run_task.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace dovetail::detail {
+
+/// A file descriptor that closes itself.
+class owned_descriptor {
+public:
+  explicit owned_descriptor(int descriptor = -1) : descriptor_(descriptor) {}
+  owned_descriptor(owned_descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  owned_descriptor& operator=(owned_descriptor&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~owned_descriptor() { close(); }
+
+  int get() const { return descriptor_; }
+  void close() {
+    if (descriptor_ >= 0)
+      ::close(descriptor_);
+    descriptor_ = -1;
+  }
+
+private:
+  int descriptor_;
+};
+
+/// What a worker sends before the bytes of its result, or of its failure's text.
+struct result_header {
+  std::uint64_t ok;
+  std::uint64_t size;
+  double seconds;
+  std::uint64_t peak_rss_bytes;
+};
+
+inline std::uint64_t peak_rss_bytes(const rusage& usage) {
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
+}
+
+/// Writes everything, or returns false when the other end is gone.
+inline bool send_all(int socket, const void* data, std::size_t size) {
+  const auto* next = static_cast<const std::byte*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::send(socket, next, size, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR)
+      continue;
+    if (sent <= 0)
+      return false;
+    next += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+  return true;
+}
+
+/// Reads exactly `size` bytes, or returns false when the other end is gone.
+inline bool receive_all(int socket, void* data, std::size_t size) {
+  auto* next = static_cast<std::byte*>(data);
+  while (size > 0) {
+    const ssize_t got = ::recv(socket, next, size, 0);
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got <= 0)
+      return false;
+    next += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+/// The life of a worker. Never returns, and never runs what the parent registered for its own exit.
+[[noreturn]] inline void serve_tasks(int socket, const task_function& task) {
+  for (std::uint64_t index = 0; receive_all(socket, &index, sizeof(index));) {
+    const task_outcome outcome = run_task(task, static_cast<std::size_t>(index));
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const void* payload =
+        outcome.ok ? static_cast<const void*>(outcome.result.data()) : outcome.failure.data();
+    const std::size_t size = outcome.ok ? outcome.result.size() : outcome.failure.size();
+    const result_header header{outcome.ok, size, outcome.seconds, peak_rss_bytes(usage)};
+    if (!send_all(socket, &header, sizeof(header)) || !send_all(socket, payload, size))
+      break;
+  }
+  ::_exit(0);
+}
+
+/// What the child does before it serves: it dies with its parent, leaves Ctrl-C to the parent, is silent
+/// (TetGen prints), and a task that calls exit() skips the parent's exit handlers and buffers.
+inline void become_worker(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) // it died before the line above
+    ::_exit(0);
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_DFL);
+  const int null = ::open("/dev/null", O_RDWR);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    ::dup2(null, standard);
+  ::close(null);
+  ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
+}
+
+/// A worker as its parent sees it. Destruction kills and reaps it.
+class worker_process {
+public:
+  using clock = std::chrono::steady_clock;
+
+  worker_process() = default;
+  worker_process(const worker_process&) = delete;
+  worker_process& operator=(const worker_process&) = delete;
+  ~worker_process() { end(); }
+
+  /// Forks. `inherited` are the sockets of the other workers, which this one must not hold open. Returns
+  /// false when the system refuses another process.
+  bool start(const task_function& task, std::span<const int> inherited) {
+    end();
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+      return false;
+    owned_descriptor mine(ends[0]);
+    owned_descriptor theirs(ends[1]);
+    std::fflush(nullptr); // or the child would hold a second copy of buffered output
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child < 0)
+      return false;
+    if (child == 0) {
+      become_worker(parent);
+      mine.close();
+      for (const int descriptor : inherited)
+        ::close(descriptor);
+      serve_tasks(theirs.get(), task);
+    }
+    pid_ = child;
+    socket_ = std::move(mine);
+    return true;
+  }
+
+  bool running() const { return pid_ > 0; }
+  bool busy() const { return busy_; }
+  int socket() const { return socket_.get(); }
+  std::size_t task() const { return task_; }
+  double seconds_on_task() const { return std::chrono::duration<double>(clock::now() - since_).count(); }
+
+  /// Gives the worker a task. If it has died meanwhile, the next `receive` says so.
+  void assign(std::size_t task) {
+    task_ = task;
+    busy_ = true;
+    since_ = clock::now();
+    received_header_ = received_payload_ = 0;
+    const std::uint64_t index = task;
+    send_all(socket_.get(), &index, sizeof(index));
+  }
+
+  /// Takes what has arrived. Returns true when the task's outcome is complete, in `outcome`.
+  bool receive(task_outcome& outcome) {
+    for (;;) {
+      const ssize_t got =
+          received_header_ < sizeof(header_)
+              ? ::recv(socket_.get(), reinterpret_cast<std::byte*>(&header_) + received_header_,
+                       sizeof(header_) - received_header_, MSG_DONTWAIT)
+              : ::recv(socket_.get(), payload_.data() + received_payload_,
+                       payload_.size() - received_payload_, MSG_DONTWAIT);
+      if (got < 0 && errno == EINTR)
+        continue;
+      if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
+        return false;
+      if (got <= 0) {
+        outcome = death();
+        return true;
+      }
+      if (received_header_ < sizeof(header_)) {
+        received_header_ += static_cast<std::size_t>(got);
+        if (received_header_ == sizeof(header_))
+          payload_.resize(static_cast<std::size_t>(header_.size));
+      } else {
+        received_payload_ += static_cast<std::size_t>(got);
+      }
+      if (received_header_ == sizeof(header_) && received_payload_ == payload_.size()) {
+        outcome = completed();
+        return true;
+      }
+    }
+  }
+
+  /// Kills the worker because its task takes too long.
+  task_outcome give_up(double limit_seconds) {
+    task_outcome outcome;
+    outcome.timed_out = true;
+    outcome.seconds = seconds_on_task();
+    outcome.failure = "exceeded the time limit of " + std::to_string(limit_seconds) + " s";
+    outcome.peak_rss_bytes = end();
+    return outcome;
+  }
+
+  /// Kills and reaps; returns the peak memory the worker reached.
+  std::uint64_t end() {
+    if (pid_ <= 0)
+      return 0;
+    ::kill(pid_, SIGKILL);
+    return reap().second;
+  }
+
+private:
+  task_outcome completed() {
+    task_outcome outcome;
+    outcome.ok = header_.ok != 0;
+    outcome.seconds = header_.seconds;
+    outcome.peak_rss_bytes = header_.peak_rss_bytes;
+    if (outcome.ok)
+      outcome.result = std::move(payload_);
+    else
+      outcome.failure.assign(reinterpret_cast<const char*>(payload_.data()), payload_.size());
+    payload_ = {};
+    busy_ = false;
+    return outcome;
+  }
+
+  /// The socket closed: the worker is ending. One that lives on has closed it itself, and is killed; a signal
+  /// does not change how one ends that already does.
+  task_outcome death() {
+    task_outcome outcome;
+    outcome.crashed = true;
+    outcome.seconds = seconds_on_task();
+    ::kill(pid_, SIGKILL);
+    const auto [status, rss] = reap();
+    outcome.peak_rss_bytes = rss;
+    if (WIFSIGNALED(status))
+      outcome.failure = "the worker was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+                        ::strsignal(WTERMSIG(status)) + ")";
+    else
+      outcome.failure = "the worker exited with code " + std::to_string(WEXITSTATUS(status));
+    return outcome;
+  }
+
+  std::pair<int, std::uint64_t> reap() {
+    int status = 0;
+    rusage usage{};
+    while (::wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+    busy_ = false;
+    socket_.close();
+    payload_ = {};
+    return {status, peak_rss_bytes(usage)};
+  }
+
+  pid_t pid_ = -1;
+  owned_descriptor socket_;
+  bool busy_ = false;
+  std::size_t task_ = 0;
+  clock::time_point since_{};
+  result_header header_{};
+  std::size_t received_header_ = 0;
+  std::size_t received_payload_ = 0;
+  byte_buffer payload_;
+};
+
+} // namespace dovetail::detail

@@ -1,0 +1,232 @@
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "parallel/executor_contract.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace dovetail;
+using parallel::processes;
+
+namespace {
+
+[[noreturn]] void hang() {
+  for (;;)
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+bool has_children() {
+  return ::waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD;
+}
+
+/// Waits until the other end of a pipe is closed by everyone who held it; false when that takes too long.
+bool closes_within(int descriptor, int milliseconds) {
+  for (;;) {
+    pollfd watched{descriptor, POLLIN, 0};
+    if (::poll(&watched, 1, milliseconds) <= 0)
+      return false;
+    char byte = 0;
+    if (::read(descriptor, &byte, 1) == 0)
+      return true;
+  }
+}
+
+} // namespace
+
+TEST_CASE("processes is an executor, whatever the number of workers") {
+  for (const int workers : {0, 1, 2, 4}) {
+    CAPTURE(workers);
+    contract::check_executor(processes{workers});
+    CHECK_FALSE(has_children());
+  }
+}
+
+TEST_CASE("A crash costs one task") {
+  for (const int workers : {1, 3}) {
+    const auto outcomes = processes{workers}.run(8, [](std::size_t i) {
+      if (i == 1)
+        ::raise(SIGKILL);
+      if (i == 2)
+        std::abort();
+      if (i == 4)
+        std::exit(3);
+      if (i == 5)
+        ::_exit(0);
+      return contract::encoded(i);
+    });
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      CAPTURE(i);
+      const bool dies = i == 1 || i == 2 || i == 4 || i == 5;
+      CHECK(outcomes[i].ok == !dies);
+      CHECK(outcomes[i].crashed == dies);
+      if (!dies)
+        CHECK(contract::decoded(outcomes[i].result) == i);
+    }
+    CHECK(outcomes[1].failure.find("signal 9") != std::string::npos);
+    CHECK(outcomes[2].failure.find("signal 6") != std::string::npos);
+    CHECK(outcomes[4].failure == "the worker exited with code 3");
+    CHECK(outcomes[5].failure == "the worker exited with code 0");
+    CHECK_FALSE(has_children());
+  }
+}
+
+TEST_CASE("Every task can crash") {
+  const auto outcomes = processes{2}.run(20, [](std::size_t) -> byte_buffer { std::abort(); });
+  CHECK(std::all_of(outcomes.begin(), outcomes.end(), [](const task_outcome& o) { return o.crashed; }));
+  CHECK_FALSE(has_children());
+}
+
+TEST_CASE("A hang is ended at the time limit") {
+  run_options options;
+  options.limit_seconds = 0.3;
+  const auto outcomes = processes{2}.run(
+      4,
+      [](std::size_t i) {
+        if (i == 1)
+          hang();
+        return contract::encoded(i);
+      },
+      options);
+  CHECK(outcomes[1].timed_out);
+  CHECK_FALSE(outcomes[1].ok);
+  CHECK(outcomes[1].seconds >= 0.3);
+  CHECK(outcomes[1].failure.find("time limit") != std::string::npos);
+  CHECK((outcomes[0].ok && outcomes[2].ok && outcomes[3].ok));
+  CHECK_FALSE(has_children());
+}
+
+TEST_CASE("A stop leaves no children, even when tasks hang") {
+  run_options options;
+  int asked = 0;
+  options.on_progress.stop_requested = [&] { return ++asked > 3; };
+  CHECK_THROWS_AS(processes{2}.run(
+                      2, [](std::size_t) -> byte_buffer { hang(); }, options),
+                  cancelled);
+  CHECK_FALSE(has_children());
+}
+
+TEST_CASE("Ctrl-C reaches the parent alone") {
+  run_options options;
+  static volatile std::sig_atomic_t interrupted = 0;
+  interrupted = 0;
+  const auto previous = std::signal(SIGINT, [](int) { interrupted = 1; });
+  options.on_progress.stop_requested = [] { return interrupted != 0; };
+  const auto parent = ::getpid();
+  CHECK_THROWS_AS(processes{2}.run(
+                      2,
+                      [parent](std::size_t i) -> byte_buffer {
+                        if (i == 0) {
+                          ::raise(SIGINT); // survived here
+                          ::kill(parent, SIGINT);
+                        }
+                        hang();
+                      },
+                      options),
+                  cancelled);
+  std::signal(SIGINT, previous);
+  CHECK_FALSE(has_children());
+}
+
+TEST_CASE("Workers die with their parent") {
+  std::array<int, 2> alive{};   // held open by the workers
+  std::array<int, 2> started{}; // a byte from each worker
+  REQUIRE(::pipe(alive.data()) == 0);
+  REQUIRE(::pipe(started.data()) == 0);
+  std::fflush(nullptr);
+  const pid_t parent = ::fork();
+  REQUIRE(parent >= 0);
+  if (parent == 0) {
+    ::close(alive[0]);
+    processes{3}.run(3, [&](std::size_t) -> byte_buffer {
+      if (::write(started[1], "x", 1) == 1)
+        hang();
+      std::abort();
+    });
+    ::_exit(0);
+  }
+  ::close(alive[1]);
+  for (int worker = 0; worker < 3; ++worker) {
+    char byte = 0;
+    REQUIRE(::read(started[0], &byte, 1) == 1);
+  }
+  CHECK_FALSE(closes_within(alive[0], 50));
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  CHECK(closes_within(alive[0], 5000));
+  for (const int descriptor : {alive[0], started[0], started[1]})
+    ::close(descriptor);
+}
+
+TEST_CASE("A process with threads is refused") {
+  std::atomic<bool> stop = false;
+  std::thread other([&] {
+    while (!stop)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  CHECK_THROWS_AS(processes{2}.run(1, [](std::size_t i) { return contract::encoded(i); }), usage_error);
+  stop = true;
+  other.join();
+  CHECK_NOTHROW(processes{2}.run(1, [](std::size_t i) { return contract::encoded(i); }));
+}
+
+TEST_CASE("A worker prints nothing and does not touch the parent's data") {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  std::fflush(nullptr);
+  const int saved = ::dup(STDOUT_FILENO);
+  ::dup2(ends[1], STDOUT_FILENO);
+  std::printf("buffered by the parent\n"); // must come out once
+  int counter = 0;
+  processes{2}.run(4, [&](std::size_t i) {
+    std::puts("noise");
+    std::fflush(stdout);
+    ++counter;
+    if (i == 3)
+      std::exit(0);
+    return byte_buffer{};
+  });
+  std::fflush(stdout);
+  ::dup2(saved, STDOUT_FILENO);
+  ::close(saved);
+  ::close(ends[1]);
+  std::string text(1000, '\0');
+  const ssize_t size = ::read(ends[0], text.data(), text.size());
+  ::close(ends[0]);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+  CHECK(text == "buffered by the parent\n");
+  CHECK(counter == 0);
+}
+
+TEST_CASE("Peak memory of the worker is reported") {
+  const auto outcomes = processes{1}.run(1, [](std::size_t) {
+    byte_buffer large(std::size_t{200} << 20, std::byte{1});
+    return byte_buffer{large[12345]};
+  });
+  CHECK(outcomes[0].peak_rss_bytes > std::size_t{200} << 20);
+}
+
+TEST_CASE("Outcomes equal those of serial, failures included") {
+  const task_function task = [](std::size_t i) -> byte_buffer {
+    if (i % 7 == 3)
+      throw mesher_error("piece " + std::to_string(i));
+    return contract::encoded(i * 31 % 17);
+  };
+  const auto expected = parallel::serial{}.run(50, task);
+  for (const int workers : {1, 2, 4}) {
+    const auto outcomes = processes{workers}.run(50, task);
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      CHECK(outcomes[i].ok == expected[i].ok);
+      CHECK(outcomes[i].result == expected[i].result);
+      CHECK(outcomes[i].failure == expected[i].failure);
+    }
+  }
+}
