@@ -1,0 +1,73 @@
+/// @file
+/// A geometry model chosen at run time: CAD or triangles behind one type.
+#pragma once
+
+#include "dovetail/geometry/concepts.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace dovetail::app {
+
+/// Holds any geometry model by shared, immutable ownership.
+class any_geometry {
+public:
+  template <geometry_model G>
+  explicit any_geometry(G held) : held_(std::make_shared<const model<G>>(std::move(held))) {}
+
+  const geometry_topology& topology() const { return held_->topology(); }
+  vec3 curve_point(local_id c, double t) const { return held_->curve_point(c, t); }
+  dovetail::curve_frame curve_frame(local_id c, double t) const { return held_->curve_frame(c, t); }
+  vec2 curve_uv(local_id f, int k, double t) const { return held_->curve_uv(f, k, t); }
+  vec3 face_point(local_id f, vec2 uv) const { return held_->face_point(f, uv); }
+  surface_frame face_frame(local_id f, vec2 uv) const { return held_->face_frame(f, uv); }
+  double face_curvature(local_id f, vec2 uv) const { return held_->face_curvature(f, uv); }
+  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const { return held_->project_to_face(f, p, seed); }
+  double project_to_curve(local_id c, vec3 p, double seed) const {
+    return held_->project_to_curve(c, p, seed);
+  }
+  box3 bounds() const { return held_->bounds(); }
+  bool thread_safe() const { return held_->thread_safe(); }
+
+private:
+  struct interface {
+    virtual ~interface() = default;
+    virtual const geometry_topology& topology() const = 0;
+    virtual vec3 curve_point(local_id c, double t) const = 0;
+    virtual dovetail::curve_frame curve_frame(local_id c, double t) const = 0;
+    virtual vec2 curve_uv(local_id f, int k, double t) const = 0;
+    virtual vec3 face_point(local_id f, vec2 uv) const = 0;
+    virtual surface_frame face_frame(local_id f, vec2 uv) const = 0;
+    virtual double face_curvature(local_id f, vec2 uv) const = 0;
+    virtual vec2 project_to_face(local_id f, vec3 p, vec2 seed) const = 0;
+    virtual double project_to_curve(local_id c, vec3 p, double seed) const = 0;
+    virtual box3 bounds() const = 0;
+    virtual bool thread_safe() const = 0;
+  };
+
+  template <class G>
+  struct model final : interface {
+    explicit model(G g) : held(std::move(g)) {}
+    const geometry_topology& topology() const override { return held.topology(); }
+    vec3 curve_point(local_id c, double t) const override { return held.curve_point(c, t); }
+    dovetail::curve_frame curve_frame(local_id c, double t) const override { return held.curve_frame(c, t); }
+    vec2 curve_uv(local_id f, int k, double t) const override { return held.curve_uv(f, k, t); }
+    vec3 face_point(local_id f, vec2 uv) const override { return held.face_point(f, uv); }
+    surface_frame face_frame(local_id f, vec2 uv) const override { return held.face_frame(f, uv); }
+    double face_curvature(local_id f, vec2 uv) const override { return held.face_curvature(f, uv); }
+    vec2 project_to_face(local_id f, vec3 p, vec2 seed) const override {
+      return held.project_to_face(f, p, seed);
+    }
+    double project_to_curve(local_id c, vec3 p, double seed) const override {
+      return held.project_to_curve(c, p, seed);
+    }
+    box3 bounds() const override { return held.bounds(); }
+    bool thread_safe() const override { return held.thread_safe(); }
+    G held;
+  };
+
+  std::shared_ptr<const interface> held_;
+};
+static_assert(geometry_model<any_geometry>);
+
+} // namespace dovetail::app

@@ -1,0 +1,101 @@
+/// @file
+/// Policies chosen at run time: thin models of the library's role concepts that forward to a held policy.
+/// With them the pipeline is instantiated once in the driver, not once per combination of names on the
+/// command line.
+#pragma once
+
+#include "dovetail/improver/concepts.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/partition/concepts.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::app {
+
+/// Holds any graph partitioner.
+class any_partitioner {
+public:
+  template <graph_partitioner P>
+  any_partitioner(std::string name, P policy) : name_(std::move(name)), call_(std::move(policy)) {}
+
+  const std::string& name() const { return name_; }
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const { return call_(graph, parts); }
+
+private:
+  std::string name_;
+  std::function<std::vector<local_id>(const csr_graph&, int)> call_;
+};
+static_assert(graph_partitioner<any_partitioner>);
+
+/// Holds any volume mesher that keeps its boundary.
+class any_mesher {
+public:
+  /// What every mesher the driver offers promises; `actual_traits` are the held one's.
+  static constexpr mesher_traits traits{.keeps_boundary = true, .may_crash = true};
+
+  template <boundary_keeping_mesher<3> M>
+  any_mesher(std::string name, M policy)
+      : name_(std::move(name)), actual_traits_(M::traits), call_(std::move(policy)) {}
+
+  const std::string& name() const { return name_; }
+  const mesher_traits& actual_traits() const { return actual_traits_; }
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    return call_(input, size);
+  }
+
+private:
+  std::string name_;
+  mesher_traits actual_traits_;
+  std::function<mesher_result<3>(const mesher_input<3>&, const any_sizing&)> call_;
+};
+static_assert(boundary_keeping_mesher<any_mesher, 3>);
+
+/// Holds any improver of tetrahedra.
+class any_improver {
+public:
+  template <improver<3> I>
+  any_improver(std::string name, I policy) : name_(std::move(name)), call_(std::move(policy)) {}
+
+  const std::string& name() const { return name_; }
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
+                    const any_sizing& size) const {
+    return call_(mesh, frozen, size);
+  }
+
+private:
+  std::string name_;
+  std::function<report(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&)> call_;
+};
+static_assert(improver<any_improver, 3>);
+
+/// Holds any executor.
+class any_executor {
+public:
+  template <executor E>
+  any_executor(std::string name, E policy)
+      : name_(std::move(name)), workers_(policy.workers()),
+        run_([held = std::make_shared<const E>(std::move(policy))](
+                 std::size_t count, const task_function& task, const run_options& options) {
+          return held->run(count, task, options);
+        }) {}
+
+  const std::string& name() const { return name_; }
+  int workers() const { return workers_; }
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options) const {
+    return run_(count, task, options);
+  }
+
+private:
+  std::string name_;
+  int workers_;
+  std::function<std::vector<task_outcome>(std::size_t, const task_function&, const run_options&)> run_;
+};
+static_assert(executor<any_executor>);
+
+} // namespace dovetail::app

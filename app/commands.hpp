@@ -1,0 +1,16 @@
+/// @file
+/// The driver's commands. Each returns the exit code, prints to the standard output, and throws on failure.
+#pragma once
+
+#include "options.hpp"
+
+namespace dovetail::app {
+
+int run_mesh(const mesh_options& options);
+int run_plan(const plan_options& options);
+int run_models();
+int run_check(const check_options& options);
+int run_stats(const stats_options& options);
+int run_improve(const improve_options& options);
+
+} // namespace dovetail::app

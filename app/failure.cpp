@@ -1,0 +1,53 @@
+#include "failure.hpp"
+
+#include "dovetail/core/error.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace dovetail::app {
+namespace {
+
+std::string on_one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    text.pop_back();
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n' && c != '\r')
+      line += c;
+    else if (!line.empty() && line.back() != ' ')
+      line += ' ';
+  }
+  return line;
+}
+
+} // namespace
+
+void complain(const std::string& text) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "dovetail: %s\n", on_one_line(text).c_str());
+}
+
+int run_guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const command_line_error& problem) {
+    complain(problem.what() + std::string(" (see dovetail --help)"));
+    return exit_usage;
+  } catch (const cancelled&) {
+    complain("stopped; the same command with --resume goes on from here");
+    return exit_stopped;
+  } catch (const error& problem) {
+    complain(problem.what());
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+  } catch (const std::exception& problem) {
+    complain(std::string("unexpected error: ") + problem.what());
+  } catch (...) {
+    complain("unexpected error of unknown kind");
+  }
+  return exit_failure;
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,31 @@
+/// @file
+/// How the driver ends: one clear line on the error stream, and an exit code.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace dovetail::app {
+
+enum exit_code : int {
+  exit_ok = 0,
+  exit_failure = 1, ///< an error of the library; or `check` found faults
+  exit_usage = 2,   ///< a wrong command line
+  exit_stopped = 130
+};
+
+/// A command line that asks for something impossible.
+class command_line_error : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs a command; on an exception says on one line of the error stream what went wrong, and returns the exit
+/// code.
+int run_guarded(const std::function<int()>& command);
+
+/// Writes "dovetail: <text>" on one line of the error stream.
+void complain(const std::string& text);
+
+} // namespace dovetail::app

@@ -1,0 +1,20 @@
+/// @file
+/// Mesh files of any kind the driver knows.
+#pragma once
+
+#include "dovetail/io/loaded_mesh.hpp"
+
+#include <filesystem>
+
+namespace dovetail::app {
+
+/// Reads a VTU, PVTU or MSH file; the extension decides. Throws `input_error` naming the file.
+io::loaded_mesh read_mesh_file(const std::filesystem::path& file);
+
+/// Throws `command_line_error` when there is no writer for the file's extension.
+void check_can_write(const std::filesystem::path& file);
+
+/// Writes a VTU or MSH file; the extension decides. Throws `io_error` naming the file.
+void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file);
+
+} // namespace dovetail::app

@@ -1,0 +1,29 @@
+/// @file
+/// The model and sizing field that a command line asks for.
+#pragma once
+
+#include "any_geometry.hpp"
+#include "options.hpp"
+
+#include "dovetail/core/report.hpp"
+#include "dovetail/sizing/erased.hpp"
+
+#include <string>
+
+namespace dovetail::app {
+
+struct model_source {
+  std::string name; ///< for the summary
+  any_geometry geometry;
+  any_sizing size;
+  report summary; ///< of reading and healing
+};
+
+/// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict
+/// each other, and the library's errors for files and sizes that cannot be used.
+model_source load_model(const model_options& options);
+
+/// The sizing field of a JSON file, or the uniform one; empty when neither is given.
+any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain);
+
+} // namespace dovetail::app

@@ -1,0 +1,62 @@
+/// @file
+/// What the command line asks for, as plain data.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// The model and its sizes: shared by `mesh` and `plan`.
+struct model_options {
+  std::string input;          ///< a CAD or triangle file; empty: a built-in model
+  std::string model;          ///< name of a built-in model; empty: the default one, or the input
+  std::string unit = "mm";    ///< unit that a STEP or IGES file is converted to
+  std::optional<double> size; ///< uniform size, or the scale of the built-in model's sizes
+  std::string sizing;         ///< JSON file with a sizing field
+};
+
+struct mesh_options {
+  model_options model;
+  std::optional<int> subdomains;
+  std::optional<double> coarsening; ///< background size over size
+  int workers = 0;                  ///< 0: as many as the machine has
+  std::string mesher;
+  std::string partitioner;
+  std::string improver;
+  std::string executor;
+  std::string out = "out";
+  std::vector<std::string> formats;
+  std::string report;
+  int pieces = 0; ///< number of VTU pieces; 0: one per subdomain
+  bool resume = false;
+  bool force = false;
+  bool quiet = false;
+};
+
+struct plan_options {
+  mesh_options mesh;
+  std::string report;
+};
+
+struct check_options {
+  std::string mesh;
+};
+
+struct stats_options {
+  std::string mesh;
+  std::string report;
+};
+
+struct improve_options {
+  std::string input;
+  std::string out;
+  std::string preset;
+  std::string sizing;
+  std::optional<double> size;
+  std::string report;
+  bool quiet = false;
+};
+
+} // namespace dovetail::app

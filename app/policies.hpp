@@ -1,0 +1,28 @@
+/// @file
+/// The policies that the driver knows by name. The first name of each list is the default.
+#pragma once
+
+#include "any_policies.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+std::vector<std::string> partitioner_names();
+std::vector<std::string> mesher_names();
+std::vector<std::string> improver_names();
+std::vector<std::string> executor_names();
+std::vector<std::string> builtin_model_names();
+
+/// Each throws `command_line_error` listing the names when there is none such. An empty name means the
+/// default.
+any_partitioner make_partitioner(const std::string& name);
+any_mesher make_mesher(const std::string& name);
+any_improver make_improver(const std::string& name);
+
+/// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when the mesher
+/// cannot run in this executor.
+any_executor make_executor(const std::string& name, int workers, const any_mesher& mesher);
+
+} // namespace dovetail::app

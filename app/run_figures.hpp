@@ -1,0 +1,78 @@
+/// @file
+/// What a run is described by, and its two forms: the summary on the terminal and the JSON report.
+#pragma once
+
+#include "dovetail/core/report.hpp"
+#include "dovetail/mesh/quality.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// Wall time of the stages.
+struct stage_seconds {
+  double geometry = 0;
+  double background = 0;
+  double simplification = 0;
+  double partition = 0;
+  double skeleton = 0;
+  double intersection = 0;
+  double meshing = 0;
+  double improvement = 0;
+  double output = 0;
+  double total = 0;
+};
+
+/// The interface contract on one skeleton. Angles in degrees; 180 where there is no interface.
+struct interface_figures {
+  double min_face_angle_deg = 180;
+  double min_wedge_deg = 180;
+  std::int64_t faces = 0;
+  std::int64_t forced = 0;  ///< below the threshold because of the CAD
+  std::int64_t refused = 0; ///< below the threshold because of the bound on super-elements
+};
+
+struct run_figures {
+  std::string model;
+  std::string mesher, partitioner, improver, executor;
+  int workers = 1;
+
+  std::int64_t elements = 0;
+  std::int64_t vertices = 0;
+  std::int64_t boundary_triangles = 0;
+  std::int64_t background_elements = 0;
+  int subdomains = 0;
+  double imbalance = 0; ///< largest subdomain over the average, in elements
+  stage_seconds seconds;
+  quality_statistics quality;
+  interface_figures interfaces, coarse_interfaces;
+  std::int64_t merges = 0;
+  std::int64_t largest_merged = 1; ///< subdomains merged into one, at most
+  std::int64_t failed_subdomains = 0;
+  std::uint64_t peak_rss_bytes = 0;
+  std::uint64_t mesh_hash = 0;
+  std::vector<std::string> warnings;
+  std::string out; ///< folder with the mesh
+  report details;  ///< the library's own report, all of it
+};
+
+/// The summary, laid out as the tables of the method's paper.
+std::string summary_text(const run_figures& figures);
+
+/// The number of elements with a smallest dihedral angle in the ranges of the paper's table of quality.
+std::string quality_text(const quality_statistics& quality);
+
+/// Writes the report; throws `io_error` when the file cannot be written. Nothing is left behind then.
+void write_report(const run_figures& figures, const std::filesystem::path& file);
+
+/// Writes the statistics of one mesh.
+void write_quality_report(const quality_statistics& quality, std::int64_t vertices,
+                          const std::filesystem::path& file);
+
+/// The largest resident set of this process and of any child it waited for.
+std::uint64_t peak_rss_bytes();
+
+} // namespace dovetail::app

@@ -1,0 +1,129 @@
+#include "run_figures.hpp"
+
+#include "dovetail/core/version.hpp"
+#include "dovetail/io/output_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+#include <sys/resource.h>
+
+namespace dovetail::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json seconds_json(const stage_seconds& seconds) {
+  return {{"geometry", seconds.geometry},
+          {"background", seconds.background},
+          {"simplification", seconds.simplification},
+          {"partition", seconds.partition},
+          {"skeleton", seconds.skeleton},
+          {"intersection", seconds.intersection},
+          {"meshing", seconds.meshing},
+          {"improvement", seconds.improvement},
+          {"output", seconds.output},
+          {"total", seconds.total}};
+}
+
+json quality_json(const quality_statistics& quality) {
+  return {{"min_dihedral_deg", quality.min_wedge_deg},
+          {"max_dihedral_deg", quality.max_wedge_deg},
+          {"mean_min_dihedral_deg", quality.mean_min_wedge_deg()},
+          {"bad_per_million", quality.per_million_under(12)},
+          {"low_per_million", quality.per_million_under(24)},
+          {"worst_element", quality.worst_element},
+          {"min_face_angle_deg", quality.min_face_deg},
+          {"histogram",
+           {{"bin_width_deg", 1},
+            {"min_dihedral", quality.min_wedges.bins},
+            {"max_dihedral", quality.max_wedges.bins}}}};
+}
+
+json interfaces_json(const interface_figures& interfaces) {
+  return {{"min_face_angle_deg", interfaces.min_face_angle_deg},
+          {"min_wedge_deg", interfaces.min_wedge_deg},
+          {"faces", interfaces.faces},
+          {"forced", interfaces.forced},
+          {"refused", interfaces.refused}};
+}
+
+json details_json(const report& details) {
+  json counters = json::object();
+  for (const auto& [key, value] : details.counters)
+    counters[key] = value;
+  json children = json::array();
+  for (const auto& child : details.children)
+    children.push_back(details_json(child));
+  return {{"name", details.name},
+          {"seconds", details.seconds},
+          {"counters", counters},
+          {"warnings", details.warnings},
+          {"children", children}};
+}
+
+std::string hash_text(std::uint64_t hash) {
+  char buffer[17];
+  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(hash));
+  return buffer;
+}
+
+void write_json(const json& document, const std::filesystem::path& path) {
+  io::output_file file(path);
+  file.text(document.dump(2) + '\n');
+  file.commit();
+}
+
+} // namespace
+
+void write_report(const run_figures& figures, const std::filesystem::path& file) {
+  json interfaces = interfaces_json(figures.interfaces);
+  interfaces["coarse"] = interfaces_json(figures.coarse_interfaces);
+  write_json({{"dovetail", version},
+              {"model", figures.model},
+              {"mesher", figures.mesher},
+              {"partitioner", figures.partitioner},
+              {"improver", figures.improver},
+              {"executor", figures.executor},
+              {"workers", figures.workers},
+              {"elements", figures.elements},
+              {"vertices", figures.vertices},
+              {"boundary_triangles", figures.boundary_triangles},
+              {"background_elements", figures.background_elements},
+              {"subdomains", figures.subdomains},
+              {"imbalance", figures.imbalance},
+              {"seconds", seconds_json(figures.seconds)},
+              {"quality", quality_json(figures.quality)},
+              {"interfaces", interfaces},
+              {"merges", figures.merges},
+              {"largest_merged", figures.largest_merged},
+              {"failed_subdomains", figures.failed_subdomains},
+              {"peak_rss_bytes", figures.peak_rss_bytes},
+              {"mesh_hash", hash_text(figures.mesh_hash)},
+              {"warnings", figures.warnings},
+              {"details", details_json(figures.details)}},
+             file);
+}
+
+void write_quality_report(const quality_statistics& quality, std::int64_t vertices,
+                          const std::filesystem::path& file) {
+  write_json({{"dovetail", version},
+              {"elements", quality.elements},
+              {"vertices", vertices},
+              {"quality", quality_json(quality)}},
+             file);
+}
+
+std::uint64_t peak_rss_bytes() {
+  std::uint64_t kilobytes = 0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    if (getrusage(who, &usage) == 0)
+      kilobytes = std::max(kilobytes, static_cast<std::uint64_t>(usage.ru_maxrss));
+  }
+  return 1024 * kilobytes;
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,131 @@
+#include "run_figures.hpp"
+#include "terminal_progress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace dovetail::app {
+namespace {
+
+/// Rows of a label and a right-aligned value.
+class table {
+public:
+  void heading(const std::string& text) { text_ += text + '\n'; }
+  void row(const std::string& label, const std::string& value) {
+    char line[200];
+    std::snprintf(line, sizeof line, "  %-42s %18s\n", label.c_str(), value.c_str());
+    text_ += line;
+  }
+  template <class Value>
+  void row(const std::string& label, const char* format, Value value) {
+    char buffer[80];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    row(label, buffer);
+  }
+  void whole(const std::string& label, std::int64_t value) { row(label, grouped(value)); }
+  const std::string& text() const { return text_; }
+
+private:
+  static std::string grouped(std::int64_t value) {
+    std::string digits = std::to_string(value);
+    for (std::size_t at = digits.size(); at > 3; at -= 3)
+      digits.insert(at - 3, 1, ',');
+    return digits;
+  }
+  std::string text_;
+};
+
+void add_general(table& rows, const run_figures& figures) {
+  rows.heading("General data");
+  rows.row("Model", figures.model);
+  rows.whole("No. of workers", figures.workers);
+  rows.whole("No. of background tetrahedra", figures.background_elements);
+  rows.whole("No. of subdomains", figures.subdomains);
+  rows.whole("No. of tetrahedra", figures.elements);
+  rows.whole("No. of vertices", figures.vertices);
+  rows.whole("No. of surface elements", figures.boundary_triangles);
+  rows.row("Largest subdomain / average", "%.3f", figures.imbalance);
+}
+
+void add_timing(table& rows, const run_figures& figures) {
+  const stage_seconds& s = figures.seconds;
+  rows.heading("Timing (seconds)");
+  rows.row("Entire scheme", "%.2f", s.total);
+  rows.row("  Geometry", "%.2f", s.geometry);
+  rows.row("  Domain decomposition", "%.2f",
+           s.background + s.simplification + s.partition + s.skeleton + s.intersection);
+  rows.row("    Bkg. mesh generation", "%.2f", s.background);
+  rows.row("    Bkg. mesh simplification", "%.2f", s.simplification);
+  rows.row("    Partition", "%.2f", s.partition);
+  rows.row("    Remeshing of subdomain boundaries", "%.2f", s.skeleton);
+  rows.row("    Intersection detection", "%.2f", s.intersection);
+  rows.row("  Mesh generation", "%.2f", s.meshing);
+  rows.row("  Mesh improvement", "%.2f", s.improvement);
+  rows.row("  Output", "%.2f", s.output);
+  if (s.total > 0)
+    rows.row("Relative speed (elements/second/worker)",
+             count_text(static_cast<double>(figures.elements) / s.total / std::max(1, figures.workers)));
+  rows.row("Peak memory of a process (MiB)", "%.0f", static_cast<double>(figures.peak_rss_bytes) / (1 << 20));
+}
+
+void add_interfaces(table& rows, const run_figures& figures) {
+  rows.heading("Interfaces                                        coarse          fine");
+  const auto pair = [&](const char* label, const char* format, auto coarse, auto fine) {
+    char values[80];
+    const std::string both = std::string(format) + format;
+    std::snprintf(values, sizeof values, both.c_str(), coarse, fine);
+    rows.row(label, values);
+  };
+  const auto& coarse = figures.coarse_interfaces;
+  const auto& fine = figures.interfaces;
+  pair("No. of faces", "%14lld", static_cast<long long>(coarse.faces), static_cast<long long>(fine.faces));
+  pair("Minimum face angle (degrees)", "%14.1f", coarse.min_face_angle_deg, fine.min_face_angle_deg);
+  pair("Minimum wedge (degrees)", "%14.1f", coarse.min_wedge_deg, fine.min_wedge_deg);
+  pair("Below the threshold, forced by the CAD", "%14lld", static_cast<long long>(coarse.forced),
+       static_cast<long long>(fine.forced));
+  pair("Below the threshold, refused by the bound", "%14lld", static_cast<long long>(coarse.refused),
+       static_cast<long long>(fine.refused));
+  rows.heading("Intersection suppression");
+  rows.whole("Difference of the number of subdomains", figures.merges);
+  rows.whole("Maximal size of a merged subdomain", figures.largest_merged);
+  if (figures.failed_subdomains > 0)
+    rows.whole("FAILED SUBDOMAINS", figures.failed_subdomains);
+}
+
+void add_quality(table& rows, const quality_statistics& quality) {
+  rows.heading("Volume mesh quality: minimum dihedral angle a (degrees)");
+  const auto under = quality.under_6_12_18_24();
+  rows.whole("No. of tetrahedra", quality.elements);
+  rows.row("Minimum dihedral angle", "%.2f", quality.min_wedge_deg);
+  rows.row("Maximum dihedral angle", "%.2f", quality.max_wedge_deg);
+  rows.whole("No. of tets with  0 < a <  6", under[0]);
+  rows.whole("No. of tets with  6 <= a < 12", under[1] - under[0]);
+  rows.whole("No. of tets with 12 <= a < 18", under[2] - under[1]);
+  rows.whole("No. of tets with 18 <= a < 24", under[3] - under[2]);
+  rows.whole("No. of tets with  0 < a < 12 (bad)", under[1]);
+  rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
+}
+
+} // namespace
+
+std::string summary_text(const run_figures& figures) {
+  table rows;
+  add_general(rows, figures);
+  add_timing(rows, figures);
+  if (figures.subdomains > 1)
+    add_interfaces(rows, figures);
+  add_quality(rows, figures.quality);
+  for (const auto& warning : figures.warnings)
+    rows.heading("warning: " + warning);
+  if (!figures.out.empty())
+    rows.heading("The mesh is in " + figures.out);
+  return rows.text();
+}
+
+std::string quality_text(const quality_statistics& quality) {
+  table rows;
+  add_quality(rows, quality);
+  return rows.text();
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,26 @@
+#include "stop_request.hpp"
+
+#include <csignal>
+
+namespace dovetail::app {
+namespace {
+
+volatile std::sig_atomic_t stop_flag = 0; // a signal handler can reach nothing else
+
+void note_request(int signal_number) {
+  stop_flag = 1;
+  std::signal(signal_number, SIG_DFL);
+}
+
+} // namespace
+
+void catch_stop_signals() {
+  std::signal(SIGINT, note_request);
+  std::signal(SIGTERM, note_request);
+}
+
+bool stop_was_requested() {
+  return stop_flag != 0;
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,49 @@
+# Sourced by the tests of the driver. $driver is the binary; every run happens in a fresh, empty folder.
+
+problems=0
+sandbox=$(mktemp -d)
+trap 'chmod -R u+w "$sandbox"; rm -rf "$sandbox"' EXIT
+inputs=$sandbox/inputs
+mkdir "$inputs"
+
+fault() {
+  echo "FAULT in '$what': $1"
+  sed 's/^/  stdout: /' "$sandbox/stdout" | head -n 20
+  sed 's/^/  stderr: /' "$sandbox/stderr" | head -n 20
+  problems=$((problems + 1))
+}
+
+# run_driver <arguments...>: sets $status; output in $sandbox/stdout and $sandbox/stderr.
+run_driver() {
+  what="dovetail $*"
+  rm -rf "$sandbox/work"
+  mkdir "$sandbox/work"
+  (cd "$sandbox/work" && timeout "${limit:-60}" "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  status=$?
+}
+
+# expect_error <expression> <arguments...>: the driver refuses with one clear line that matches, and leaves nothing.
+expect_error() {
+  local expression=$1
+  shift
+  run_driver "$@"
+  local lines
+  lines=$(grep -c '^dovetail: ' "$sandbox/stderr")
+  ((status == 1 || status == 2)) || fault "exit code is $status"
+  ((lines == 1)) || fault "there are $lines lines that begin with 'dovetail: '"
+  tail -n 1 "$sandbox/stderr" | grep -qiE -- "$expression" || fault "the last line does not match '$expression'"
+  local left
+  left=$(cd "$sandbox/work" && find . -type f)
+  [[ -z $left ]] || fault "left behind: $left"
+}
+
+# expect_success <arguments...>
+expect_success() {
+  run_driver "$@"
+  ((status == 0)) || fault "exit code is $status"
+}
+
+finish() {
+  ((problems == 0)) && echo "as expected"
+  exit $((problems > 0))
+}

@@ -1,5 +1,0 @@
-#include "dovetail/core/predicates.hpp"
-
-int count_parts() {
-  return 2;
-}
