@@ -1,0 +1,47 @@
+/// Writing and reading speed of the file formats: io [cells per axis] [folder].
+/// The mesh is a grid cube of 6 cells^3 elements in 64 subdomains, held in memory, so that the figures are
+/// those of the formats. The pieces are loaded by copy, as from a spool file in the page cache.
+#include "dovetail/io/distributed_statistics.hpp"
+#include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/vtu_writer.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+namespace {
+
+void print(const char* what, double elements, double seconds, double bytes) {
+  std::printf("%-28s %8.3f s %8.2f M elements/s %8.1f MB/s\n", what, seconds, 1e-6 * elements / seconds,
+              1e-6 * bytes / seconds);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  using namespace dovetail;
+  const int cells = argc > 1 ? std::atoi(argv[1]) / 4 * 4 : 64;
+  const auto folder = std::filesystem::path(argc > 2 ? argv[2] : std::filesystem::temp_directory_path()) /
+                      "dovetail_benchmark_io";
+  const auto mesh = testing::stacked_cubes{.cells = cells, .cuts = 4, .solids = 2}.distributed();
+  const auto elements = static_cast<double>(io::number_globally(mesh).elements());
+  std::printf("%.0f elements\n", elements);
+
+  const auto write = [&](const char* what, const auto& writer) {
+    const auto summary = writer(mesh, folder);
+    print(what, elements, summary.seconds, summary.get("bytes"));
+    std::filesystem::remove_all(folder);
+  };
+  write("vtu", io::vtu_writer{});
+  write("vtu, 2 pieces", io::vtu_writer{.pieces = 2});
+  write("msh, whole", io::msh_writer{});
+  write("msh, partitioned", io::msh_writer{.partitioned = true});
+  write("msh, partitioned, ghosts", io::msh_writer{.partitioned = true, .ghosts = true});
+  write("msh, text", io::msh_writer{.binary = false});
+
+  const stopwatch clock;
+  const auto hash = io::mesh_hash(mesh);
+  print("hash", elements, clock.seconds(), 0);
+  std::printf("%s\n", io::hash_text(hash).c_str());
+}

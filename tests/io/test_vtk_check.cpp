@@ -1,0 +1,77 @@
+// VTK itself reads what the VTU writer writes: scripts/check_mesh.py says what it found.
+#include "dovetail/io/vtu_writer.hpp"
+#include "io/scratch_folder.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+
+using namespace dovetail;
+
+namespace {
+
+const std::string python = "/usr/bin/python3";
+
+/// The script's exit status (0: valid) and what it printed.
+std::pair<int, std::string> check(const std::filesystem::path& folder) {
+  const auto log = folder / "check.json";
+  const int status = std::system(
+      (python + " " DOVETAIL_SCRIPTS "/check_mesh.py '" + folder.string() + "' > '" + log.string() + "' 2>&1")
+          .c_str());
+  return {status, testing::file_content(log)};
+}
+
+bool has_vtk() {
+  if (std::system((python + " -c 'import vtkmodules.vtkIOXML, numpy' > /dev/null 2>&1").c_str()) == 0)
+    return true;
+  MESSAGE("skipped: python3-vtk9 is not installed");
+  return false;
+}
+
+const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
+
+} // namespace
+
+TEST_CASE("VTK reads a valid mesh, for any number of pieces") {
+  if (!has_vtk())
+    return;
+  for (const int pieces : {0, 1, 3, 100}) {
+    const testing::scratch_folder folder("vtk_check");
+    io::vtu_writer{.pieces = pieces}(cubes.distributed(), folder);
+    const auto [status, log] = check(folder);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.find("\"elements\": 3072") != std::string::npos);
+    CHECK(log.find("\"vertices\": 729") != std::string::npos);
+    CHECK(log.find("\"subdomains\": 8") != std::string::npos);
+    CHECK(log.find("\"solid \\\"1\\\" <&>\"") != std::string::npos);
+    CHECK(log.find("\"side walls\": 4.0") != std::string::npos);
+    CHECK(log.find("\"euler_characteristic\": 2") != std::string::npos);
+  }
+}
+
+TEST_CASE("the check finds a crack, an inverted element and a wrong surface") {
+  if (!has_vtk())
+    return;
+  const auto spoil = [](auto change) {
+    auto mesh = cubes.distributed();
+    mesh.load = [load = mesh.load, change](local_id p) {
+      auto piece = load(p);
+      if (p == 1)
+        change(piece);
+      return piece;
+    };
+    const testing::scratch_folder folder("vtk_spoilt");
+    io::vtu_writer{}(mesh, folder);
+    return check(folder);
+  };
+  const auto inverted =
+      spoil([](mesh_piece& piece) { std::swap(piece.mesh.elements[9][0], piece.mesh.elements[9][1]); });
+  CHECK(inverted.first != 0);
+  CHECK(inverted.second.find("without positive volume") != std::string::npos);
+  const auto cracked = spoil([](mesh_piece& piece) { piece.mesh.elements[9] = piece.mesh.elements[8]; });
+  CHECK(cracked.first != 0);
+  CHECK(cracked.second.find("surface.vtp is not the boundary") != std::string::npos);
+}
