@@ -94,10 +94,11 @@ TEST_CASE("the tree gives what a loop over the sources gives") {
   for (const auto growth : {source_growth::to_ambient, source_growth::doubling}) {
     std::mt19937 random(7);
     const auto sources = random_sources(random, 300, growth);
-    const source_field all(0.9, sources);
+    const double slope = growth == source_growth::doubling ? 0.2 : 1e9;
+    const source_field all(0.9, sources, slope);
     std::vector<source_field> each;
     for (const auto& s : sources)
-      each.emplace_back(0.9, std::vector{s});
+      each.emplace_back(0.9, std::vector{s}, slope);
     std::uniform_real_distribution<double> at(-1, 11);
     int reached = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -112,27 +113,49 @@ TEST_CASE("the tree gives what a loop over the sources gives") {
   }
 }
 
-TEST_CASE("smallest_size_in is a lower bound and gets sharp") {
-  for (const auto growth : {source_growth::to_ambient, source_growth::doubling}) {
-    std::mt19937 random(11);
-    const source_field h(0.9, random_sources(random, 100, growth));
-    std::uniform_real_distribution<double> at(0, 10);
-    std::uniform_real_distribution<double> unit(0, 1);
-    for (int i = 0; i < 300; ++i) {
-      const vec3 corner{at(random), at(random), at(random)};
-      const vec3 extent{2 * unit(random), 2 * unit(random), 2 * unit(random)};
-      const box3 box{corner, corner + extent};
-      const double bound = h.smallest_size_in(box);
-      CHECK(bound > 0);
-      for (int j = 0; j < 50; ++j) {
-        const vec3 p{corner.x + unit(random) * extent.x, corner.y + unit(random) * extent.y,
-                     corner.z + unit(random) * extent.z};
-        CHECK(h(p) >= bound * (1 - 1e-9));
-      }
-      const vec3 tiny{1e-7, 1e-7, 1e-7};
-      CHECK(h.smallest_size_in({corner - tiny, corner + tiny}) == doctest::Approx(h(corner)).epsilon(1e-4));
+TEST_CASE("a slope limit makes the growth exponential, then straight, and keeps the bounds true") {
+  const double slope = 0.25;
+  for (const double outer : {0.5001, 1.5, 40.0}) {
+    const source_field free(2.0, {point_source({0, 0, 0}, 0.5, outer, 0.1)});
+    const source_field limited(2.0, {point_source({0, 0, 0}, 0.5, outer, 0.1)}, slope);
+    std::vector<double> radii;
+    for (int i = 0; i <= 4000; ++i)
+      radii.push_back(0.01 * i);
+    for (int i = 0; i < 4000; i += 37) {
+      double exact =
+          2.0; // min over y of h(y) + slope |x - y| along the ray, which passes the source's centre
+      const double r = 0.01 * i;
+      for (const double y : radii)
+        exact = std::min(exact, free({y, 0, 0}) + slope * std::abs(r - y));
+      CHECK(limited({r, 0, 0}) == doctest::Approx(exact).epsilon(0.003));
     }
   }
+  CHECK_THROWS_AS(source_field(1, {}, 0), sizing_error);
+  CHECK_THROWS_AS(source_field(1, {}, std::nan("")), sizing_error);
+}
+
+TEST_CASE("smallest_size_in is a lower bound and gets sharp") {
+  for (const auto growth : {source_growth::to_ambient, source_growth::doubling})
+    for (const double slope : {0.25, std::numeric_limits<double>::infinity()}) {
+      std::mt19937 random(11);
+      const source_field h(0.9, random_sources(random, 100, growth), slope);
+      std::uniform_real_distribution<double> at(0, 10);
+      std::uniform_real_distribution<double> unit(0, 1);
+      for (int i = 0; i < 300; ++i) {
+        const vec3 corner{at(random), at(random), at(random)};
+        const vec3 extent{2 * unit(random), 2 * unit(random), 2 * unit(random)};
+        const box3 box{corner, corner + extent};
+        const double bound = h.smallest_size_in(box);
+        CHECK(bound > 0);
+        for (int j = 0; j < 50; ++j) {
+          const vec3 p{corner.x + unit(random) * extent.x, corner.y + unit(random) * extent.y,
+                       corner.z + unit(random) * extent.z};
+          CHECK(h(p) >= bound * (1 - 1e-9));
+        }
+        const vec3 tiny{1e-7, 1e-7, 1e-7};
+        CHECK(h.smallest_size_in({corner - tiny, corner + tiny}) == doctest::Approx(h(corner)).epsilon(1e-4));
+      }
+    }
 }
 
 TEST_CASE("feature_size is half the inner radius or distance of the sources in reach") {

@@ -63,9 +63,17 @@ inline grid_source triangle_source(vec3 a, vec3 b, vec3 c, double inner, double 
 /// order, and anything that is not finite.
 class source_field {
 public:
-  source_field(double ambient, std::vector<grid_source> sources)
+  /// `largest_slope`: the size grows with the distance from a source by at most this per length, so that a
+  /// source reaches further than its outer radius if need be. Exact where the corners of a source are equal
+  /// (the limit of a minimum is the minimum of the limits); a tapered source adds its own taper along itself.
+  /// No limit by default.
+  source_field(double ambient, std::vector<grid_source> sources,
+               double largest_slope = std::numeric_limits<double>::infinity())
       : ambient_(sizing::checked_size(ambient, "the ambient size")), log_ambient_(std::log(ambient)),
-        sources_(std::move(sources)) {
+        largest_slope_(largest_slope), sources_(std::move(sources)) {
+    if (!(largest_slope > 0))
+      throw sizing_error("the largest slope of a source field is " + std::to_string(largest_slope) +
+                         "; give a positive number");
     std::vector<box3> boxes;
     boxes.reserve(sources_.size());
     for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -192,16 +200,18 @@ private:
       result.constant = result.constant && s.spacing[k] == s.spacing[0] &&
                         s.inner_radius[k] == s.inner_radius[0] && s.outer_radius[k] == s.outer_radius[0];
     }
-    if (s.growth == source_growth::doubling && !result.constant) {
-      // The reach is no longer monotone between corners: bound it by the widest band and the smallest
-      // spacing.
+    if (!result.constant && (s.growth == source_growth::doubling || std::isfinite(largest_slope_))) {
+      // The reach is not monotone between corners: bound it by the widest radii and the smallest spacing.
       double inner = 0;
       double band = 0;
       for (std::size_t k = 0; k <= static_cast<std::size_t>(s.dimension); ++k) {
         inner = std::max(inner, s.inner_radius[k]);
         band = std::max(band, s.outer_radius[k] - s.inner_radius[k]);
       }
-      result.reach = std::max(result.reach, inner + band * doublings_to_ambient(result.least));
+      const double log_least = std::log(result.least);
+      const double slowest = growth_rate(s, 0, band, log_least);
+      const double limited = std::isfinite(largest_slope_) ? ambient_ / largest_slope_ : 0.0;
+      result.reach = std::max(result.reach, inner + width_of_growth(log_least, slowest) + limited);
     }
     result.log_least = std::log(result.least);
     if (!result.constant) {
@@ -225,16 +235,11 @@ private:
     return b == 0 && c == 0 ? 0 : norm(gradient) / norm_squared(n);
   }
 
-  double doublings_to_ambient(double spacing) const {
-    return std::max(0.0, (log_ambient_ - std::log(spacing)) / std::numbers::ln2);
-  }
-
   double reach_at(const grid_source& s, const weights& at) const {
     const double inner = mixed(s.inner_radius, at);
-    const double outer = mixed(s.outer_radius, at);
-    return s.growth == source_growth::to_ambient
-               ? outer
-               : inner + (outer - inner) * doublings_to_ambient(mixed(s.spacing, at));
+    const double log_spacing = std::log(mixed(s.spacing, at));
+    return inner +
+           width_of_growth(log_spacing, growth_rate(s, inner, mixed(s.outer_radius, at), log_spacing));
   }
 
   nearest_point nearest(std::size_t i, vec3 p) const {
@@ -271,15 +276,43 @@ private:
     }
     if (r <= inner)
       return log_spacing;
-    if (s.growth == source_growth::doubling) {
-      const double band = outer - inner;
-      return band > 0 ? log_spacing + std::numbers::ln2 * (r - inner) / band : log_ambient_;
-    }
-    if (r >= outer)
-      return log_ambient_;
     if (!std::isfinite(inner) || !std::isfinite(outer))
       return log_spacing;
-    return log_spacing + (log_ambient_ - log_spacing) * (r - inner) / (outer - inner);
+    return std::min(log_ambient_,
+                    log_grown(log_spacing, growth_rate(s, inner, outer, log_spacing), r - inner));
+  }
+
+  /// The logarithm of the size grows by this per length outside the inner radius, before it is limited.
+  double growth_rate(const grid_source& s, double inner, double outer, double log_spacing) const {
+    const double rise = s.growth == source_growth::doubling ? std::numbers::ln2 : log_ambient_ - log_spacing;
+    return outer > inner ? rise / (outer - inner) : std::numeric_limits<double>::infinity();
+  }
+
+  /// Logarithm of the size at distance r from the inner radius: exponential until its slope reaches the
+  /// limit, straight on.
+  double log_grown(double log_spacing, double rate, double r) const {
+    const double exponential = log_spacing + rate * r;
+    if (largest_slope_ == std::numeric_limits<double>::infinity())
+      return exponential;
+    const double bend = std::max(std::log(largest_slope_ / rate), log_spacing); // -inf for an infinite rate
+    if (exponential <= bend)
+      return exponential;
+    const double r_bend = bend > log_spacing ? (bend - log_spacing) / rate : 0.0;
+    return std::log(std::exp(bend) + largest_slope_ * (r - r_bend));
+  }
+
+  /// The distance from the inner radius at which the size is the ambient one.
+  double width_of_growth(double log_spacing, double rate) const {
+    if (log_spacing >= log_ambient_)
+      return 0;
+    const double free_width = (log_ambient_ - log_spacing) / rate;
+    if (largest_slope_ == std::numeric_limits<double>::infinity())
+      return free_width;
+    const double bend = std::max(std::log(largest_slope_ / rate), log_spacing);
+    if (bend >= log_ambient_)
+      return free_width;
+    const double r_bend = bend > log_spacing ? (bend - log_spacing) / rate : 0.0;
+    return r_bend + (ambient_ - std::exp(bend)) / largest_slope_;
   }
 
   static void check(const grid_source& s, std::size_t index) {
@@ -300,6 +333,7 @@ private:
 
   double ambient_;
   double log_ambient_;
+  double largest_slope_;
   std::vector<grid_source> sources_;
   std::vector<law> laws_;
   candidate_octree located_;

@@ -1,0 +1,348 @@
+/// @file
+/// Limited growth: the largest field below a given one whose size grows by at most a slope per length,
+/// h*(x) = min over y of h(y) + slope |x - y|, precomputed on an octree.
+///
+/// Every corner of the octree carries the place y its value comes from, so that distances are straight lines
+/// through space and not along the octree's edges (the idea of vector distance propagation, P.-E. Danielsson,
+/// Comput. Graph. Image Process. 14 (1980) 227-248, driven by a priority queue as in Dijkstra's algorithm).
+#pragma once
+
+#include "dovetail/core/box_tree.hpp"
+#include "dovetail/sizing/erased.hpp"
+#include "dovetail/sizing/octree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+struct gradation_options {
+  double slope = 0.25;                    ///< growth of the size per length; above 0
+  double relative_error = 0.10;           ///< estimated in every leaf
+  std::size_t largest_leaves = 2'000'000; ///< stop refining there; `error_bound()` tells what was reached
+};
+
+/// A field with limited growth inside a domain; outside it, the value at the nearest point of the domain plus
+/// slope times the distance. Evaluated in O(depth) by trilinear interpolation, without calling the original
+/// field. Building costs about 20 evaluations of the original field per leaf; leaves are at most about twice
+/// as wide as the size in them. A source between the samples is seen through the field's `smallest_size_in`.
+/// Throws `sizing_error` for a slope that is not positive, an empty domain, or a field whose value is not a
+/// positive, finite number.
+class graded_size {
+public:
+  template <sizing_field H>
+  graded_size(const H& field, const box3& domain, const gradation_options& options = {})
+      : options_(options), tree_(checked(domain, options)) {
+    refine_to_sizes(field);
+    for (int round = 0;; ++round) {
+      collect_corners(field);
+      propagate();
+      const auto coarse = leaves_off_by_more(field);
+      if (coarse.empty() || round == largest_rounds || tree_.leaf_count() > options_.largest_leaves)
+        break;
+      for (const std::size_t leaf : coarse)
+        tree_.split(leaf);
+    }
+    forget_origins();
+  }
+
+  double operator()(vec3 p) const {
+    const box3& domain = tree_.bounds();
+    const vec3 q{std::clamp(p.x, domain.lower.x, domain.upper.x),
+                 std::clamp(p.y, domain.lower.y, domain.upper.y),
+                 std::clamp(p.z, domain.lower.z, domain.upper.z)};
+    return interpolated(tree_.locate(q), q) + options_.slope * distance(p, q);
+  }
+
+  /// The smallest corner value among the leaves that meet the box, or, where it is sharper, its centre's
+  /// value less what the slope allows.
+  double smallest_size_in(const box3& box) const {
+    const double radius = 0.5 * box.diagonal();
+    // A trilinear interpolant of values with this slope along the edges has at most this gradient.
+    const double steepest = std::sqrt(3.0) * options_.slope;
+    double least = std::numeric_limits<double>::infinity();
+    tree_.for_each_leaf([&](const box3& leaf) { return leaf.overlaps(box); },
+                        [&](std::size_t leaf) {
+                          for (const std::uint32_t corner : corners_[tree_.leaf_index(leaf)])
+                            least = std::min(least, values_[corner]);
+                        });
+    if (least == std::numeric_limits<double>::infinity()) // wholly outside
+      return std::max(smallest_, (*this)(box.center()) - steepest * radius);
+    return least;
+  }
+
+  double slope() const { return options_.slope; }
+  /// The largest relative error estimated in any leaf: interpolation, and where values start between the
+  /// samples.
+  double error_bound() const { return error_; }
+  std::size_t leaf_count() const { return tree_.leaf_count(); }
+
+private:
+  static constexpr int largest_rounds = 8;
+  static constexpr double width_per_size = 4; // of a leaf, to begin with
+
+  using corner_ids = std::array<std::uint32_t, 8>;
+
+  static box3 checked(const box3& domain, const gradation_options& options) {
+    sizing::checked_size(options.slope, "the gradation slope");
+    sizing::checked_size(options.relative_error, "the error of the gradation");
+    sizing::checked_point(domain.lower, "the domain of the gradation");
+    sizing::checked_point(domain.upper, "the domain of the gradation");
+    if (domain.empty() || !(domain.diagonal() > 0))
+      throw sizing_error("the domain of the gradation is empty; give the model's box");
+    return sizing::cube_around(domain);
+  }
+
+  /// What the field may be as small as in a box: its bound, and samples at the centre.
+  template <sizing_field H>
+  static double least_in(const H& field, const box3& box) {
+    const double bound = dovetail::smallest_size_in(field, box);
+    const double sample =
+        sizing::checked_size(static_cast<double>(field(box.center())), "a value of the sizing field");
+    return bound > 0 ? bound : sample;
+  }
+
+  /// Splits leaves wider than a few sizes. Without a bound from the field, at least 32 leaves across the
+  /// domain.
+  template <sizing_field H>
+  void refine_to_sizes(const H& field) {
+    const double widest = (tree_.bounds().upper.x - tree_.bounds().lower.x) / 32;
+    tree_.refine([&](const box3& box) {
+      if (tree_.leaf_count() > options_.largest_leaves)
+        return false;
+      const double width = box.upper.x - box.lower.x;
+      const bool bounded = dovetail::smallest_size_in(field, box) > 0;
+      return width > width_per_size * least_in(field, box) || (!bounded && width > widest);
+    });
+  }
+
+  /// Numbers the corners of the leaves and gives each the field's value there, or what the bound in a leaf
+  /// allows.
+  template <sizing_field H>
+  void collect_corners(const H& field) {
+    struct corner_key {
+      std::array<std::uint32_t, 3> at;
+      std::uint32_t leaf;
+      std::uint32_t which;
+    };
+    std::vector<corner_key> keys;
+    keys.reserve(8 * tree_.leaf_count());
+    for (std::uint32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf)
+      for (std::uint32_t k = 0; k < 8; ++k)
+        keys.push_back({tree_.corner_key(tree_.leaf(leaf), k), leaf, k});
+    std::sort(keys.begin(), keys.end(), [](const corner_key& a, const corner_key& b) {
+      return std::tie(a.at, a.leaf, a.which) < std::tie(b.at, b.leaf, b.which);
+    });
+    corners_.assign(tree_.leaf_count(), {});
+    points_.clear();
+    values_.clear();
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (i == 0 || keys[i].at != keys[i - 1].at) {
+        points_.push_back(tree_.corner_point(keys[i].at));
+        values_.push_back(
+            sizing::checked_size(static_cast<double>(field(points_.back())), "a value of the sizing field"));
+      }
+      corners_[keys[i].leaf][keys[i].which] = static_cast<std::uint32_t>(points_.size() - 1);
+    }
+    raw_ = values_;
+    seed_origins(field);
+  }
+
+  /// Places that values may come from: every corner, and in every leaf its centre, and a smaller value that
+  /// only the bound shows (taken at the centre: off by at most half the leaf's diagonal).
+  template <sizing_field H>
+  void seed_origins(const H& field) {
+    origins_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      origins_.push_back({points_[i], values_[i]});
+    origin_of_.resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      origin_of_[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t leaf = 0; leaf < tree_.leaf_count(); ++leaf) {
+      const box3 box = tree_.box(tree_.leaf(leaf));
+      double least = static_cast<double>(field(box.center()));
+      const double bound = dovetail::smallest_size_in(field, box);
+      if (bound > 0)
+        least = std::min(least, bound + 0.25 * options_.slope * box.diagonal());
+      offer(leaf, {box.center(), least});
+    }
+  }
+
+  struct origin {
+    vec3 point;
+    double size;
+  };
+
+  double value_from(const origin& o, vec3 p) const { return o.size + options_.slope * distance(o.point, p); }
+
+  /// Lets the corners of a leaf take their values from a new origin where that is smaller.
+  void offer(std::size_t leaf, const origin& o) {
+    bool taken = false;
+    for (const std::uint32_t corner : corners_[leaf]) {
+      const double value = value_from(o, points_[corner]);
+      if (value < values_[corner]) {
+        values_[corner] = value;
+        origin_of_[corner] = static_cast<std::uint32_t>(origins_.size());
+        taken = true;
+      }
+    }
+    if (taken)
+      origins_.push_back(o);
+  }
+
+  /// Smallest values first, each corner hands its origin to the other corners of its leaves.
+  void propagate() {
+    const auto leaves_of = leaves_around_corners();
+    using entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<entry, std::vector<entry>, std::greater<>> queue;
+    for (std::uint32_t i = 0; i < values_.size(); ++i)
+      queue.emplace(values_[i], i);
+    while (!queue.empty()) {
+      const auto [value, from] = queue.top();
+      queue.pop();
+      if (value > values_[from])
+        continue;
+      const origin& o = origins_[origin_of_[from]];
+      for (std::size_t k = leaves_of.begins[from]; k < leaves_of.begins[from + 1]; ++k)
+        for (const std::uint32_t to : corners_[leaves_of.leaves[k]]) {
+          const double candidate = value_from(o, points_[to]);
+          if (candidate < values_[to]) {
+            values_[to] = candidate;
+            origin_of_[to] = origin_of_[from];
+            queue.emplace(candidate, to);
+          }
+        }
+    }
+  }
+
+  struct corner_leaves {
+    std::vector<std::size_t> begins;
+    std::vector<std::uint32_t> leaves;
+  };
+  corner_leaves leaves_around_corners() const {
+    corner_leaves result;
+    result.begins.assign(points_.size() + 1, 0);
+    for (const auto& leaf : corners_)
+      for (const std::uint32_t corner : leaf)
+        ++result.begins[corner + 1];
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      result.begins[i + 1] += result.begins[i];
+    result.leaves.resize(result.begins.back());
+    auto next = result.begins;
+    for (std::uint32_t leaf = 0; leaf < corners_.size(); ++leaf)
+      for (const std::uint32_t corner : corners_[leaf])
+        result.leaves[next[corner]++] = leaf;
+    return result;
+  }
+
+  /// Leaves whose error estimate is above the one asked for; also sets `error_` and `smallest_`.
+  template <sizing_field H>
+  std::vector<std::size_t> leaves_off_by_more(const H& field) {
+    std::vector<std::size_t> coarse;
+    error_ = 0;
+    smallest_ = *std::min_element(values_.begin(), values_.end());
+    for (std::size_t index = 0; index < tree_.leaf_count(); ++index) {
+      const double error = std::max(interpolation_error(index, field), origin_error(index, field));
+      error_ = std::max(error_, error);
+      if (error > options_.relative_error)
+        coarse.push_back(tree_.leaf(index));
+    }
+    return coarse;
+  }
+
+  /// Largest relative difference, at the centres of a leaf, its faces and its edges, from what the corners'
+  /// origins and (at the leaf's centre) the field itself give there.
+  template <sizing_field H>
+  double interpolation_error(std::size_t index, const H& field) const {
+    const std::size_t leaf = tree_.leaf(index);
+    const box3 box = tree_.box(leaf);
+    const vec3 half = 0.5 * (box.upper - box.lower);
+    const bool all_limited =
+        std::all_of(corners_[index].begin(), corners_[index].end(),
+                    [&](std::uint32_t corner) { return values_[corner] < raw_[corner]; });
+    double worst = 0;
+    for (int k = 0; k < 27; ++k) {
+      const std::array<int, 3> at{k % 3, k / 3 % 3, k / 9};
+      if (at[0] != 1 && at[1] != 1 && at[2] != 1) // a corner
+        continue;
+      const vec3 p = box.lower + vec3{at[0] * half.x, at[1] * half.y, at[2] * half.z};
+      double exact = k == 13 ? static_cast<double>(field(p)) : std::numeric_limits<double>::infinity();
+      for (const std::uint32_t corner : corners_[index])
+        exact = std::min(exact, value_from(origins_[origin_of_[corner]], p));
+      const double value = interpolated(leaf, p);
+      // Below the cones of the corners the field itself may rule: only where none of the corners keeps it is
+      // that an error.
+      if (k == 13 || value > exact || all_limited)
+        worst = std::max(worst, std::abs(value - exact) / exact);
+    }
+    return worst;
+  }
+
+  /// Where the field itself is the limit at one corner and too steep at another, values start from somewhere
+  /// between the samples, so they are off by up to the slope times half the leaf's width; so are they where
+  /// the field's bound allows a size below all samples.
+  template <sizing_field H>
+  double origin_error(std::size_t index, const H& field) const {
+    const box3 box = tree_.box(tree_.leaf(index));
+    double least = std::numeric_limits<double>::infinity();
+    double sampled = static_cast<double>(field(box.center()));
+    bool kept = false;
+    bool limited = false;
+    for (const std::uint32_t corner : corners_[index]) {
+      least = std::min(least, values_[corner]);
+      sampled = std::min(sampled, raw_[corner]);
+      kept = kept || raw_[corner] <= values_[corner] * (1 + 1e-9);
+      limited = limited || raw_[corner] > values_[corner] * (1 + 0.5 * options_.relative_error);
+    }
+    const double bound = dovetail::smallest_size_in(field, box);
+    const bool hidden = bound > 0 && bound <= least && bound < sampled * (1 - options_.relative_error);
+    if (!hidden && !(kept && limited))
+      return 0;
+    return 0.5 * options_.slope * (box.upper.x - box.lower.x) / (hidden ? bound : least);
+  }
+
+  double interpolated(std::size_t leaf, vec3 p) const {
+    const box3 box = tree_.box(leaf);
+    const vec3 extent = box.upper - box.lower;
+    const vec3 t{(p.x - box.lower.x) / extent.x, (p.y - box.lower.y) / extent.y,
+                 (p.z - box.lower.z) / extent.z};
+    const corner_ids& c = corners_[tree_.leaf_index(leaf)];
+    const auto along_x = [&](std::size_t k) {
+      return values_[c[k]] + t.x * (values_[c[k + 1]] - values_[c[k]]);
+    };
+    const double y0 = along_x(0) + t.y * (along_x(2) - along_x(0));
+    const double y1 = along_x(4) + t.y * (along_x(6) - along_x(4));
+    return y0 + t.z * (y1 - y0);
+  }
+
+  void forget_origins() {
+    points_ = {};
+    raw_ = {};
+    origins_ = {};
+    origin_of_ = {};
+  }
+
+  gradation_options options_;
+  sizing::octree tree_;
+  std::vector<corner_ids>
+      corners_;                ///< per leaf, corner k at the upper end of x, y, z where bits 0, 1, 2 are set
+  std::vector<double> values_; ///< per corner
+  double error_ = 0;
+  double smallest_ = 0;
+  // While building:
+  std::vector<vec3> points_;
+  std::vector<double> raw_; ///< the field itself at the corners
+  std::vector<origin> origins_;
+  std::vector<std::uint32_t> origin_of_;
+};
+
+} // namespace dovetail

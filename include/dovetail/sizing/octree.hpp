@@ -1,0 +1,146 @@
+/// @file
+/// A pointerless cube octree that can be refined, with integer keys for the corners of its leaves.
+#pragma once
+
+#include "dovetail/core/vector.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace dovetail::sizing {
+
+/// The cube around a box, a little larger so that nothing lies on its faces.
+inline box3 cube_around(const box3& box) {
+  const vec3 extent = box.upper - box.lower;
+  const double half = 0.5001 * (extent.x > extent.y ? (extent.x > extent.z ? extent.x : extent.z)
+                                                    : (extent.y > extent.z ? extent.y : extent.z));
+  const vec3 arm{half, half, half};
+  return {box.center() - arm, box.center() + arm};
+}
+
+/// Nodes are numbered in the order they are made; children of a node are eight in a row, child k in the upper
+/// half of x, y, z where bits 0, 1, 2 of k are set. At most `largest_depth` levels below the root.
+class octree {
+public:
+  static constexpr int largest_depth = 20;
+  using key = std::array<std::uint32_t, 3>;
+
+  explicit octree(const box3& cube) : cube_(cube) {
+    nodes_.push_back({});
+    leaves_.push_back(0);
+  }
+
+  const box3& bounds() const { return cube_; }
+  std::size_t leaf_count() const { return leaves_.size(); }
+  std::size_t leaf(std::size_t index) const { return leaves_[index]; }
+  std::size_t leaf_index(std::size_t leaf) const { return nodes_[leaf].link; }
+
+  /// The leaf that contains p, which must lie in `bounds()`.
+  std::size_t locate(vec3 p) const {
+    std::size_t at = 0;
+    while (nodes_[at].inner) {
+      const vec3 center = corner_point(center_key(nodes_[at]));
+      at = nodes_[at].link + (p.x >= center.x ? 1U : 0U) + (p.y >= center.y ? 2U : 0U) +
+           (p.z >= center.z ? 4U : 0U);
+    }
+    return at;
+  }
+
+  box3 box(std::size_t node) const {
+    return {corner_point(corner_key(node, 0)), corner_point(corner_key(node, 7))};
+  }
+
+  /// The integer place of corner k of a node, equal for corners that coincide.
+  key corner_key(std::size_t node, std::uint32_t k) const {
+    const node_data& n = nodes_[node];
+    const std::uint32_t width = width_of(n);
+    return {n.lower[0] + (k & 1U) * width, n.lower[1] + (k >> 1 & 1U) * width, n.lower[2] + (k >> 2) * width};
+  }
+  vec3 corner_point(const key& at) const {
+    const double unit = (cube_.upper.x - cube_.lower.x) / static_cast<double>(1U << largest_depth);
+    return cube_.lower +
+           unit * vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+  }
+
+  /// Makes a leaf an inner node; nothing happens at the largest depth.
+  void split(std::size_t leaf) {
+    const node_data parent = nodes_[leaf];
+    if (parent.inner || parent.depth == largest_depth)
+      return;
+    const std::uint32_t half = width_of(parent) / 2;
+    const std::uint32_t index = parent.link;
+    const auto first = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[leaf].inner = true;
+    nodes_[leaf].link = first;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      node_data child;
+      child.lower = {parent.lower[0] + (k & 1U) * half, parent.lower[1] + (k >> 1 & 1U) * half,
+                     parent.lower[2] + (k >> 2) * half};
+      child.depth = static_cast<std::uint8_t>(parent.depth + 1);
+      child.link = k == 0 ? index : static_cast<std::uint32_t>(leaves_.size());
+      if (k == 0)
+        leaves_[index] = first;
+      else
+        leaves_.push_back(first + k);
+      nodes_.push_back(child);
+    }
+  }
+
+  /// Splits leaves while `too_coarse(box)`, level by level.
+  template <class TooCoarse>
+  void refine(TooCoarse&& too_coarse) {
+    std::vector<std::size_t> level = leaves_;
+    while (!level.empty()) {
+      std::vector<std::size_t> next;
+      for (const std::size_t leaf : level) {
+        if (nodes_[leaf].depth == largest_depth || !too_coarse(box(leaf)))
+          continue;
+        split(leaf);
+        for (std::size_t k = 0; k < 8; ++k)
+          next.push_back(nodes_[leaf].link + k);
+      }
+      level.swap(next);
+    }
+  }
+
+  /// Visits the leaves below nodes whose boxes satisfy `enter`.
+  template <class Enter, class Visit>
+  void for_each_leaf(Enter&& enter, Visit&& visit) const {
+    std::array<std::size_t, 7 * largest_depth + 8> pending;
+    std::size_t depth = 0;
+    pending[depth++] = 0;
+    while (depth > 0) {
+      const std::size_t at = pending[--depth];
+      if (!enter(box(at)))
+        continue;
+      if (!nodes_[at].inner)
+        visit(at);
+      else
+        for (std::size_t k = 0; k < 8; ++k)
+          pending[depth++] = nodes_[at].link + k;
+    }
+  }
+
+private:
+  struct node_data {
+    key lower{0, 0, 0};     ///< in units of the cube's width / 2^largest_depth
+    std::uint32_t link = 0; ///< inner: its first child; leaf: its index among the leaves
+    std::uint8_t depth = 0;
+    bool inner = false;
+  };
+
+  static std::uint32_t width_of(const node_data& n) { return 1U << (largest_depth - n.depth); }
+  static key center_key(const node_data& n) {
+    const std::uint32_t half = width_of(n) / 2;
+    return {n.lower[0] + half, n.lower[1] + half, n.lower[2] + half};
+  }
+
+  box3 cube_;
+  std::vector<node_data> nodes_;
+  std::vector<std::size_t> leaves_;
+};
+
+} // namespace dovetail::sizing
