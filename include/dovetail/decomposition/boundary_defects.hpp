@@ -1,0 +1,157 @@
+/// @file
+/// Where the boundaries of parts are not manifold.
+#pragma once
+
+#include "dovetail/mesh/adjacency.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace dovetail {
+
+/// The elements around each point, growing, in compressed rows.
+struct point_elements {
+  std::vector<std::size_t> begins{0};
+  std::vector<local_id> elements;
+
+  std::span<const local_id> at(local_id point) const {
+    const auto v = static_cast<std::size_t>(point);
+    return std::span(elements).subspan(begins[v], begins[v + 1] - begins[v]);
+  }
+};
+
+template <int D>
+point_elements elements_around_points(const simplicial_mesh<D>& mesh) {
+  point_elements table;
+  table.begins.assign(mesh.points.size() + 1, 0);
+  for (const auto& element : mesh.elements)
+    for (const local_id v : element)
+      ++table.begins[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(table.begins.begin(), table.begins.end(), table.begins.begin());
+  table.elements.resize(table.begins.back());
+  std::vector<std::size_t> next(table.begins.begin(), table.begins.end() - 1);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (const local_id v : mesh.elements[e])
+      table.elements[next[static_cast<std::size_t>(v)]++] = static_cast<local_id>(e);
+  return table;
+}
+
+/// Counts how far the boundaries of the parts are from manifolds at single points.
+///
+/// At a manifold point the boundary of a part is one fan of sides: for D = 3 one cycle of triangles with two
+/// at each edge, for D = 2 two edges. A defect is one fan, or one pair of sides at an edge, too many.
+template <int D>
+class boundary_defects {
+public:
+  boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
+      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)) {}
+
+  const point_elements& around() const { return around_; }
+
+  /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
+  template <class PartOf>
+  int count_at(local_id point, const PartOf& part_of) {
+    collect_boundary(point, part_of);
+    int defects = 0;
+    for (std::size_t first = 0; first < sides_here_.size();) {
+      std::size_t last = first;
+      while (last < sides_here_.size() && sides_here_[last].part == sides_here_[first].part)
+        ++last;
+      defects += count_in_link(std::span(sides_here_).subspan(first, last - first));
+      first = last;
+    }
+    return defects;
+  }
+
+private:
+  /// A boundary side of a part at the point: an edge of the link (D = 3), with its ends, or a point (D = 2).
+  struct link_side {
+    local_id part;
+    local_id a;
+    local_id b;
+
+    auto key() const { return std::tuple(part, a, b); }
+  };
+
+  template <class PartOf>
+  void collect_boundary(local_id point, const PartOf& part_of) {
+    sides_here_.clear();
+    const auto elements = around_.at(point);
+    // The common case, all in one part and no boundary, is left to the loop below: it collects nothing.
+    for (const local_id e : elements) {
+      const auto& vertices = mesh_.elements[static_cast<std::size_t>(e)];
+      const local_id own = part_of(e);
+      for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i) {
+        if (vertices[i] == point)
+          continue; // the side opposite the point
+        const local_id other = sides_.across(sides_.of_element[static_cast<std::size_t>(e)][i], e);
+        if (other != no_id && part_of(other) == own)
+          continue;
+        link_side side{own, no_id, no_id};
+        for (const int local : numbering::sides<D>[i])
+          if (const local_id v = vertices[static_cast<std::size_t>(local)]; v != point)
+            (side.a == no_id ? side.a : side.b) = v;
+        sides_here_.push_back(side);
+      }
+    }
+    std::sort(sides_here_.begin(), sides_here_.end(),
+              [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
+  }
+
+  int count_in_link(std::span<const link_side> link) {
+    if constexpr (D == 2)
+      return std::max(0, (static_cast<int>(link.size()) + 1) / 2 - 1);
+    ends_.clear();
+    for (const link_side& side : link) {
+      ends_.push_back(side.a);
+      ends_.push_back(side.b);
+    }
+    std::sort(ends_.begin(), ends_.end());
+    int defects = 0;
+    for (std::size_t first = 0; first < ends_.size();) {
+      std::size_t last = first;
+      while (last < ends_.size() && ends_[last] == ends_[first])
+        ++last;
+      defects += std::max(0, (static_cast<int>(last - first) + 1) / 2 - 1);
+      first = last;
+    }
+    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+    return defects + components(link) - 1;
+  }
+
+  /// Connected components of the graph whose edges are the link's sides and whose nodes are `ends_`.
+  int components(std::span<const link_side> link) {
+    parents_.resize(ends_.size());
+    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+    const auto root = [&](local_id v) {
+      auto k = static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), v) - ends_.begin());
+      while (parents_[k] != k)
+        k = parents_[k] = parents_[parents_[k]];
+      return k;
+    };
+    auto count = static_cast<int>(ends_.size());
+    for (const link_side& side : link) {
+      const std::size_t a = root(side.a);
+      const std::size_t b = root(side.b);
+      if (a != b) {
+        parents_[a] = b;
+        --count;
+      }
+    }
+    return count;
+  }
+
+  const simplicial_mesh<D>& mesh_;
+  const side_table<D>& sides_;
+  point_elements around_;
+  std::vector<link_side> sides_here_; ///< scratch
+  std::vector<local_id> ends_;        ///< scratch
+  std::vector<std::size_t> parents_;  ///< scratch
+};
+
+} // namespace dovetail

@@ -1,0 +1,109 @@
+/// @file
+/// Makes every part connected.
+#pragma once
+
+#include "dovetail/graph/contraction.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Joins every component of a part but its heaviest to the neighbouring component with which it shares the
+/// largest edge weight, the lightest component first. Parts neither vanish nor appear. A stray component
+/// without any neighbour stays. Returns how many components were joined. Each join removes a component, so
+/// this terminates.
+inline std::size_t join_stray_components(const csr_graph& graph, std::span<local_id> part, int parts) {
+  const labelled_components found = components_within(graph, part);
+  const auto count = static_cast<std::size_t>(found.count);
+  if (found.count == parts)
+    return 0;
+  std::vector<double> weight(count, 0.0);
+  std::vector<local_id> part_of(count, no_id);
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    weight[static_cast<std::size_t>(found.of_node[v])] += graph.node_weights[v];
+    part_of[static_cast<std::size_t>(found.of_node[v])] = part[v];
+  }
+  std::vector<std::size_t> main(static_cast<std::size_t>(parts), count);
+  for (std::size_t c = 0; c < count; ++c) {
+    std::size_t& best = main[static_cast<std::size_t>(part_of[c])];
+    if (best == count || weight[c] > weight[best])
+      best = c;
+  }
+  std::vector<std::size_t> strays;
+  for (std::size_t c = 0; c < count; ++c)
+    if (main[static_cast<std::size_t>(part_of[c])] != c)
+      strays.push_back(c);
+  std::stable_sort(strays.begin(), strays.end(),
+                   [&](std::size_t a, std::size_t b) { return weight[a] < weight[b]; });
+
+  csr_graph components = contract(graph, found.of_node, found.count);
+  // Components that were joined, as a chain to where they went.
+  std::vector<std::size_t> into(count);
+  std::iota(into.begin(), into.end(), std::size_t{0});
+  const auto resolve = [&](std::size_t c) {
+    while (into[c] != c)
+      c = into[c];
+    return c;
+  };
+  std::vector<std::vector<std::size_t>> members(count);
+  for (std::size_t c = 0; c < count; ++c)
+    members[c] = {c};
+  std::size_t joined = 0;
+  for (const std::size_t stray : strays) {
+    if (resolve(stray) != stray)
+      continue;
+    std::map<std::size_t, double> shared; // few neighbours; ordered, so ties go to the first
+    for (const std::size_t member : members[stray]) {
+      const auto row = components.row(static_cast<local_id>(member));
+      const auto begin = static_cast<std::size_t>(components.offsets[member]);
+      for (std::size_t k = 0; k < row.size(); ++k)
+        if (const std::size_t other = resolve(static_cast<std::size_t>(row[k])); other != stray)
+          shared[other] += components.edge_weights[begin + k];
+    }
+    if (shared.empty())
+      continue;
+    const auto best = std::max_element(shared.begin(), shared.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    into[stray] = best->first;
+    auto& target = members[best->first];
+    target.insert(target.end(), members[stray].begin(), members[stray].end());
+    ++joined;
+  }
+  for (std::size_t v = 0; v < part.size(); ++v)
+    part[v] = part_of[resolve(static_cast<std::size_t>(found.of_node[v]))];
+  return joined;
+}
+
+/// Is the part with this label connected (or empty)? Linear in the size of the graph.
+inline bool is_connected(const csr_graph& graph, std::span<const local_id> part, local_id label) {
+  std::vector<local_id> stack;
+  std::size_t left = 0;
+  for (std::size_t v = 0; v < part.size(); ++v)
+    if (part[v] == label) {
+      ++left;
+      if (stack.empty())
+        stack.push_back(static_cast<local_id>(v));
+    }
+  std::vector<bool> seen(part.size(), false);
+  for (const local_id v : stack)
+    seen[static_cast<std::size_t>(v)] = true;
+  while (!stack.empty()) {
+    const local_id v = stack.back();
+    stack.pop_back();
+    --left;
+    for (const local_id w : graph.row(v))
+      if (!seen[static_cast<std::size_t>(w)] && part[static_cast<std::size_t>(w)] == label) {
+        seen[static_cast<std::size_t>(w)] = true;
+        stack.push_back(w);
+      }
+  }
+  return left == 0;
+}
+
+} // namespace dovetail

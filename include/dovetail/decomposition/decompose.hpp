@@ -1,0 +1,152 @@
+/// @file
+/// From a simplified mesh to subdomains: connected, of one material, with manifold boundaries.
+///
+/// The whole chain for a solid, on plain data (weights = predicted final elements per coarse element):
+///
+///     const auto edges = build_sides(surface.mesh);                       // simplicial_mesh<2>
+///     const simplify_parameters<2> on_surface{.subdomains = parts};
+///     const auto flat = simplify<2>(surface.mesh, edges, {.fixed_sides = cad_curve_edges}, on_surface);
+///     const auto coupled = coupling(surface.mesh, edges, flat, on_surface, volume_point_of_surface_point);
+///     const auto sides = build_sides(coarse);                             // simplicial_mesh<3>
+///     const auto simplified = simplify<3>(coarse, sides, {.coupled_ridges = coupled, .element_weights =
+///     weights},
+///                                         {.subdomains = parts});
+///     const auto pieces = decompose<3>(coarse, sides, simplified, partition::metis{}, parts);
+///     const auto boundary = subdomain_boundary(coarse, sides, pieces.part_of_element);  // the coarse
+///     skeleton's faces const auto contract = check_interface_contract(...);                // see
+///     interface_contract.hpp
+///
+/// `simplify_volume_and_surface` (simplify_coupled.hpp) does the first five lines in one call.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/decomposition/apportion.hpp"
+#include "dovetail/decomposition/connectivity.hpp"
+#include "dovetail/decomposition/manifold_repair.hpp"
+#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/part_weights.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Who owns which element.
+struct decomposition {
+  std::vector<local_id> part_of_element;
+  local_id parts = 0;
+  std::vector<local_id> material_of_part; ///< the elements' tag; 0 without tags
+  std::vector<double> part_weights;
+  std::vector<local_id> part_of_super;
+  /// Points where the boundary of some part is not manifold and could not be made so; empty if all are.
+  std::vector<local_id> defective_points;
+  report summary;
+};
+
+namespace detail {
+
+/// The graph of super-elements without the edges that cross a material face.
+inline csr_graph within_materials(const csr_graph& graph, std::span<const local_id> material) {
+  csr_graph filtered;
+  filtered.node_weights = graph.node_weights;
+  for (local_id v = 0; v < graph.node_count(); ++v) {
+    const auto row = graph.row(v);
+    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (material[static_cast<std::size_t>(v)] == material[static_cast<std::size_t>(row[k])]) {
+        filtered.neighbours.push_back(row[k]);
+        filtered.edge_weights.push_back(graph.edge_weights[begin + k]);
+      }
+    filtered.offsets.push_back(static_cast<std::int64_t>(filtered.neighbours.size()));
+  }
+  return filtered;
+}
+
+/// Partitions each component on its own; the parts of one component have consecutive numbers.
+template <graph_partitioner Partitioner>
+std::vector<local_id> partition_components(const csr_graph& graph, const labelled_components& components,
+                                           const Partitioner& partitioner,
+                                           std::span<const int> parts_of_component) {
+  std::vector<local_id> part(graph.node_weights.size(), no_id);
+  local_id first_part = 0;
+  for (local_id c = 0; c < components.count; ++c) {
+    const int parts = parts_of_component[static_cast<std::size_t>(c)];
+    const subgraph piece = induced_subgraph(graph, components.of_node, c);
+    const std::vector<local_id> local = partitioner(piece.graph, parts);
+    for (std::size_t k = 0; k < local.size(); ++k)
+      part[static_cast<std::size_t>(piece.nodes[k])] = first_part + local[k];
+    first_part += parts;
+  }
+  return part;
+}
+
+} // namespace detail
+
+/// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).
+///
+/// `material` has one entry per element, or is empty: `mesh.tags` for D = 3; empty for D = 2 when subsurfaces
+/// may cross CAD curves. Every subdomain is non-empty and connected through sides; its boundary is
+/// manifold but at `defective_points`. Deterministic for a deterministic partitioner. Throws
+/// `partition_error` when the mesh is empty or the partitioner fails.
+template <int D, graph_partitioner Partitioner>
+decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                        std::span<const local_id> super_of_element, const csr_graph& super_graph,
+                        std::span<const local_id> material, const Partitioner& partitioner, int parts) {
+  const stopwatch time;
+  if (mesh.elements.empty())
+    throw partition_error("cannot decompose a mesh without elements");
+  std::vector<local_id> material_of_super(super_graph.node_weights.size(), 0);
+  if (!material.empty())
+    for (std::size_t e = 0; e < super_of_element.size(); ++e)
+      material_of_super[static_cast<std::size_t>(super_of_element[e])] = material[e];
+  const csr_graph graph = detail::within_materials(super_graph, material_of_super);
+  const labelled_components components = components_within(graph, material_of_super);
+  std::vector<double> weights = part_weights(graph, components.of_node, components.count);
+  std::vector<local_id> nodes(weights.size(), 0);
+  for (const local_id c : components.of_node)
+    ++nodes[static_cast<std::size_t>(c)];
+  const std::vector<int> parts_of_component = apportion_parts(weights, nodes, parts);
+
+  decomposition result;
+  result.part_of_super = detail::partition_components(graph, components, partitioner, parts_of_component);
+  for (const int count : parts_of_component)
+    result.parts += count;
+  const double cut = edge_cut(graph, result.part_of_super);
+  const std::size_t joined = join_stray_components(graph, result.part_of_super, result.parts);
+  manifold_repair<D> repair(mesh, sides, super_of_element, graph, result.part_of_super);
+  const std::size_t moved = repair.run();
+  result.defective_points = repair.defective_points();
+
+  result.part_of_element.resize(mesh.elements.size());
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    result.part_of_element[e] = result.part_of_super[static_cast<std::size_t>(super_of_element[e])];
+  result.part_weights = part_weights(graph, result.part_of_super, result.parts);
+  result.material_of_part.assign(static_cast<std::size_t>(result.parts), 0);
+  for (std::size_t s = 0; s < material_of_super.size(); ++s)
+    result.material_of_part[static_cast<std::size_t>(result.part_of_super[s])] = material_of_super[s];
+
+  report& summary = result.summary;
+  summary.name = "partition";
+  summary.set("subdomains", result.parts);
+  summary.set("components", components.count);
+  summary.set("imbalance", imbalance_of(graph, result.part_of_super, result.parts));
+  summary.set("cut_of_partitioner", cut);
+  summary.set("cut", edge_cut(graph, result.part_of_super));
+  summary.set("joined_strays", static_cast<double>(joined));
+  summary.set("reassigned_super_elements", static_cast<double>(moved));
+  summary.set("defective_points", static_cast<double>(result.defective_points.size()));
+  if (!result.defective_points.empty())
+    summary.warnings.push_back("subdomain boundaries are not manifold at " +
+                               std::to_string(result.defective_points.size()) +
+                               " points, the first is point " +
+                               std::to_string(result.defective_points.front()) + " of the coarse mesh");
+  summary.seconds = time.seconds();
+  return result;
+}
+
+} // namespace dovetail

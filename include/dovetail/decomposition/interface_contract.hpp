@@ -1,0 +1,207 @@
+/// @file
+/// The interface contract: no small face angle on an interface, no small wedge beside one. Measured on the
+/// coarse or on the fine skeleton; what is below the threshold is listed with its cause.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// Why an angle is below the threshold.
+enum class contract_cause : std::uint8_t {
+  forced,    ///< all its triangles are fixed by the CAD
+  refused,   ///< one of its triangles lies on a coarse side that the bound refused to remove
+  remeshing, ///< neither: it came up after the coarse decomposition, by curving or refining
+};
+
+/// What an interface triangle comes from; the CAD's own triangles are `cad`.
+enum class triangle_origin : std::uint8_t {
+  cad,     ///< on a CAD face: boundary or material face
+  kept,    ///< on an interface inside a solid
+  refused, ///< the same, on a coarse side that ought to have been removed
+};
+
+/// The triangles of all subdomain boundaries, each held once; spans of equal length but `points`.
+struct contract_input {
+  std::span<const vec3> points;
+  std::span<const simplex<2>> triangles;
+  std::span<const std::array<local_id, 2>> subdomains; ///< oriented outwards of [0]; [1] may be no_id
+  std::span<const triangle_origin> origins;
+};
+
+/// An angle under the threshold.
+struct contract_violation {
+  double angle_deg = 0;
+  contract_cause cause = contract_cause::refused;
+  std::array<local_id, 2> triangles{no_id, no_id}; ///< the triangle itself, or the two that make the wedge
+  std::array<local_id, 2> edge{no_id, no_id};      ///< a wedge's ridge; no_id for the angle of a face
+  local_id subdomain = no_id;                      ///< the subdomain a wedge lies in
+
+  bool is_wedge() const { return edge[0] != no_id; }
+};
+
+/// A minimum and where it occurs.
+struct contract_minimum {
+  double angle_deg = 360; ///< 360 when there is nothing to measure
+  std::array<local_id, 2> triangles{no_id, no_id};
+  std::array<local_id, 2> edge{no_id, no_id};
+};
+
+struct interface_contract {
+  std::size_t interface_faces = 0;
+  contract_minimum face_angle;                ///< of interface triangles
+  contract_minimum interface_wedge;           ///< between two interface triangles
+  contract_minimum surface_wedge;             ///< between an interface triangle and one of the CAD
+  std::vector<contract_violation> violations; ///< by growing angle
+
+  double min_wedge_deg() const { return std::min(interface_wedge.angle_deg, surface_wedge.angle_deg); }
+  std::size_t count(contract_cause cause) const {
+    return static_cast<std::size_t>(
+        std::count_if(violations.begin(), violations.end(), [&](const auto& v) { return v.cause == cause; }));
+  }
+};
+
+namespace detail {
+
+class contract_checker {
+public:
+  contract_checker(const contract_input& input, double threshold_deg)
+      : in_(input), threshold_(threshold_deg) {
+    if (in_.subdomains.size() != in_.triangles.size() || in_.origins.size() != in_.triangles.size())
+      throw usage_error("interface contract: " + std::to_string(in_.triangles.size()) + " triangles, but " +
+                        std::to_string(in_.subdomains.size()) + " pairs of subdomains and " +
+                        std::to_string(in_.origins.size()) + " origins");
+  }
+
+  interface_contract run() {
+    measure_faces();
+    for_each_group<2>(
+        in_.triangles.size() * 3, in_.points.size(),
+        [&](std::size_t h) {
+          return sorted_vertices(pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]));
+        },
+        [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
+          measure_wedges(edge, half_edges);
+        });
+    std::sort(found_.violations.begin(), found_.violations.end(), [](const auto& a, const auto& b) {
+      return std::tuple(a.angle_deg, a.triangles, a.edge) < std::tuple(b.angle_deg, b.triangles, b.edge);
+    });
+    return std::move(found_);
+  }
+
+private:
+  /// A triangle at an edge: its direction around the edge, and the subdomains on its two sides.
+  struct flap {
+    double direction; ///< angle around the edge, counter-clockwise seen against the edge
+    local_id triangle;
+    local_id before; ///< the subdomain on the clockwise side
+    local_id after;  ///< on the counter-clockwise side
+  };
+
+  bool is_cad(local_id t) const { return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::cad; }
+  bool is_refused(local_id t) const {
+    return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
+  }
+  contract_cause cause_of(local_id a, local_id b) const {
+    if (is_cad(a) && is_cad(b))
+      return contract_cause::forced;
+    return is_refused(a) || is_refused(b) ? contract_cause::refused : contract_cause::remeshing;
+  }
+  vec3 at(local_id v) const { return in_.points[static_cast<std::size_t>(v)]; }
+
+  void measure_faces() {
+    for (std::size_t t = 0; t < in_.triangles.size(); ++t) {
+      const auto id = static_cast<local_id>(t);
+      if (is_cad(id))
+        continue;
+      ++found_.interface_faces;
+      const auto angles = wedge_angles(corners(in_.points, in_.triangles[t]));
+      const double smallest = *std::min_element(angles.begin(), angles.end());
+      if (smallest < found_.face_angle.angle_deg)
+        found_.face_angle = {smallest, {id, no_id}, {no_id, no_id}};
+      if (smallest < threshold_)
+        found_.violations.push_back({smallest, cause_of(id, id), {id, no_id}, {no_id, no_id}, no_id});
+    }
+  }
+
+  void measure_wedges(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
+    const bool all_cad = std::all_of(half_edges.begin(), half_edges.end(),
+                                     [&](std::uint32_t h) { return is_cad(static_cast<local_id>(h / 3)); });
+    if (all_cad || half_edges.size() < 2)
+      return;
+    collect_flaps(edge, half_edges);
+    for (std::size_t k = 0; k < flaps_.size(); ++k) {
+      const flap& here = flaps_[k];
+      const flap& next = flaps_[(k + 1) % flaps_.size()];
+      if (here.after == no_id || here.after != next.before ||
+          (is_cad(here.triangle) && is_cad(next.triangle)))
+        continue; // outside of the domain, or none of the interfaces' business
+      const double turn =
+          next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
+      note_wedge(edge, here, next, turn * degrees_per_radian);
+    }
+  }
+
+  void collect_flaps(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
+    const vec3 origin = at(edge[0]);
+    const vec3 axis = normalized(at(edge[1]) - origin);
+    const auto apex = [&](std::uint32_t h) {
+      return in_.triangles[h / 3][h % 3];
+    }; // side i is opposite vertex i
+    const vec3 to_first = at(apex(half_edges[0])) - origin;
+    const vec3 x = normalized(to_first - dot(to_first, axis) * axis);
+    const vec3 y = cross(axis, x);
+    flaps_.clear();
+    for (const std::uint32_t h : half_edges) {
+      const auto t = static_cast<local_id>(h / 3);
+      const vec3 d = at(apex(h)) - origin;
+      const auto vertices = pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]);
+      // A triangle that passes the edge in the edge's direction has its normal, which points out of
+      // subdomains[0], on the counter-clockwise side.
+      const auto& both = in_.subdomains[h / 3];
+      const bool along = vertices[0] == edge[0];
+      flaps_.push_back({h == half_edges[0] ? 0.0 : std::atan2(dot(d, y), dot(d, x)), t,
+                        along ? both[0] : both[1], along ? both[1] : both[0]});
+    }
+    std::sort(flaps_.begin(), flaps_.end(), [](const flap& a, const flap& b) {
+      return std::pair(a.direction, a.triangle) < std::pair(b.direction, b.triangle);
+    });
+  }
+
+  void note_wedge(const std::array<local_id, 2>& edge, const flap& a, const flap& b, double angle) {
+    contract_minimum& minimum =
+        is_cad(a.triangle) || is_cad(b.triangle) ? found_.surface_wedge : found_.interface_wedge;
+    if (angle < minimum.angle_deg)
+      minimum = {angle, {a.triangle, b.triangle}, edge};
+    if (angle < threshold_)
+      found_.violations.push_back(
+          {angle, cause_of(a.triangle, b.triangle), {a.triangle, b.triangle}, edge, a.after});
+  }
+
+  const contract_input& in_;
+  double threshold_;
+  interface_contract found_;
+  std::vector<flap> flaps_; ///< scratch
+};
+
+} // namespace detail
+
+/// Measures the contract. About linear in the number of triangles. Throws `usage_error` when the spans do not
+/// match.
+inline interface_contract check_interface_contract(const contract_input& input, double threshold_deg = 30) {
+  return detail::contract_checker(input, threshold_deg).run();
+}
+
+} // namespace dovetail
