@@ -27,7 +27,7 @@ int run_stats(const stats_options& options) {
   std::printf("%s: %zu vertices\n%s", options.mesh.c_str(), loaded.mesh.points.size(),
               quality_text(quality).c_str());
   if (!options.report.empty())
-    write_quality_report(quality, static_cast<std::int64_t>(loaded.mesh.points.size()), options.report);
+    write_quality_report(quality, static_cast<std::int64_t>(loaded.mesh.points.size()), {}, options.report);
   return exit_ok;
 }
 

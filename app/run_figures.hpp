@@ -68,8 +68,8 @@ std::string quality_text(const quality_statistics& quality);
 /// Writes the report; throws `io_error` when the file cannot be written. Nothing is left behind then.
 void write_report(const run_figures& figures, const std::filesystem::path& file);
 
-/// Writes the statistics of one mesh.
-void write_quality_report(const quality_statistics& quality, std::int64_t vertices,
+/// Writes the statistics of one mesh, and what was done to it (or an empty report).
+void write_quality_report(const quality_statistics& quality, std::int64_t vertices, const report& details,
                           const std::filesystem::path& file);
 
 /// The largest resident set of this process and of any child it waited for.

@@ -107,12 +107,13 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
              file);
 }
 
-void write_quality_report(const quality_statistics& quality, std::int64_t vertices,
+void write_quality_report(const quality_statistics& quality, std::int64_t vertices, const report& details,
                           const std::filesystem::path& file) {
   write_json({{"dovetail", version},
               {"elements", quality.elements},
               {"vertices", vertices},
-              {"quality", quality_json(quality)}},
+              {"quality", quality_json(quality)},
+              {"details", details_json(details)}},
              file);
 }
 

@@ -1,0 +1,148 @@
+#include "command_line.hpp"
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "policies.hpp"
+
+#include "dovetail/core/version.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <functional>
+#include <string>
+
+namespace dovetail::app {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void add_model_options(CLI::App& command, model_options& options) {
+  command.add_option(
+      "INPUT", options.input,
+      "CAD file (STEP, IGES, BREP) or triangles (STL, OBJ, OFF, PLY); none: the built-in aircraft");
+  command.add_option("--model", options.model,
+                     "Built-in model instead of a file: " + joined(builtin_model_names()));
+  command
+      .add_option("--unit", options.unit, "Unit of lengths from STEP and IGES files: as in the file, or mm")
+      ->check(CLI::IsMember({"file", "mm"}))
+      ->capture_default_str();
+  auto* size = command.add_option("--size", options.size,
+                                  "Target edge length, in the model's unit (default: diagonal / 25)");
+  command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
+      ->excludes(size);
+}
+
+void add_run_options(CLI::App& command, mesh_options& options) {
+  command.add_option("--subdomains", options.subdomains,
+                     "Number of subdomains (default: from the predicted number of elements)");
+  command.add_option("--coarsening", options.coarsening,
+                     "Edge length of the background mesh over the target (default: from the prediction)");
+  command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
+  command.add_option("--mesher", options.mesher, "Volume mesher: " + joined(mesher_names()));
+  command.add_option("--partitioner", options.partitioner,
+                     "Graph partitioner: " + joined(partitioner_names()));
+  command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
+  command.add_option("--executor", options.executor, "Where pieces are meshed: " + joined(executor_names()));
+}
+
+void add_output_options(CLI::App& command, mesh_options& options) {
+  command.add_option("--out", options.out, "Folder for the mesh")->capture_default_str();
+  command
+      .add_option("--format", options.formats,
+                  "File formats, several allowed: vtu, msh, msh-partitioned, none (default: vtu)")
+      ->delimiter(',');
+  command.add_option("--pieces", options.pieces, "Number of VTU files (default: one per subdomain)");
+  command.add_option("--report", options.report, "JSON file for figures about the run");
+  command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
+  command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk or the memory");
+  command.add_flag("--quiet", options.quiet, "No progress and no summary");
+}
+
+/// The commands and what the command line said for each.
+struct parser {
+  CLI::App app{
+      "Meshes CAD models in parallel with tetrahedra: decompose along clean interfaces, mesh the pieces."};
+  mesh_options mesh;
+  plan_options plan;
+  check_options check;
+  stats_options stats;
+  improve_options improve;
+  std::function<int()> chosen;
+
+  parser() {
+    app.name("dovetail");
+    app.set_version_flag("--version", std::string("dovetail ") + version);
+    app.require_subcommand(1);
+    app.option_defaults()->always_capture_default(false);
+    add_mesh();
+    add_plan();
+    add_models();
+    add_check();
+    add_stats();
+    add_improve();
+  }
+
+  void add_mesh() {
+    auto& command = *app.add_subcommand("mesh", "Mesh a CAD file or a built-in model");
+    add_model_options(command, mesh.model);
+    add_run_options(command, mesh);
+    add_output_options(command, mesh);
+    command.callback([this] { chosen = [this] { return run_mesh(mesh); }; });
+  }
+  void add_plan() {
+    auto& command = *app.add_subcommand("plan", "Predict elements, memory and time before any meshing");
+    add_model_options(command, plan.mesh.model);
+    add_run_options(command, plan.mesh);
+    command.add_option("--report", plan.report, "JSON file for the figures");
+    command.callback([this] { chosen = [this] { return run_plan(plan); }; });
+  }
+  void add_models() {
+    auto& command = *app.add_subcommand("models", "List the built-in models");
+    command.callback([this] { chosen = run_models; });
+  }
+  void add_check() {
+    auto& command = *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, MSH) is a valid mesh");
+    command.add_option("MESH", check.mesh, "Mesh file")->required();
+    command.callback([this] { chosen = [this] { return run_check(check); }; });
+  }
+  void add_stats() {
+    auto& command = *app.add_subcommand("stats", "Print the quality of a mesh file");
+    command.add_option("MESH", stats.mesh, "Mesh file")->required();
+    command.add_option("--report", stats.report, "JSON file for the figures");
+    command.callback([this] { chosen = [this] { return run_stats(stats); }; });
+  }
+  void add_improve() {
+    auto& command = *app.add_subcommand("improve", "Improve the elements of a mesh file, boundary kept");
+    command.add_option("IN", improve.input, "Mesh file")->required();
+    command.add_option("--out", improve.out, "Mesh file to write (VTU or MSH)")->required();
+    command.add_option("--preset", improve.preset, "Improver: " + joined(improver_names()));
+    auto* size = command.add_option("--size", improve.size, "Target edge length (default: as in the mesh)");
+    command.add_option("--sizing", improve.sizing, "JSON file with a sizing field")->excludes(size);
+    command.add_option("--report", improve.report, "JSON file for the figures");
+    command.add_flag("--quiet", improve.quiet, "No progress and no summary");
+    command.callback([this] { chosen = [this] { return run_improve(improve); }; });
+  }
+};
+
+} // namespace
+
+int run_command_line(int argc, char** argv) {
+  parser line;
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::Success& request) { // --help, --version
+    return line.app.exit(request);
+  } catch (const CLI::ParseError& problem) {
+    complain(problem.what() + std::string(" (see dovetail --help)"));
+    return exit_usage;
+  }
+  return run_guarded(line.chosen);
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,106 @@
+#include "policies.hpp"
+
+#include "failure.hpp"
+
+#include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/improver/native.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "dovetail/partition/greedy.hpp"
+#include "dovetail/partition/metis.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace dovetail::app {
+namespace {
+
+template <class Policy>
+std::vector<std::string> names_of(const std::vector<Policy>& policies) {
+  std::vector<std::string> names;
+  for (const auto& policy : policies)
+    names.push_back(policy.name());
+  return names;
+}
+
+template <class Policy>
+Policy chosen(const std::vector<Policy>& policies, const std::string& name, const std::string& option) {
+  if (name.empty())
+    return policies.front();
+  for (const auto& policy : policies)
+    if (policy.name() == name)
+      return policy;
+  std::string known;
+  for (const auto& policy : policies)
+    known += (known.empty() ? "" : ", ") + policy.name();
+  throw command_line_error(option + ": there is no '" + name + "'; there are: " + known);
+}
+
+std::vector<any_partitioner> partitioners() {
+  return {{"metis", partition::metis{}}, {"greedy", partition::greedy{}}};
+}
+
+std::vector<any_mesher> meshers() {
+  return {{"tetgen", mesher::tetgen{}}};
+}
+
+std::vector<any_improver> improvers() {
+  return {{"native", improvement::native{}},
+          {"fast", improvement::native::fast()},
+          {"fine", improvement::native::fine()},
+          {"finest", improvement::native::finest()},
+          {"none", improvement::none{}}};
+}
+
+} // namespace
+
+std::vector<std::string> partitioner_names() {
+  return names_of(partitioners());
+}
+std::vector<std::string> mesher_names() {
+  return names_of(meshers());
+}
+std::vector<std::string> improver_names() {
+  return names_of(improvers());
+}
+std::vector<std::string> executor_names() {
+  return {"processes", "threads", "serial"};
+}
+std::vector<std::string> builtin_model_names() {
+  std::vector<std::string> names;
+  for (const auto& info : builtin_models())
+    names.emplace_back(info.name);
+  return names;
+}
+
+any_partitioner make_partitioner(const std::string& name) {
+  return chosen(partitioners(), name, "--partitioner");
+}
+any_mesher make_mesher(const std::string& name) {
+  return chosen(meshers(), name, "--mesher");
+}
+any_improver make_improver(const std::string& name) {
+  return chosen(improvers(), name, "--improver");
+}
+
+any_executor make_executor(const std::string& name, int workers, const any_mesher& mesher) {
+  if (workers < 0)
+    throw command_line_error("--workers: " + std::to_string(workers) + " is negative");
+  if (workers == 0)
+    workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (name == "threads") {
+    if (!mesher.actual_traits().thread_safe)
+      throw command_line_error("--executor: the mesher " + mesher.name() +
+                               " cannot run in several threads of one process; use processes");
+    return {"threads", parallel::threads{.worker_count = workers}};
+  }
+  if (name == "serial")
+    return {"serial", parallel::serial{}};
+  if (name.empty() || name == "processes")
+    return {"processes", parallel::processes{.worker_count = workers}};
+  throw command_line_error("--executor: there is no '" + name + "'; there are: processes, threads, serial");
+}
+
+} // namespace dovetail::app
