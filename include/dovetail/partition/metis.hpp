@@ -75,6 +75,12 @@ private:
     return scaled;
   }
 
+  /// METIS can keep parts connected, but only when the graph is.
+  static bool has_one_component(const csr_graph& graph) {
+    const std::vector<local_id> one(graph.node_weights.size(), 0);
+    return components_within(graph, one).count == 1;
+  }
+
   std::vector<local_id> call(const csr_graph& graph, int parts) const {
     std::vector<idx_t> node_weights = integers(graph.node_weights, "nodes");
     std::vector<idx_t> edge_weights = integers(graph.edge_weights, "edges");
@@ -84,6 +90,7 @@ private:
     METIS_SetDefaultOptions(options.data());
     options[METIS_OPTION_SEED] = seed;
     options[METIS_OPTION_NUMBERING] = 0;
+    options[METIS_OPTION_CONTIG] = has_one_component(graph) ? 1 : 0;
     options[METIS_OPTION_NCUTS] = std::max(1, trials);
     options[METIS_OPTION_UFACTOR] = std::max(1, static_cast<idx_t>(std::lround((imbalance - 1) * 1000)));
     idx_t n = graph.node_count();
