@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dovetail::io {
@@ -69,6 +71,24 @@ void append_computed(output_file& file, std::uint64_t count, Function at) {
 inline std::string vtk_xml_opening(const std::string& kind) {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
          "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+}
+
+/// Text as the value of an XML attribute.
+inline std::string xml_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '>')
+      escaped += "&gt;";
+    else if (c == '"')
+      escaped += "&quot;";
+    else
+      escaped += c;
+  }
+  return escaped;
 }
 
 /// A string array of the field data. VTK stores it as the codes of its characters, each string ending in 0.

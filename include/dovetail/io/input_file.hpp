@@ -1,0 +1,135 @@
+/// @file
+/// Reading files: the content at once, and a cursor that can say where it is when something is wrong.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace dovetail::io {
+
+/// The bytes of a file. Throws `input_error` naming it when it is missing, no file, unreadable or empty.
+inline std::string read_file(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure))
+    throw input_error(path.string() + ": there is no such file");
+  if (!std::filesystem::is_regular_file(path, failure))
+    throw input_error(path.string() + ": this is not a file");
+  const auto size = std::filesystem::file_size(path, failure);
+  std::ifstream stream(path, std::ios::binary);
+  if (failure || !stream)
+    throw input_error(path.string() + ": the file cannot be read; check its permissions");
+  if (size == 0)
+    throw input_error(path.string() + ": the file is empty");
+  std::string content(static_cast<std::size_t>(size), '\0');
+  stream.read(content.data(), static_cast<std::streamsize>(size));
+  if (stream.gcount() != static_cast<std::streamsize>(size))
+    throw input_error(path.string() + ": the file cannot be read to its end");
+  return content;
+}
+
+/// The value with its bytes in reverse order.
+template <class T>
+T byte_swapped(T value) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  std::reverse(bytes.begin(), bytes.end());
+  std::memcpy(&value, bytes.data(), sizeof(T));
+  return value;
+}
+
+/// A place in a text or binary file that moves on as things are read. Every failure throws `input_error`
+/// naming file and place.
+class file_cursor {
+public:
+  file_cursor(std::string_view content, std::string name) : content_(content), name_(std::move(name)) {}
+
+  bool at_end() const { return at_ == content_.size(); }
+  std::size_t left() const { return content_.size() - at_; }
+  std::size_t position() const { return at_; }
+  std::string_view rest() const { return content_.substr(at_); }
+  const std::string& name() const { return name_; }
+  void skip(std::size_t bytes) { at_ += std::min(bytes, left()); }
+
+  void skip_space() {
+    while (at_ < content_.size() && is_space(content_[at_]))
+      ++at_;
+  }
+  /// The next run of characters that are not space; empty at the end.
+  std::string_view word() {
+    skip_space();
+    const auto first = at_;
+    while (at_ < content_.size() && !is_space(content_[at_]))
+      ++at_;
+    return content_.substr(first, at_ - first);
+  }
+  /// The rest of the line, without its end, which is passed.
+  std::string_view line() {
+    const auto end = std::min(content_.find('\n', at_), content_.size());
+    auto text = content_.substr(at_, end - at_);
+    at_ = std::min(end + 1, content_.size());
+    if (text.ends_with('\r'))
+      text.remove_suffix(1);
+    return text;
+  }
+  /// The next number in decimal notation.
+  template <class Number>
+  Number number() {
+    skip_space();
+    const char* first = content_.data() + at_;
+    const char* last = content_.data() + content_.size();
+    if (first != last && *first == '+')
+      ++first;
+    Number value{};
+    const auto [end, problem] = std::from_chars(first, last, value);
+    if (problem == std::errc::result_out_of_range)
+      fail("a number is out of range");
+    if (problem != std::errc() || (end != last && !is_space(*end)))
+      fail(at_end() ? "the file ends where a number is expected" : "a number is expected");
+    at_ = static_cast<std::size_t>(end - content_.data());
+    return value;
+  }
+  /// The next value as raw bytes.
+  template <class T>
+    requires std::is_trivially_copyable_v<T> T raw(bool swapped = false) {
+      if (left() < sizeof(T))
+        fail("the file ends early");
+      T value;
+      std::memcpy(&value, content_.data() + at_, sizeof(T));
+      at_ += sizeof(T);
+      return swapped ? byte_swapped(value) : value;
+    }
+  /// Refuses a count of things of at least so many bytes each that cannot be in what is left of the file.
+  std::size_t plausible(std::uint64_t count, std::size_t bytes_each) const {
+    if (count > left() / std::max<std::size_t>(bytes_each, 1))
+      fail("the file ends early: " + std::to_string(count) + " entries are announced");
+    return static_cast<std::size_t>(count);
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    const auto passed = content_.substr(0, at_);
+    const bool binary = passed.find('\0') != std::string_view::npos;
+    const auto place = binary ? "byte " + std::to_string(at_)
+                              : "line " + std::to_string(1 + std::count(passed.begin(), passed.end(), '\n'));
+    throw input_error(name_ + ": " + place + ": " + what);
+  }
+
+private:
+  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+  std::string_view content_;
+  std::string name_;
+  std::size_t at_ = 0;
+};
+
+} // namespace dovetail::io

@@ -1,0 +1,261 @@
+/// @file
+/// Decodes the data arrays of VTK's XML files: text, base64 and raw, inline and appended, plain and
+/// compressed by zlib, either byte order.
+#pragma once
+
+#include "dovetail/io/inflate.hpp"
+#include "dovetail/io/input_file.hpp"
+#include "dovetail/io/xml_tree.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dovetail::io {
+
+/// Bytes that are in the file as they are, or as base64.
+class vtk_byte_source {
+public:
+  vtk_byte_source(std::string_view data, bool base64) : data_(data), base64_(base64) {}
+
+  /// The next bytes; throws `input_error` when there are fewer.
+  std::vector<std::uint8_t> take(std::uint64_t count) {
+    if (count > left())
+      throw input_error("the data end early");
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(count));
+    if (base64_) {
+      for (auto& byte : bytes)
+        byte = next_decoded();
+    } else {
+      std::copy_n(data_.begin(), bytes.size(), bytes.begin());
+      data_.remove_prefix(bytes.size());
+    }
+    return bytes;
+  }
+
+private:
+  /// An upper bound for encoded data.
+  std::uint64_t left() const { return base64_ ? data_.size() + 3 : data_.size(); }
+
+  static constexpr std::array<std::int8_t, 256> values = [] {
+    std::array<std::int8_t, 256> table{};
+    table.fill(-1);
+    std::int8_t value = 0;
+    for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+      table[static_cast<unsigned char>(c)] = value++;
+    return table;
+  }();
+
+  /// Decodes four characters at a time. Padding may occur in the middle: a header and its data are often
+  /// encoded one after the other.
+  std::uint8_t next_decoded() {
+    while (decoded_ == used_) {
+      std::array<int, 4> digits{};
+      int padding = 0;
+      for (auto& digit : digits) {
+        while (!data_.empty() && (data_[0] == ' ' || (data_[0] >= '\t' && data_[0] <= '\r')))
+          data_.remove_prefix(1);
+        if (data_.empty())
+          throw input_error("the base64 data end early");
+        const auto c = static_cast<unsigned char>(data_[0]);
+        data_.remove_prefix(1);
+        padding += c == '=' ? 1 : 0;
+        digit = c == '=' ? 0 : values[c];
+        if (digit < 0)
+          throw input_error("a character that is not base64");
+      }
+      if (padding > 2)
+        throw input_error("too much padding in base64 data");
+      group_ = {static_cast<std::uint8_t>(digits[0] << 2 | digits[1] >> 4),
+                static_cast<std::uint8_t>((digits[1] & 15) << 4 | digits[2] >> 2),
+                static_cast<std::uint8_t>((digits[2] & 3) << 6 | digits[3])};
+      used_ = 0;
+      decoded_ = static_cast<std::size_t>(3 - padding);
+    }
+    return group_[used_++];
+  }
+
+  std::string_view data_;
+  bool base64_;
+  std::array<std::uint8_t, 3> group_{};
+  std::size_t used_ = 0;
+  std::size_t decoded_ = 0;
+};
+
+/// How the arrays of one file are stored.
+struct vtk_encoding {
+  bool swapped = false;           ///< the byte order is not this machine's
+  bool wide_header = false;       ///< block headers are 64-bit numbers, not 32-bit ones
+  bool compressed = false;        ///< by zlib
+  std::string_view appended = {}; ///< the appended section, from behind its underscore
+  bool appended_base64 = false;
+};
+
+/// Reads the encoding from the root element of a file. Throws `input_error` (without a file name) for what is
+/// not understood.
+inline vtk_encoding read_vtk_encoding(const xml_element& root) {
+  vtk_encoding encoding;
+  const bool big = root.attribute("byte_order") == "BigEndian";
+  encoding.swapped = big != (std::endian::native == std::endian::big);
+  encoding.wide_header = root.attribute("header_type") == "UInt64";
+  if (const auto compressor = root.attribute("compressor"); !compressor.empty()) {
+    if (compressor != "vtkZLibDataCompressor")
+      throw input_error("the data are compressed by " + std::string(compressor) +
+                        ", which is not supported; write them without compression or with zlib");
+    encoding.compressed = true;
+  }
+  if (const auto* section = root.child("AppendedData")) {
+    const auto start = section->text.find('_');
+    if (start == std::string_view::npos)
+      throw input_error("the appended data do not start with an underscore");
+    encoding.appended = section->text.substr(start + 1);
+    encoding.appended_base64 = section->attribute("encoding") == "base64";
+  }
+  return encoding;
+}
+
+namespace detail {
+
+inline std::uint64_t header_number(vtk_byte_source& source, const vtk_encoding& encoding) {
+  const auto bytes = source.take(encoding.wide_header ? 8 : 4);
+  if (encoding.wide_header) {
+    std::uint64_t value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return encoding.swapped ? byte_swapped(value) : value;
+  }
+  std::uint32_t value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return encoding.swapped ? byte_swapped(value) : value;
+}
+
+/// The bytes of an array that is stored in blocks, each of which is a zlib stream.
+inline std::vector<std::uint8_t> take_compressed(vtk_byte_source& source, const vtk_encoding& encoding) {
+  const auto blocks = header_number(source, encoding);
+  const auto block_size = header_number(source, encoding);
+  const auto last_size = header_number(source, encoding);
+  std::vector<std::uint64_t> compressed_sizes;
+  for (std::uint64_t b = 0; b < blocks; ++b)
+    compressed_sizes.push_back(header_number(source, encoding));
+  std::vector<std::uint8_t> all;
+  for (std::uint64_t b = 0; b < blocks; ++b) {
+    const auto compressed = source.take(compressed_sizes[static_cast<std::size_t>(b)]);
+    const bool partial = b + 1 == blocks && last_size != 0;
+    const auto bytes = inflate_zlib(compressed, static_cast<std::size_t>(partial ? last_size : block_size));
+    all.insert(all.end(), bytes.begin(), bytes.end());
+  }
+  return all;
+}
+
+/// The bytes of a binary array, which its header counts.
+inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk_encoding& encoding) {
+  std::string_view data = array.text;
+  bool base64 = true;
+  if (array.attribute("format") == "appended") {
+    const auto offset = file_cursor(array.attribute("offset"), "offset").number<std::uint64_t>();
+    if (offset > encoding.appended.size())
+      throw input_error("its offset is behind the end of the appended data");
+    data = encoding.appended.substr(static_cast<std::size_t>(offset));
+    base64 = encoding.appended_base64;
+  }
+  vtk_byte_source source(data, base64);
+  if (encoding.compressed)
+    return take_compressed(source, encoding);
+  return source.take(header_number(source, encoding));
+}
+
+/// The value as an Out, or an error when it does not fit.
+template <class Out, class In>
+Out converted(In value) {
+  if constexpr (std::is_integral_v<Out> && std::is_floating_point_v<In>) {
+    if (!(value >= static_cast<In>(std::numeric_limits<Out>::min()) &&
+          value < static_cast<In>(std::numeric_limits<Out>::max())))
+      throw input_error("a value is out of range");
+  } else if constexpr (std::is_integral_v<Out>) {
+    if (!std::in_range<Out>(value))
+      throw input_error("a value is out of range");
+  }
+  return static_cast<Out>(value);
+}
+
+template <class In, class Out>
+std::vector<Out> converted_bytes(const std::vector<std::uint8_t>& bytes, bool swapped) {
+  if (bytes.size() % sizeof(In) != 0)
+    throw input_error("its size is no multiple of the size of its values");
+  std::vector<Out> values(bytes.size() / sizeof(In));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    In value;
+    std::memcpy(&value, bytes.data() + i * sizeof(In), sizeof(In));
+    values[i] = converted<Out>(swapped ? byte_swapped(value) : value);
+  }
+  return values;
+}
+
+template <class Number, class Out>
+std::vector<Out> text_values(std::string_view text) {
+  file_cursor at(text, "text");
+  std::vector<Out> values;
+  for (at.skip_space(); !at.at_end(); at.skip_space())
+    values.push_back(converted<Out>(at.number<Number>()));
+  return values;
+}
+
+template <class Out>
+std::vector<Out> decode_vtk_array(const xml_element& array, const vtk_encoding& encoding) {
+  const auto type = array.attribute("type");
+  const auto format = array.attribute("format");
+  const bool real = type.starts_with("Float");
+  if (format == "ascii" || format.empty())
+    return real ? text_values<double, Out>(array.text) : text_values<std::int64_t, Out>(array.text);
+  if (format != "binary" && format != "appended")
+    throw input_error("its format \"" + std::string(format) + "\" is unknown");
+  const auto bytes = array_bytes(array, encoding);
+  const bool swapped = encoding.swapped;
+  if (type == "Float64")
+    return converted_bytes<double, Out>(bytes, swapped);
+  if (type == "Float32")
+    return converted_bytes<float, Out>(bytes, swapped);
+  if (type == "Int64")
+    return converted_bytes<std::int64_t, Out>(bytes, swapped);
+  if (type == "UInt64")
+    return converted_bytes<std::uint64_t, Out>(bytes, swapped);
+  if (type == "Int32")
+    return converted_bytes<std::int32_t, Out>(bytes, swapped);
+  if (type == "UInt32")
+    return converted_bytes<std::uint32_t, Out>(bytes, swapped);
+  if (type == "Int16")
+    return converted_bytes<std::int16_t, Out>(bytes, swapped);
+  if (type == "UInt16")
+    return converted_bytes<std::uint16_t, Out>(bytes, swapped);
+  if (type == "Int8")
+    return converted_bytes<std::int8_t, Out>(bytes, swapped);
+  if (type == "UInt8")
+    return converted_bytes<std::uint8_t, Out>(bytes, swapped);
+  throw input_error("its type \"" + std::string(type) + "\" is unknown");
+}
+
+} // namespace detail
+
+/// The values of an array. Throws `input_error` naming the array (not the file) when they cannot be decoded,
+/// do not fit the type Out, or are not `expected` many.
+template <class Out>
+std::vector<Out> read_vtk_array(const xml_element& array, const vtk_encoding& encoding,
+                                std::uint64_t expected) {
+  const auto name = "array \"" + xml_unescaped(array.attribute("Name")) + "\": ";
+  try {
+    auto values = detail::decode_vtk_array<Out>(array, encoding);
+    if (values.size() != expected)
+      throw input_error(std::to_string(expected) + " values are expected, but there are " +
+                        std::to_string(values.size()));
+    return values;
+  } catch (const input_error& problem) {
+    throw input_error(name + problem.what());
+  }
+}
+
+} // namespace dovetail::io

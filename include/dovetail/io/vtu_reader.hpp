@@ -1,0 +1,370 @@
+/// @file
+/// Reads VTU files, and PVTU files with all their pieces.
+#pragma once
+
+#include "dovetail/io/input_file.hpp"
+#include "dovetail/io/loaded_mesh.hpp"
+#include "dovetail/io/vtk_arrays.hpp"
+#include "dovetail/io/xml_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+namespace detail {
+
+/// VTK's numbers of cell types that are read, and of some that are named in errors.
+enum class vtk_cell { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
+
+inline std::string vtk_cell_name(int type) {
+  switch (type) {
+  case 7:
+    return "polygon";
+  case 8:
+  case 9:
+    return "quadrilateral";
+  case 11:
+  case 12:
+    return "hexahedron";
+  case 13:
+    return "wedge";
+  case 14:
+    return "pyramid";
+  case 22:
+    return "quadratic triangle";
+  case 24:
+    return "quadratic tetrahedron";
+  case 42:
+    return "polyhedron";
+  default:
+    return "cell of type " + std::to_string(type);
+  }
+}
+
+inline std::uint64_t count_attribute(const xml_element& element, std::string_view key) {
+  const auto text = element.attribute(key);
+  if (text.empty())
+    throw input_error("a <" + std::string(element.name) + "> has no " + std::string(key));
+  return file_cursor(text, std::string(key)).number<std::uint64_t>();
+}
+
+inline const xml_element& required_child(const xml_element& parent, std::string_view name) {
+  const auto* found = parent.child(name);
+  if (found == nullptr)
+    throw input_error("there is no <" + std::string(name) + "> in <" + std::string(parent.name) + ">");
+  return *found;
+}
+
+/// The data array of that name in a section that may be missing; null when there is none.
+inline const xml_element* find_array(const xml_element* section, std::string_view name) {
+  if (section != nullptr)
+    for (const auto& array : section->children)
+      if (array.name == "DataArray" && xml_unescaped(array.attribute("Name")) == name)
+        return &array;
+  return nullptr;
+}
+
+inline const xml_element& required_array(const xml_element& section, std::string_view name) {
+  const auto* found = find_array(&section, name);
+  if (found == nullptr)
+    throw input_error("there is no array \"" + std::string(name) + "\" in <" + std::string(section.name) +
+                      ">");
+  return *found;
+}
+
+/// One piece of a VTU file is appended to a mesh.
+class vtu_piece_reader {
+public:
+  vtu_piece_reader(const xml_element& piece, const vtk_encoding& encoding, loaded_mesh& mesh)
+      : piece_(piece), encoding_(encoding), mesh_(mesh), points_(count_attribute(piece, "NumberOfPoints")),
+        cells_(count_attribute(piece, "NumberOfCells")),
+        first_point_(static_cast<local_id>(mesh.mesh.points.size())) {
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<local_id>::max());
+    if (points_ > most - mesh.mesh.points.size() || cells_ > most)
+      throw input_error("the mesh is too large to be read at once");
+  }
+
+  void read() {
+    read_points();
+    read_point_data();
+    read_cells();
+  }
+
+private:
+  void read_points() {
+    const auto& section = required_child(piece_, "Points");
+    const auto* array = section.child("DataArray");
+    if (array == nullptr)
+      throw input_error("there are no point coordinates");
+    const auto values = read_vtk_array<double>(*array, encoding_, 3 * points_);
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      const vec3 p{values[i], values[i + 1], values[i + 2]};
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        throw input_error("point " + std::to_string(i / 3) + " has a coordinate that is not finite");
+      mesh_.mesh.points.push_back(p);
+    }
+  }
+  void read_point_data() {
+    const auto* section = piece_.child("PointData");
+    if (const auto* ids = find_array(section, "GlobalNodeIds")) {
+      const auto values = read_vtk_array<global_id>(*ids, encoding_, points_);
+      mesh_.node_ids.insert(mesh_.node_ids.end(), values.begin(), values.end());
+    }
+    if (section == nullptr)
+      return;
+    for (const auto& array : section->children) {
+      const auto components = array.attribute("NumberOfComponents");
+      const auto name = xml_unescaped(array.attribute("Name"));
+      if (array.name != "DataArray" || (!components.empty() && components != "1") ||
+          name == "GlobalNodeIds" || array.attribute("type") == "String")
+        continue;
+      const auto values = read_vtk_array<double>(array, encoding_, points_);
+      auto& all = scalars(name);
+      all.resize(static_cast<std::size_t>(first_point_), std::numeric_limits<double>::quiet_NaN());
+      all.insert(all.end(), values.begin(), values.end());
+    }
+  }
+  std::vector<double>& scalars(const std::string& name) {
+    for (auto& array : mesh_.point_scalars)
+      if (array.name == name)
+        return array.values;
+    mesh_.point_scalars.push_back({name, {}});
+    return mesh_.point_scalars.back().values;
+  }
+
+  /// The first of the cell arrays that exists, or nothing.
+  std::vector<local_id> cell_values(std::initializer_list<std::string_view> names) const {
+    for (const auto name : names)
+      if (const auto* array = find_array(piece_.child("CellData"), name))
+        return read_vtk_array<local_id>(*array, encoding_, cells_);
+    return {};
+  }
+  void read_cells() {
+    const auto& section = required_child(piece_, "Cells");
+    const auto types = read_vtk_array<int>(required_array(section, "types"), encoding_, cells_);
+    const auto offsets = read_vtk_array<std::int64_t>(required_array(section, "offsets"), encoding_, cells_);
+    const auto corners = offsets.empty() ? 0 : offsets.back();
+    if (corners < 0)
+      throw input_error("cell offsets are negative");
+    const auto connectivity = read_vtk_array<std::int64_t>(required_array(section, "connectivity"), encoding_,
+                                                           static_cast<std::uint64_t>(corners));
+    const auto regions = cell_values({"region", "material", "gmsh:physical", "CellEntityIds"});
+    const auto subdomains = cell_values({"subdomain"});
+    const auto ghosts = cell_values({"vtkGhostType"});
+    const auto cad_faces = cell_values({"cad_face", "patch", "gmsh:physical", "CellEntityIds"});
+    constexpr local_id duplicate = 1; // vtkGhostType: the cell belongs to another piece
+    std::int64_t begin = 0;
+    for (std::size_t c = 0; c < cells_; ++c) {
+      const auto end = offsets[c];
+      if (end < begin || end > corners)
+        throw input_error("the offsets of the cells do not grow at cell " + std::to_string(c));
+      const auto vertices =
+          std::span(connectivity)
+              .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      begin = end;
+      if (!ghosts.empty() && (ghosts[c] & duplicate) != 0)
+        continue;
+      if (types[c] == static_cast<int>(vtk_cell::tetrahedron)) {
+        mesh_.mesh.elements.push_back(simplex_of<3>(vertices, c));
+        mesh_.mesh.tags.push_back(regions.empty() ? 0 : regions[c]);
+        if (!subdomains.empty())
+          mesh_.subdomains.push_back(subdomains[c]);
+      } else if (types[c] == static_cast<int>(vtk_cell::triangle)) {
+        mesh_.triangles.push_back(simplex_of<2>(vertices, c));
+        mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
+      } else if (types[c] != static_cast<int>(vtk_cell::line) &&
+                 types[c] != static_cast<int>(vtk_cell::vertex)) {
+        throw input_error("cell " + std::to_string(c) + " is a " + vtk_cell_name(types[c]) +
+                          "; only linear tetrahedra and triangles are read");
+      }
+    }
+  }
+  template <int D>
+  simplex<D> simplex_of(std::span<const std::int64_t> vertices, std::size_t cell) const {
+    simplex<D> result;
+    if (vertices.size() != result.size())
+      throw input_error("cell " + std::to_string(cell) + " has " + std::to_string(vertices.size()) +
+                        " points instead of " + std::to_string(result.size()));
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      if (vertices[k] < 0 || static_cast<std::uint64_t>(vertices[k]) >= points_)
+        throw input_error("cell " + std::to_string(cell) + " refers to point " + std::to_string(vertices[k]) +
+                          " of " + std::to_string(points_));
+      result[k] = first_point_ + static_cast<local_id>(vertices[k]);
+    }
+    return result;
+  }
+
+  const xml_element& piece_;
+  const vtk_encoding& encoding_;
+  loaded_mesh& mesh_;
+  std::uint64_t points_;
+  std::uint64_t cells_;
+  local_id first_point_;
+};
+
+/// The strings of a string array in the field data.
+inline std::vector<std::string> field_strings(const xml_element& grid, std::string_view name) {
+  std::vector<std::string> strings;
+  const auto* section = grid.child("FieldData");
+  if (section == nullptr)
+    return strings;
+  for (const auto& array : section->children)
+    if (array.attribute("Name") == name && array.attribute("format") == "ascii") {
+      file_cursor at(array.text, "string");
+      std::string text;
+      for (at.skip_space(); !at.at_end(); at.skip_space()) {
+        const auto code = at.number<int>();
+        if (code != 0) {
+          text += static_cast<char>(code);
+          continue;
+        }
+        strings.push_back(std::exchange(text, {}));
+      }
+    }
+  return strings;
+}
+
+/// Appends the pieces of one VTU file to a mesh.
+inline void append_vtu(const std::filesystem::path& file, const xml_element& root, loaded_mesh& mesh) {
+  try {
+    const auto encoding = read_vtk_encoding(root);
+    const auto& grid = required_child(root, "UnstructuredGrid");
+    bool found = false;
+    for (const auto& piece : grid.children)
+      if (piece.name == "Piece") {
+        vtu_piece_reader(piece, encoding, mesh).read();
+        found = true;
+      }
+    if (!found)
+      throw input_error("there is no <Piece>");
+    if (mesh.region_names.empty())
+      for (auto& name : field_strings(grid, "region_names"))
+        mesh.region_names.emplace_back(static_cast<local_id>(mesh.region_names.size()), std::move(name));
+  } catch (const input_error& problem) {
+    throw input_error(file.string() + ": " + problem.what());
+  }
+}
+
+/// Points that are the same in several pieces become one: those with the same global id, or, where the file
+/// has none, at exactly the same place. The first of equal points stays; order is by global id, or by first
+/// occurrence.
+inline void merge_points(loaded_mesh& mesh) {
+  const auto count = mesh.mesh.points.size();
+  const bool numbered = mesh.node_ids.size() == count;
+  std::vector<local_id> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  const auto at = [&](local_id v) { return mesh.mesh.points[static_cast<std::size_t>(v)]; };
+  const auto id = [&](local_id v) { return mesh.node_ids[static_cast<std::size_t>(v)]; };
+  const auto key = [&](local_id v) { return std::tuple(at(v).x, at(v).y, at(v).z); };
+  const auto same = [&](local_id a, local_id b) { return numbered ? id(a) == id(b) : at(a) == at(b); };
+  std::sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+    return same(a, b) ? a < b : numbered ? id(a) < id(b) : key(a) < key(b);
+  });
+  std::vector<local_id> representative(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool repeated = i > 0 && same(order[i - 1], order[i]);
+    auto& mine = representative[static_cast<std::size_t>(order[i])];
+    mine = repeated ? representative[static_cast<std::size_t>(order[i - 1])] : order[i];
+    if (repeated && at(mine) != at(order[i]))
+      throw input_error("two points have the global number " + std::to_string(id(mine)) +
+                        " but not the same coordinates");
+  }
+  if (!numbered)
+    std::iota(order.begin(), order.end(), 0);
+  std::vector<local_id> place(count, no_id);
+  loaded_mesh merged;
+  merged.point_scalars.resize(mesh.point_scalars.size());
+  for (std::size_t a = 0; a < mesh.point_scalars.size(); ++a)
+    merged.point_scalars[a].name = mesh.point_scalars[a].name;
+  for (const auto v : order) {
+    const auto i = static_cast<std::size_t>(v);
+    if (representative[i] != v)
+      continue;
+    place[i] = static_cast<local_id>(merged.mesh.points.size());
+    merged.mesh.points.push_back(mesh.mesh.points[i]);
+    if (numbered)
+      merged.node_ids.push_back(mesh.node_ids[i]);
+    for (std::size_t a = 0; a < mesh.point_scalars.size(); ++a)
+      merged.point_scalars[a].values.push_back(mesh.point_scalars[a].values[i]);
+  }
+  const auto renumber = [&](auto& simplices) {
+    for (auto& simplex : simplices)
+      for (auto& v : simplex)
+        v = place[static_cast<std::size_t>(representative[static_cast<std::size_t>(v)])];
+  };
+  renumber(mesh.mesh.elements);
+  renumber(mesh.triangles);
+  mesh.mesh.points = std::move(merged.mesh.points);
+  mesh.node_ids = std::move(merged.node_ids);
+  mesh.point_scalars = std::move(merged.point_scalars);
+}
+
+/// Arrays that only some pieces have: global ids are dropped, scalars are filled with NaN.
+inline void complete_point_data(loaded_mesh& mesh) {
+  if (mesh.node_ids.size() != mesh.mesh.points.size())
+    mesh.node_ids.clear();
+  if (mesh.subdomains.size() != mesh.mesh.elements.size())
+    mesh.subdomains.clear();
+  for (auto& array : mesh.point_scalars)
+    array.values.resize(mesh.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, loaded_mesh& mesh) {
+  const auto* grid = root.child("PUnstructuredGrid");
+  if (grid == nullptr)
+    throw input_error(file.string() + ": there is no <PUnstructuredGrid>");
+  bool found = false;
+  for (const auto& piece : grid->children) {
+    if (piece.name != "Piece")
+      continue;
+    found = true;
+    const auto path = file.parent_path() / xml_unescaped(piece.attribute("Source"));
+    const auto content = read_file(path);
+    const auto piece_root = xml_parser(content, path.string()).parse();
+    append_vtu(path, piece_root, mesh);
+  }
+  if (!found)
+    throw input_error(file.string() + ": there is no <Piece>");
+}
+
+} // namespace detail
+
+/// Reads VTU and PVTU files: tetrahedra, triangles, scalar point arrays, and the cell arrays `region` (or
+/// `material`, `gmsh:physical`, `CellEntityIds`) and `subdomain`. Vertices and lines are passed over, and so
+/// are cells that are ghosts. Points of different pieces are merged.
+struct vtu_reader {
+  loaded_mesh operator()(const std::filesystem::path& file) const {
+    const auto content = read_file(file);
+    const auto root = xml_parser(content, file.string()).parse();
+    const auto type = root.attribute("type");
+    loaded_mesh mesh;
+    if (root.name != "VTKFile")
+      throw input_error(file.string() + ": this is not a VTK XML file");
+    if (type == "UnstructuredGrid")
+      detail::append_vtu(file, root, mesh);
+    else if (type == "PUnstructuredGrid")
+      detail::append_pvtu(file, root, mesh);
+    else
+      throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
+                        "; an UnstructuredGrid or PUnstructuredGrid is needed");
+    detail::complete_point_data(mesh);
+    if (type == "PUnstructuredGrid") {
+      try {
+        detail::merge_points(mesh);
+      } catch (const input_error& problem) {
+        throw input_error(file.string() + ": " + problem.what());
+      }
+    }
+    return mesh;
+  }
+};
+
+} // namespace dovetail::io
