@@ -1,0 +1,202 @@
+/// @file
+/// How many tetrahedra will fill a closed surface, before there is any volume mesh.
+#pragma once
+
+#include "dovetail/sizing/inside_surface.hpp"
+#include "dovetail/sizing/prediction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+namespace sizing {
+
+/// A cube of the integration octree.
+struct volume_cell {
+  box3 box;
+  std::vector<local_id> triangles = {}; ///< those that may pass through it; empty: wholly inside
+  double integral = 0;
+  double volume_inside = 0; ///< by the same samples
+  double error = 0;         ///< of the quadrature, or of what the field's bound allows
+  double variance = 0;      ///< squared error of the sampled part inside, for cut cells
+};
+
+/// A fixed pseudo-random sequence in [0, 1), so that samples do not line up with axis-parallel surfaces.
+class sample_sequence {
+public:
+  double next() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+
+private:
+  std::uint64_t state_ = 1;
+};
+
+/// Octant k of a cube: the upper half of x, y, z where bits 0, 1, 2 are set.
+inline box3 octant_of(const box3& box, unsigned k) {
+  box3 part = box;
+  const vec3 center = box.center();
+  for (int axis = 0; axis < 3; ++axis)
+    ((k >> axis & 1U) != 0 ? part.lower : part.upper)[axis] = center[axis];
+  return part;
+}
+
+/// Integrates h^-3 over the part of a cell that is inside: one sample per octant, at random in it for a cut
+/// cell.
+template <sizing_field H>
+void integrate(volume_cell& cell, const inside_surface& inside, const H& h, sample_sequence& random,
+               double largest_unsampled) {
+  const bool cut = !cell.triangles.empty();
+  const vec3 extent = cell.box.upper - cell.box.lower;
+  const double volume = extent.x * extent.y * extent.z;
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0;
+  double sum = 0;
+  double all = 0;
+  double squares = 0;
+  int hits = 0;
+  for (unsigned k = 0; k < 8; ++k) {
+    const box3 part = octant_of(cell.box, k);
+    const vec3 t = cut ? vec3{random.next(), random.next(), random.next()} : vec3{0.5, 0.5, 0.5};
+    const vec3 p = part.lower + 0.5 * vec3{t.x * extent.x, t.y * extent.y, t.z * extent.z};
+    const double size = h(p);
+    const double density = density_at<3>(size);
+    least = std::min(least, size);
+    greatest = std::max(greatest, size);
+    all += density / 8;
+    squares += density * density / 8;
+    if (!cut || inside(p)) {
+      sum += density / 8;
+      ++hits;
+    }
+  }
+  cell.integral = volume * sum;
+  const double spread = std::sqrt(std::max(0.0, squares - all * all));
+  // The midpoints' spread over a linear h^-3 is not an error; what is left is of second order in it.
+  const double quadrature = volume * std::min(spread, 2 * spread * spread / all);
+  const double bound = dovetail::smallest_size_in(h, cell.box);
+  cell.error = assumed_error<3>(quadrature, cell.integral, volume, least, bound);
+  if (!(bound > 0)) {
+    if (norm(extent) > largest_unsampled)
+      cell.error = std::numeric_limits<double>::infinity();
+    if (least < suspicious_ratio * greatest)
+      cell.error = std::max(cell.error, 0.2 * volume * density_at<3>(least));
+  }
+  cell.volume_inside = volume * hits / 8;
+  // Not from the hits: a cell that happens to be hit too rarely would then be split too rarely, a bias.
+  cell.variance = cut ? volume * volume * all * all * 0.1 / 8 : 0.0;
+}
+
+/// The octants of a cell that are not outside; a part that no triangle meets is inside or outside as a whole.
+template <sizing_field H>
+void append_children(const volume_cell& parent, const inside_surface& inside, const H& h,
+                     sample_sequence& random, double largest_unsampled, std::vector<volume_cell>& to) {
+  for (unsigned k = 0; k < 8; ++k) {
+    volume_cell child{octant_of(parent.box, k)};
+    for (const local_id t : parent.triangles)
+      if (inside.may_meet(t, child.box))
+        child.triangles.push_back(t);
+    if (child.triangles.empty() && !parent.triangles.empty() && !inside(child.box.center()))
+      continue;
+    integrate(child, inside, h, random, largest_unsampled);
+    to.push_back(std::move(child));
+  }
+}
+
+/// Of two kinds of errors, adding up linearly and as independent samples, marks the cells to split. Returns
+/// the total error.
+inline double mark_volume_cells(const std::vector<volume_cell>& cells, double allowed,
+                                std::vector<char>& marked) {
+  struct variance_view {
+    double error;
+  };
+  std::vector<variance_view> variances;
+  variances.reserve(cells.size());
+  for (const volume_cell& c : cells)
+    variances.push_back({c.variance});
+  std::vector<char> for_variance;
+  const double bias = mark_largest_errors(cells, 0.25 * allowed, marked);
+  const double variance = mark_largest_errors(variances, 0.0625 * allowed * allowed, for_variance);
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    marked[i] = marked[i] != 0 || for_variance[i] != 0 ? 1 : 0;
+  return bias + 2 * std::sqrt(variance);
+}
+
+/// The sum over all cells, the cut ones scaled so that the volume inside comes out as the surface encloses it
+/// (unless its orientation is wrong, which shows in a factor far from one).
+inline double total_integral(const std::vector<volume_cell>& cells, double enclosed_volume) {
+  double whole = 0;
+  double cut = 0;
+  double whole_volume = 0;
+  double cut_volume = 0;
+  for (const volume_cell& c : cells) {
+    (c.triangles.empty() ? whole : cut) += c.integral;
+    (c.triangles.empty() ? whole_volume : cut_volume) += c.volume_inside;
+  }
+  const double factor = cut_volume > 0 ? (enclosed_volume - whole_volume) / cut_volume : 1.0;
+  return whole + (factor > 0.5 && factor < 2 ? factor : 1.0) * cut;
+}
+
+} // namespace sizing
+
+/// The number of tetrahedra of edge length h that fill a closed surface: the integral of h^-3 over an octree
+/// of its inside, with cut cells sampled, refined until the estimated error is below the one asked for.
+/// Sources are treated as in `predict_elements`; `per_element` stays empty. Throws `geometry_error` when the
+/// surface is open. Deterministic.
+template <sizing_field H>
+element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surface, const H& h,
+                                           const prediction_options& options = {}) {
+  const inside_surface inside(closed_surface);
+  const box3 bounds = inside.bounds();
+  const vec3 extent = bounds.upper - bounds.lower;
+  const double largest_unsampled = bounds.diagonal() / 24;
+  const double enclosed = inside.signed_volume_inside();
+  sizing::sample_sequence random;
+
+  // A cube that no model's symmetry planes divide.
+  const double width = 1.0037 * std::max({extent.x, extent.y, extent.z});
+  const vec3 lower = bounds.lower - 0.00171 * vec3{width, width, width};
+  sizing::volume_cell root{{lower, lower + vec3{width, width, width}}};
+  inside.tree().for_each([](const box3&, std::size_t) { return true; },
+                         [&](local_id t) { root.triangles.push_back(t); });
+  std::sort(root.triangles.begin(), root.triangles.end());
+  std::vector<sizing::volume_cell> cells{std::move(root)};
+  cells.front().error = std::numeric_limits<double>::infinity();
+
+  element_prediction result;
+  std::vector<char> marked;
+  std::vector<sizing::volume_cell> next;
+  constexpr int sure_rounds = 4; // 16 cells across before any estimate is trusted
+  double total = 0;
+  for (int round = 0;; ++round) {
+    total = sizing::total_integral(cells, enclosed);
+    const double error = sizing::mark_volume_cells(cells, options.relative_error * total, marked);
+    result.relative_error = total > 0 ? error / total : 1;
+    const bool close = total > 0 && result.relative_error <= options.relative_error;
+    if (round >= sure_rounds && (close || cells.size() > options.largest_cells || cells.empty()))
+      break;
+    next.clear();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (marked[i] != 0 || round < sure_rounds)
+        sizing::append_children(cells[i], inside, h, random, largest_unsampled, next);
+      else
+        next.push_back(std::move(cells[i]));
+    cells.swap(next);
+  }
+  const double density = options.density > 0 ? options.density : elements_per_unit<3>;
+  result.elements = density * total;
+  result.cells = cells.size();
+  return result;
+}
+
+} // namespace dovetail
