@@ -13,20 +13,24 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace dovetail::io {
 
-/// The bytes of a file. Throws `input_error` naming it when it is missing, no file, unreadable or empty.
-inline std::string read_file(const std::filesystem::path& path) {
+/// The bytes of a file, or its first `most`. Throws `input_error` naming it when it is missing, no file,
+/// unreadable or empty.
+inline std::string read_file(const std::filesystem::path& path,
+                             std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max()) {
   std::error_code failure;
   if (!std::filesystem::exists(path, failure))
     throw input_error(path.string() + ": there is no such file");
   if (!std::filesystem::is_regular_file(path, failure))
     throw input_error(path.string() + ": this is not a file");
-  const auto size = std::filesystem::file_size(path, failure);
+  const auto size = std::min(std::filesystem::file_size(path, failure), most);
   std::ifstream stream(path, std::ios::binary);
   if (failure || !stream)
     throw input_error(path.string() + ": the file cannot be read; check its permissions");
