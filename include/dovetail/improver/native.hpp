@@ -24,8 +24,14 @@ struct native {
   double target_angle = 25;
   /// Sweeps over the poor elements at most.
   int passes = 12;
+  /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
+  int hard_passes = 3;
   /// A sweep that mends a smaller part of the poor elements than this is the last one.
   double least_gain = 0.01;
+  /// Edges that an operation makes stay between these two, times the size there, or between the shortest and
+  /// longest edge that were there before. Without a sizing field the size is the mean length of the edges
+  /// before.
+  double shortest_edge = 0.4, longest_edge = 2;
   /// Linearisations per move of a vertex.
   int search_iterations = 6;
   improvement::objective objective = improvement::objective::minimum_dihedral;
@@ -70,7 +76,7 @@ struct native {
 
 private:
   template <shape_measure Measure>
-  report improve(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing&) const {
+  report improve(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& size) const {
     const stopwatch total;
     report result;
     result.name = "improver";
@@ -82,20 +88,25 @@ private:
     result.set("elements before", static_cast<double>(mesh.elements.size()));
     tet_complex complex = take_mesh(mesh, frozen);
     lap("adjacency");
-    evaluate<Measure>(complex);
+    const std::size_t tangled = evaluate<Measure>(complex);
     lap("evaluation");
     if (statistics)
       count_quality(complex, surface_limits(complex)).write_to(result, "before");
     lap("statistics before");
-    schedule_limits limits;
-    limits.target = static_cast<float>(Measure::from_angle(target_angle));
-    limits.passes = passes;
-    limits.least_gain = least_gain;
-    limits.search.iterations = search_iterations;
-    schedule<Measure> plan(complex, limits);
-    plan.run();
-    plan.log().write_to(result);
-    result.set("passes", plan.passes());
+    if (tangled == 0) {
+      raise<Measure>(complex, size, result);
+    } else {
+      const simplicial_mesh<3> original{complex.points(), complex.elements(), complex.tags()};
+      untangle(complex, size);
+      evaluate<Measure>(complex);
+      raise<Measure>(complex, size, result);
+      if (!has_distinct_sides(complex)) {
+        mesh = original;
+        complex = take_mesh(mesh, frozen);
+        result.warnings.emplace_back("the mesh is too tangled to be improved; it was left as it was");
+      }
+      report_tangled(complex, tangled, result);
+    }
     lap("schedule");
     if (statistics)
       count_quality(complex, surface_limits(complex)).write_to(result, "after");
@@ -103,21 +114,80 @@ private:
     give_back(complex, mesh);
     lap("give back");
     result.set("elements after", static_cast<double>(mesh.elements.size()));
-    if (const double inverted = result.get("after free inverted") + result.get("after limited inverted");
-        inverted > 0)
-      result.warnings.push_back(std::to_string(static_cast<long>(inverted)) +
-                                " elements are still flat or inverted");
     result.seconds = total.seconds();
     return result;
   }
 
   template <shape_measure Measure>
-  static void evaluate(tet_complex& complex) {
-    for (local_id e = 0; e < complex.element_slots(); ++e) {
-      const auto& v = complex.vertices(e);
-      complex.set_value(e, static_cast<float>(measure_of<Measure>(complex.point(v[0]), complex.point(v[1]),
-                                                                  complex.point(v[2]), complex.point(v[3]))));
+  void raise(tet_complex& complex, const any_sizing& size, report& result) const {
+    schedule_limits limits = limits_for(size);
+    limits.target = static_cast<float>(Measure::from_angle(target_angle));
+    schedule<Measure> plan(complex, limits);
+    plan.run();
+    plan.log().write_to(result);
+    result.set("passes", plan.passes());
+  }
+  schedule_limits limits_for(const any_sizing& size) const {
+    schedule_limits limits;
+    limits.passes = passes;
+    limits.hard_passes = hard_passes;
+    limits.least_gain = least_gain;
+    limits.search.iterations = search_iterations;
+    limits.band = {&size, shortest_edge, longest_edge};
+    return limits;
+  }
+
+  /// Turns flat and inverted elements positive where it can.
+  void untangle(tet_complex& complex, const any_sizing& size) const {
+    complex.set_tangled(true);
+    evaluate<oriented_volume>(complex);
+    schedule_limits limits = limits_for(size);
+    limits.target = static_cast<float>(oriented_volume::from_angle(2));
+    limits.least_gain = 0;
+    schedule<oriented_volume>(complex, limits).run();
+  }
+  /// No side belongs to more than two elements.
+  static bool has_distinct_sides(tet_complex& complex) {
+    std::vector<simplex<3>> alive;
+    for (local_id e = 0; e < complex.element_slots(); ++e)
+      if (complex.is_alive(e))
+        alive.push_back(complex.vertices(e));
+    try {
+      match_sides(alive, complex.points().size());
+    } catch (const mesh_error&) {
+      return false;
     }
+    return true;
+  }
+  static void report_tangled(const tet_complex& complex, std::size_t before, report& result) {
+    std::size_t left = 0;
+    for (local_id e = 0; e < complex.element_slots(); ++e)
+      left += complex.is_alive(e) && !is_positive(complex, e);
+    result.set("inverted before", static_cast<double>(before));
+    result.set("inverted after", static_cast<double>(left));
+    if (left > 0)
+      result.warnings.push_back(std::to_string(left) + " elements are still flat or inverted");
+  }
+
+  /// Exactly.
+  static bool is_positive(const tet_complex& complex, local_id e) {
+    const auto& v = complex.vertices(e);
+    return orient3d(complex.point(v[0]), complex.point(v[1]), complex.point(v[2]), complex.point(v[3])) > 0;
+  }
+  /// Sets the value of every element; the result is the number of flat and inverted ones, exactly.
+  template <shape_measure Measure>
+  static std::size_t evaluate(tet_complex& complex) {
+    std::size_t tangled = 0;
+    for (local_id e = 0; e < complex.element_slots(); ++e) {
+      if (!complex.is_alive(e))
+        continue;
+      const auto& v = complex.vertices(e);
+      const auto value = static_cast<float>(measure_of<Measure>(complex.point(v[0]), complex.point(v[1]),
+                                                                complex.point(v[2]), complex.point(v[3])));
+      complex.set_value(e, value);
+      tangled += value <= surely_positive && !is_positive(complex, e);
+    }
+    return tangled;
   }
 };
 

@@ -18,6 +18,7 @@ struct schedule_limits {
   double least_gain = 0.02; ///< a sweep that mends a smaller part of the poor elements is the last
   int hard_passes = 3;      ///< sweeps in which vertices are inserted and removed as well
   apex_search_limits search = {};
+  size_band band = {};
 };
 
 template <shape_measure Measure>
@@ -78,14 +79,16 @@ private:
     const auto corners = mesh_.vertices(e);
     for (const local_id from : corners)
       for (const local_id to : corners)
-        if (from != to && mesh_.is_free(from) &&
-            log_.record(operation::contraction, [&] { return contraction_.improve(mesh_, from, to); }))
+        if (from != to && mesh_.is_free(from) && log_.record(operation::contraction, [&] {
+              return contraction_.improve(mesh_, from, to, limits_.band);
+            }))
           return true;
     return false;
   }
   bool insert(local_id e) {
     insertion_limits limits;
     limits.search = limits_.search;
+    limits.band = limits_.band;
     limits.search.enough = limits_.target;
     const auto corners = mesh_.vertices(e);
     vec3 center = 0.25 * (mesh_.point(corners[0]) + mesh_.point(corners[1]) + mesh_.point(corners[2]) +
@@ -120,7 +123,7 @@ private:
     return true;
   }
   bool keep_better() {
-    if (!(trial_.worst > best_.worst) || !is_sound(mesh_, trial_))
+    if (!(trial_.worst > best_.worst) || !is_sound(mesh_, trial_) || !limits_.band.admits(mesh_, trial_))
       return false;
     std::swap(best_, trial_);
     return true;
@@ -137,7 +140,7 @@ private:
     search.enough = limits_.target;
     for (const local_id v : corners)
       if (mesh_.is_free(v) && is_poor(e))
-        log_.record(operation::smoothing, [&] { return smoothing_.improve(mesh_, v, search); });
+        log_.record(operation::smoothing, [&] { return smoothing_.improve(mesh_, v, search, limits_.band); });
   }
 
   tet_complex& mesh_;

@@ -52,7 +52,7 @@ constexpr T signed_square(T x) {
 template <class T>
 inline constexpr T tiny = T(1e-30);
 template <>
-inline constexpr double tiny<double> = 1e-280;
+inline constexpr double tiny<double> = 1e-200;
 } // namespace detail
 
 /// sin^2 of the dihedral angle furthest from a right angle; the largest angle counts for less: an angle
@@ -118,6 +118,19 @@ struct mean_ratio {
     const double ratio = std::sin(degrees * std::numbers::pi / 180) / 0.9428;
     return ratio * ratio;
   }
+};
+
+/// Signed volume over the cube of the edges' root mean square length; 1 for the regular tetrahedron. Not a
+/// measure of shape: it pulls inverted elements straight towards the right orientation, for untangling.
+struct oriented_volume {
+  template <class T>
+  static T of_apex(triple<T> a, triple<T> b, triple<T> c) {
+    const triple<T> ab = b - a, bc = c - b, ca = a - c;
+    const T edges = (dot(a, a) + dot(b, b) + dot(c, c) + dot(ab, ab) + dot(bc, bc) + dot(ca, ca)) / T(6) +
+                    detail::tiny<T>;
+    return T(std::numbers::sqrt2) * dot(cross(a, b), c) / (edges * std::sqrt(edges));
+  }
+  static double from_angle(double degrees) { return std::sin(degrees * std::numbers::pi / 180); }
 };
 
 template <class M>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/improver/apex_search.hpp"
-#include "dovetail/improver/local_change.hpp"
+#include "dovetail/improver/size_band.hpp"
 
 #include <algorithm>
 
@@ -59,10 +59,12 @@ inline bool keeps_fixed_vertices(const tet_complex& mesh, const star_cavity& cav
   return true;
 }
 
-/// Joins the outline to `apex`, whose place is set, if all values beat `bar`; releases the vertices that are
+/// Joins the outline to `apex`, whose place is set, if all values beat `bar` and the edges stay in the
+/// band; releases the vertices that are
 /// left without elements. False, and nothing changed, otherwise.
 template <shape_measure Measure>
-bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, float bar, local_change& change) {
+bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, float bar, const size_band& band,
+               local_change& change) {
   change.clear();
   for (const local_id e : cavity.elements)
     change.old.push(e);
@@ -72,7 +74,7 @@ bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, floa
     if (!(value > bar) || !change.add({apex, side[0], side[1], side[2]}, value))
       return false;
   }
-  if (!is_sound(mesh, change))
+  if (change.fresh.size == 0 || !is_sound(mesh, change) || !band.admits(mesh, change))
     return false;
   bounded_list<local_id, 4 * max_cavity> inside;
   for (const local_id e : cavity.elements)

@@ -86,6 +86,11 @@ public:
   void unmark(local_id e) { element_marks_[index(e)] = current_mark_ - 1; }
   bool is_marked(local_id e) const { return element_marks_[index(e)] == current_mark_; }
 
+  /// Whether the mesh may overlap itself, because some elements are (or were) flat or inverted. Then positive
+  /// orientation does not prove that a new side is new; changes are checked for that.
+  bool is_tangled() const { return is_tangled_; }
+  void set_tangled(bool tangled) { is_tangled_ = tangled; }
+
   // -- changes ---------------------------------------------------------------------------------------------
   void set_value(local_id e, float value) { values_[index(e)] = value; }
   void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
@@ -242,6 +247,7 @@ private:
   std::vector<vertex_kind> kinds_;
   std::vector<local_id> dead_elements_, free_vertices_;
   local_id last_fixed_ = no_id, free_above_ = 0, gaps_below_ = 0;
+  bool is_tangled_ = false;
   std::size_t alive_;
   cavity_matcher matcher_;
 };

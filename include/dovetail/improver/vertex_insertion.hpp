@@ -14,6 +14,7 @@ namespace dovetail::improvement {
 struct insertion_limits {
   int growth = 12; ///< elements added to the first cavity at most
   apex_search_limits search = {};
+  size_band band = {};
 };
 
 template <shape_measure Measure>
@@ -46,7 +47,7 @@ public:
       if (!grow(mesh, place))
         break;
     }
-    return best_.elements.size > 0 && commit(mesh);
+    return best_.elements.size > 0 && commit(mesh, limits.band);
   }
 
 private:
@@ -83,9 +84,9 @@ private:
     return worst_side != no_id &&
            cavity_.elements.push(element_of(mesh.across(element_of(worst_side), side_of(worst_side))));
   }
-  bool commit(tet_complex& mesh) {
+  bool commit(tet_complex& mesh, const size_band& band) {
     const local_id v = mesh.add_vertex(best_place_);
-    if (fill_from<Measure>(mesh, best_, v, best_bar_, change_))
+    if (fill_from<Measure>(mesh, best_, v, best_bar_, band, change_))
       return true;
     mesh.release_vertex(v);
     return false;
@@ -105,14 +106,14 @@ class edge_contraction {
 public:
   /// Removes the free vertex `from` by moving it onto `to`, if that beats the elements around `from`.
   /// O(star).
-  bool improve(tet_complex& mesh, local_id from, local_id to) {
+  bool improve(tet_complex& mesh, local_id from, local_id to, const size_band& band) {
     if (!collect_star(mesh, from, star_))
       return false;
     cavity_.clear();
     for (const local_id e : star_)
       cavity_.elements.push(e);
     return find_outline(mesh, cavity_, to) && keeps_fixed_vertices(mesh, cavity_, to) &&
-           fill_from<Measure>(mesh, cavity_, to, worst_value(mesh, star_.view()), change_);
+           fill_from<Measure>(mesh, cavity_, to, worst_value(mesh, star_.view()), band, change_);
   }
 
 private:

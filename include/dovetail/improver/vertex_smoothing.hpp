@@ -3,15 +3,16 @@
 #pragma once
 
 #include "dovetail/improver/apex_search.hpp"
-#include "dovetail/improver/local_change.hpp"
+#include "dovetail/improver/size_band.hpp"
 
 namespace dovetail::improvement {
 
 template <shape_measure Measure>
 class vertex_smoothing {
 public:
-  /// Moves `v` when that raises the worst value of its star by more than rounding could feign. O(star).
-  bool improve(tet_complex& mesh, local_id v, const apex_search_limits& limits) {
+  /// Moves `v` when that raises the worst value of its star by more than rounding could feign and keeps the
+  /// edges in the band. O(star).
+  bool improve(tet_complex& mesh, local_id v, const apex_search_limits& limits, const size_band& band) {
     if (!collect_star(mesh, v, star_))
       return false;
     const vec3 old_point = mesh.point(v);
@@ -30,12 +31,24 @@ public:
     triple<float> p{0, 0, 0};
     if (!(search_.climb(batch_, p, limits) > old_worst + 1e-4F))
       return false;
-    return move(mesh, v, batch_.to_global(p), old_point, old_worst);
+    const vec3 place = batch_.to_global(p);
+    return keeps_lengths(mesh, v, place, band) && move(mesh, v, place, old_point, old_worst);
   }
 
 private:
   static local_id other_vertex(const tet_complex& mesh, local_id e, local_id v) {
     return mesh.vertex(e, 0) == v ? mesh.vertex(e, 1) : mesh.vertex(e, 0);
+  }
+
+  bool keeps_lengths(const tet_complex& mesh, local_id v, vec3 place, const size_band& band) const {
+    edge_lengths before, after;
+    for (const local_id e : star_)
+      for (const local_id other : mesh.vertices(e))
+        if (other != v) {
+          before.add(mesh.point(v), mesh.point(other));
+          after.add(place, mesh.point(other));
+        }
+    return band.admits(before, after, place);
   }
 
   /// Verifies the new position in double precision and keeps it only if it is better.
