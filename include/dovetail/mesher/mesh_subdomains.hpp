@@ -1,0 +1,294 @@
+/// @file
+/// Meshes, improves, checks and stores every subdomain through an executor. Failed ones climb the mesher's
+/// ladder in rounds; those that still fail come back as data.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/offending_facets.hpp"
+#include "dovetail/mesher/piece_work.hpp"
+#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/spool.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Makes the input of a subdomain; a pure function, called in the worker.
+using subdomain_source = std::function<subdomain_input(local_id)>;
+
+struct meshing_options {
+  /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
+  std::vector<double> predicted_cost = {};
+  /// Finished pieces go here as "piece_<subdomain>"; those that are there already are not made again. Without
+  /// a spool they are kept in memory.
+  std::optional<spool> store = std::nullopt;
+  /// Where the offending facets of failed subdomains are written, as OFF files; empty: nowhere.
+  std::filesystem::path failure_folder = {};
+  double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
+  progress on_progress = {};
+};
+
+/// A subdomain that no rung of the ladder could mesh.
+struct piece_failure {
+  local_id subdomain = no_id;
+  std::vector<std::string> reasons; ///< one per rung
+  bool timed_out = false;           ///< some rung reached the wall-clock limit: the mesh may differ next time
+  std::size_t crossing_facets = 0;  ///< boundary triangles that cross others; known when a file was written
+  std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
+};
+
+struct meshing_result {
+  std::vector<piece_summary> pieces;        ///< per subdomain; counts are 0 where it failed
+  std::vector<piece_failure> failures;      ///< by growing subdomain
+  quality_statistics quality;               ///< of all pieces together
+  std::function<mesh_piece(local_id)> load; ///< a finished piece; `io_error` when its file is damaged
+  report summary; ///< "elements", "inner_points", "retried", "failed", "peak_rss_bytes", and the sums over
+                  ///< workers "mesher_seconds" and "improver_seconds"
+};
+
+namespace detail {
+
+/// Finished pieces, in the spool or in memory.
+class piece_shelf {
+public:
+  piece_shelf(std::size_t count, std::optional<spool> store)
+      : in_memory_(store ? 0 : count), store_(std::move(store)) {}
+
+  /// Worker side: what is left to send back after storing. Empty `found` means that nothing is stored yet.
+  std::optional<byte_buffer> find(local_id subdomain) const {
+    return store_ ? store_->read(piece_name(subdomain)) : std::nullopt;
+  }
+  byte_buffer store(local_id subdomain, byte_buffer finished) const {
+    if (!store_)
+      return finished;
+    store_->write(piece_name(subdomain), finished);
+    return receipt(finished);
+  }
+  /// In place of a piece that is in the spool, only its summary travels to the parent.
+  static byte_buffer receipt(const byte_buffer& finished) {
+    byte_writer bytes;
+    encode(bytes, summary_of(finished));
+    return bytes.take();
+  }
+
+  /// Parent side: takes what a worker sent.
+  void keep(local_id subdomain, byte_buffer sent) {
+    if (!store_)
+      in_memory_[static_cast<std::size_t>(subdomain)] = std::move(sent);
+  }
+  mesh_piece load(local_id subdomain) const {
+    if (!store_)
+      return piece_of(in_memory_.at(static_cast<std::size_t>(subdomain)));
+    const auto finished = store_->read(piece_name(subdomain));
+    if (!finished)
+      throw io_error(store_->path_of(piece_name(subdomain)).string() +
+                     " is missing or damaged; resume the run to make it again");
+    return piece_of(*finished);
+  }
+
+private:
+  std::vector<byte_buffer> in_memory_;
+  std::optional<spool> store_;
+};
+
+/// Errors that no other rung can mend travel beside the result, and are thrown again by the parent.
+enum class reply_kind : std::uint8_t { finished, cannot_store, bad_size };
+
+/// The rounds of `mesh_subdomains`.
+template <class M, class I, class E>
+class subdomain_rounds {
+public:
+  subdomain_rounds(std::size_t count, const subdomain_source& source, const M& mesh_it, const I& improve,
+                   const any_sizing& size, const E& run_tasks, const meshing_options& options)
+      : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
+        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf>(count, options.store)) {
+    result_.pieces.resize(count);
+    pending_.resize(count);
+    for (std::size_t s = 0; s < count; ++s)
+      pending_[s].subdomain = static_cast<local_id>(s);
+  }
+
+  meshing_result run() {
+    const stopwatch clock;
+    for (std::size_t rung = 0; rung < rung_count() && !pending_.empty(); ++rung)
+      run_round(rung);
+    write_failures();
+    summarize();
+    result_.summary.seconds = clock.seconds();
+    result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
+    return std::move(result_);
+  }
+
+private:
+  /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
+  std::size_t rung_count() const { return ladder_.size() + 1; }
+  byte_buffer attempt(local_id subdomain, std::size_t rung) const {
+    const subdomain_input input = source_(subdomain);
+    if (rung < ladder_.size())
+      return make_piece(subdomain, input, ladder_[rung], &improve_, size_, rung);
+    return make_piece<M, I>(subdomain, input, ladder_[0], nullptr, size_, rung);
+  }
+
+  void run_round(std::size_t rung) {
+    run_options round;
+    round.order = largest_first();
+    round.limit_seconds = options_.limit_seconds;
+    round.on_progress = options_.on_progress;
+    round.stage = rung == 0 ? "meshing" : "meshing again";
+    auto outcomes = run_tasks_.run(
+        pending_.size(), [&](std::size_t k) { return reply(pending_[k].subdomain, rung); }, round);
+    std::vector<piece_failure> failed;
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      if (!accept(pending_[k], outcomes[k]))
+        failed.push_back(std::move(pending_[k]));
+    if (rung == 0)
+      result_.summary.set("retried", static_cast<double>(failed.size()));
+    pending_ = std::move(failed);
+  }
+
+  /// The pending subdomains with the largest cost first; ties by number.
+  std::vector<std::size_t> largest_first() const {
+    std::vector<std::size_t> order(pending_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto cost = [&](std::size_t k) {
+      return options_.predicted_cost[static_cast<std::size_t>(pending_[k].subdomain)];
+    };
+    if (!options_.predicted_cost.empty())
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
+    return order;
+  }
+
+  /// Runs in the worker.
+  byte_buffer reply(local_id subdomain, std::size_t rung) const {
+    try {
+      if (const auto finished = shelf_->find(subdomain))
+        return tagged(reply_kind::finished, piece_shelf::receipt(*finished));
+      return tagged(reply_kind::finished, shelf_->store(subdomain, attempt(subdomain, rung)));
+    } catch (const io_error& e) {
+      return tagged(reply_kind::cannot_store, as_bytes(e.what()));
+    } catch (const sizing_error& e) {
+      return tagged(reply_kind::bad_size, as_bytes(e.what()));
+    }
+  }
+
+  /// The kind goes last, so that neither end moves the bytes of a piece.
+  static byte_buffer tagged(reply_kind kind, byte_buffer bytes) {
+    bytes.push_back(static_cast<std::byte>(kind));
+    return bytes;
+  }
+  static byte_buffer as_bytes(const std::string& text) {
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return {first, first + text.size()};
+  }
+
+  /// Takes one outcome; false when the subdomain failed.
+  bool accept(piece_failure& piece, task_outcome& outcome) {
+    report& summary = result_.summary;
+    summary.set("peak_rss_bytes",
+                std::max(summary.get("peak_rss_bytes"), static_cast<double>(outcome.peak_rss_bytes)));
+    if (!outcome.ok) {
+      piece.reasons.push_back(outcome.failure);
+      piece.timed_out = piece.timed_out || outcome.timed_out;
+      return false;
+    }
+    const auto kind = static_cast<reply_kind>(outcome.result.back());
+    outcome.result.pop_back();
+    const auto text = [&] {
+      return std::string(reinterpret_cast<const char*>(outcome.result.data()), outcome.result.size());
+    };
+    if (kind == reply_kind::cannot_store)
+      throw io_error(text());
+    if (kind == reply_kind::bad_size)
+      throw sizing_error(text());
+    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = summary_of(outcome.result);
+    shelf_->keep(piece.subdomain, std::move(outcome.result));
+    if (piece.timed_out)
+      summary.warnings.push_back(
+          "subdomain " + std::to_string(piece.subdomain) +
+          " reached the wall-clock limit before it was meshed in another way; the mesh "
+          "may differ on another machine");
+    return true;
+  }
+
+  void write_failures() {
+    result_.failures = std::move(pending_);
+    if (options_.failure_folder.empty() || result_.failures.empty())
+      return;
+    io::make_folder(options_.failure_folder);
+    for (piece_failure& failure : result_.failures) {
+      failure.facets =
+          options_.failure_folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");
+      failure.crossing_facets =
+          write_offending_facets(source_(failure.subdomain).boundary.boundary, failure.facets);
+    }
+  }
+
+  void summarize() {
+    report& summary = result_.summary;
+    summary.name = "meshing";
+    summary.set("failed", static_cast<double>(result_.failures.size()));
+    global_id first_element = 0;
+    for (const piece_summary& piece : result_.pieces) {
+      result_.quality.merge(piece.quality, first_element);
+      first_element += piece.counts.elements;
+      summary.add("elements", static_cast<double>(piece.counts.elements));
+      summary.add("inner_points", static_cast<double>(piece.counts.inner_points));
+      collect_warnings(piece.summary, piece.summary.name);
+      for (const report& part : piece.summary.children) {
+        summary.add(part.name + "_seconds", part.seconds);
+        collect_warnings(part, piece.summary.name);
+      }
+    }
+  }
+
+  void collect_warnings(const report& from, const std::string& piece) {
+    for (const std::string& warning : from.warnings)
+      result_.summary.warnings.push_back(piece + ": " + warning);
+  }
+
+  const subdomain_source& source_;
+  const I& improve_;
+  const any_sizing& size_;
+  const E& run_tasks_;
+  const meshing_options& options_;
+  std::vector<M> ladder_;
+  std::shared_ptr<piece_shelf> shelf_;
+  std::vector<piece_failure> pending_;
+  meshing_result result_;
+};
+
+} // namespace detail
+
+/// Meshes subdomains 0 .. count-1. In the worker, right after meshing: improvement, the checks of
+/// `check_mesher_result` on the final mesh, quality, and the write to the spool. A round ends before the next
+/// begins, and what it tries depends on its number only, so the result does not depend on the number of
+/// workers, nor on whether the run was interrupted and resumed.
+///
+/// Failed subdomains do not throw. Throws `usage_error` when the mesher may not run in the executor's
+/// threads, `io_error` when a finished piece cannot be stored, `sizing_error` when the field gives an
+/// unusable size, and `cancelled`. Memory: one piece per worker with a spool, else the whole mesh.
+template <boundary_keeping_mesher<3> M, improver<3> I, executor E>
+meshing_result mesh_subdomains(std::size_t count, const subdomain_source& source, const M& mesh_it,
+                               const I& improve, const any_sizing& size, const E& run_tasks,
+                               const meshing_options& options = {}) {
+  if (!M::traits.thread_safe && runs_in_threads(run_tasks))
+    throw usage_error("this mesher must not run in several threads of one process; use worker processes");
+  if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
+    throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
+  return detail::subdomain_rounds(count, source, mesh_it, improve, size, run_tasks, options).run();
+}
+
+} // namespace dovetail

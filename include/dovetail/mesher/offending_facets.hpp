@@ -1,0 +1,75 @@
+/// @file
+/// A file that shows why a boundary could not be meshed.
+#pragma once
+
+#include "dovetail/io/output_file.hpp"
+#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/parallel/serial.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace dovetail {
+
+/// The triangles of a boundary that cross another one, by growing index. Exact. Triangles listed in both
+/// directions do not cross each other.
+inline std::vector<local_id> crossing_facets(const simplicial_mesh<2>& boundary) {
+  const auto& triangles = boundary.elements;
+  const auto same = [&](local_id a, local_id b) {
+    return sorted_vertices(triangles[static_cast<std::size_t>(a)]) ==
+           sorted_vertices(triangles[static_cast<std::size_t>(b)]);
+  };
+  std::vector<local_id> crossing;
+  for (const auto& [a, b] : crossing_triangles(boundary.points, triangles, same, parallel::serial{}))
+    crossing.insert(crossing.end(), {a, b});
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  return crossing;
+}
+
+/// Writes triangles of a boundary, with the points they use, as an OFF file. Throws `io_error`.
+inline void write_facets(const simplicial_mesh<2>& boundary, const std::vector<local_id>& facets,
+                         const std::filesystem::path& path) {
+  std::vector<local_id> number(boundary.points.size(), no_id);
+  std::vector<vec3> points;
+  for (const local_id t : facets)
+    for (const local_id v : boundary.elements[static_cast<std::size_t>(t)])
+      if (local_id& n = number[static_cast<std::size_t>(v)]; n == no_id) {
+        n = static_cast<local_id>(points.size());
+        points.push_back(boundary.points[static_cast<std::size_t>(v)]);
+      }
+  io::output_file file(path);
+  const auto row = [&](const auto&... numbers) {
+    const char* separator = "";
+    ((file.text(separator), file.number(numbers), separator = " "), ...);
+    file.text("\n");
+  };
+  file.text("OFF\n");
+  row(points.size(), facets.size(), 0);
+  for (const vec3 p : points)
+    row(p.x, p.y, p.z);
+  for (const local_id t : facets) {
+    const auto& triangle = boundary.elements[static_cast<std::size_t>(t)];
+    const auto n = [&](std::size_t k) { return number[static_cast<std::size_t>(triangle[k])]; };
+    row(3, n(0), n(1), n(2));
+  }
+  file.commit();
+}
+
+/// Writes the triangles that cross others, or the whole boundary when none does; returns how many cross.
+inline std::size_t write_offending_facets(const simplicial_mesh<2>& boundary,
+                                          const std::filesystem::path& path) {
+  std::vector<local_id> facets = crossing_facets(boundary);
+  const std::size_t crossing = facets.size();
+  if (facets.empty())
+    for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+      facets.push_back(static_cast<local_id>(t));
+  write_facets(boundary, facets, path);
+  return crossing;
+}
+
+} // namespace dovetail

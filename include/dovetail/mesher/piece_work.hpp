@@ -1,0 +1,111 @@
+/// @file
+/// What a worker does for one subdomain: mesh, improve, check, measure, and turn the piece into bytes.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/improver/concepts.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesher/checks.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/parallel/piece_codec.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// What a mesher needs of one subdomain.
+struct subdomain_input {
+  mesher_input<3> boundary;
+  std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
+};
+
+/// What is known of a finished piece without loading it.
+struct piece_summary {
+  distributed_mesh::piece_counts counts;
+  quality_statistics quality;
+  report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
+};
+
+namespace detail {
+
+inline std::string piece_name(local_id subdomain) {
+  return "piece_" + std::to_string(subdomain);
+}
+
+inline void encode(byte_writer& to, const piece_summary& s) {
+  to.value(s.counts);
+  to.value(s.quality);
+  dovetail::encode(to, s.summary);
+}
+inline piece_summary decode_summary(byte_reader& from) {
+  piece_summary s;
+  s.counts = from.value<distributed_mesh::piece_counts>();
+  s.quality = from.value<quality_statistics>();
+  s.summary = decode_report(from);
+  return s;
+}
+
+/// A finished piece as bytes: its summary, and the mesh behind it.
+inline byte_buffer finished_bytes(const piece_summary& summary, const mesh_piece& piece) {
+  byte_writer bytes;
+  encode(bytes, summary);
+  dovetail::encode(bytes, piece);
+  return bytes.take();
+}
+inline piece_summary summary_of(const byte_buffer& finished) {
+  byte_reader reader(finished);
+  return decode_summary(reader);
+}
+inline mesh_piece piece_of(const byte_buffer& finished) {
+  byte_reader reader(finished);
+  decode_summary(reader);
+  return decode_piece(reader);
+}
+
+/// Improves a mesh inside its frozen boundary and checks that the boundary is still there.
+template <improver<3> I>
+report improve_inside(simplicial_mesh<3>& mesh, const mesher_input<3>& input, const I& improve,
+                      const any_sizing& size) {
+  frozen_entities<3> frozen;
+  frozen.points = static_cast<local_id>(input.boundary.points.size());
+  frozen.sides = input.boundary.elements;
+  const stopwatch clock;
+  report summary = improve(mesh, frozen, size);
+  summary.name = "improver";
+  summary.seconds = clock.seconds();
+  check_mesher_result(input, mesh);
+  return summary;
+}
+
+/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null. Throws
+/// what the mesher, the improver and the checks throw.
+template <boundary_keeping_mesher<3> M, improver<3> I>
+byte_buffer make_piece(local_id subdomain, const subdomain_input& input, const M& mesh_it, const I* improve,
+                       const any_sizing& size, std::size_t rung) {
+  const stopwatch clock;
+  auto made = mesh_it(input.boundary, size);
+  made.summary.name = "mesher";
+  piece_summary summary;
+  summary.summary.name = piece_name(subdomain);
+  summary.summary.set("rung", static_cast<double>(rung));
+  summary.summary.children.push_back(std::move(made.summary));
+  if (improve != nullptr)
+    summary.summary.children.push_back(improve_inside(made.mesh, input.boundary, *improve, size));
+  else
+    summary.summary.warnings.push_back("left unimproved, since every attempt to improve it failed");
+  summary.counts.material = input.boundary.material;
+  summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());
+  summary.counts.inner_points =
+      static_cast<global_id>(made.mesh.points.size() - input.boundary.boundary.points.size());
+  summary.quality = measure_quality(made.mesh);
+  summary.summary.seconds = clock.seconds();
+  return finished_bytes(summary,
+                        {subdomain, input.boundary.material, std::move(made.mesh), input.skeleton_points});
+}
+
+} // namespace detail
+} // namespace dovetail

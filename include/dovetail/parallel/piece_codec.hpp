@@ -1,0 +1,81 @@
+/// @file
+/// Finished pieces and reports as bytes, for workers' results and the spool.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace dovetail {
+
+inline void encode(byte_writer& to, const report& r) {
+  to.text(r.name);
+  to.value(r.seconds);
+  to.value<std::uint64_t>(r.counters.size());
+  for (const auto& [key, value] : r.counters) {
+    to.text(key);
+    to.value(value);
+  }
+  to.value<std::uint64_t>(r.warnings.size());
+  for (const std::string& warning : r.warnings)
+    to.text(warning);
+  to.value<std::uint64_t>(r.children.size());
+  for (const report& child : r.children)
+    encode(to, child);
+}
+
+inline report decode_report(byte_reader& from) {
+  report r;
+  r.name = from.text();
+  r.seconds = from.value<double>();
+  for (auto left = from.value<std::uint64_t>(); left > 0; --left) {
+    std::string key = from.text();
+    const auto value = from.value<double>();
+    r.counters.emplace_back(std::move(key), value);
+  }
+  for (auto left = from.value<std::uint64_t>(); left > 0; --left)
+    r.warnings.push_back(from.text());
+  for (auto left = from.value<std::uint64_t>(); left > 0; --left)
+    r.children.push_back(decode_report(from));
+  return r;
+}
+
+/// Tags are stored only where they differ from the piece's material.
+inline void encode(byte_writer& to, const mesh_piece& piece) {
+  to.value(piece.subdomain);
+  to.value(piece.material);
+  to.array(piece.skeleton_points);
+  to.array(piece.mesh.points);
+  to.array(piece.mesh.elements);
+  const auto& tags = piece.mesh.tags;
+  const bool one_material =
+      std::all_of(tags.begin(), tags.end(), [&](local_id tag) { return tag == piece.material; });
+  to.value<std::uint8_t>(tags.empty() ? 0 : one_material ? 1 : 2);
+  if (!one_material)
+    to.array(tags);
+}
+
+inline mesh_piece decode_piece(byte_reader& from) {
+  mesh_piece piece;
+  piece.subdomain = from.value<local_id>();
+  piece.material = from.value<local_id>();
+  piece.skeleton_points = from.array<local_id>();
+  piece.mesh.points = from.array<vec3>();
+  piece.mesh.elements = from.array<simplex<3>>();
+  switch (from.value<std::uint8_t>()) {
+  case 0:
+    break;
+  case 1:
+    piece.mesh.tags.assign(piece.mesh.elements.size(), piece.material);
+    break;
+  default:
+    piece.mesh.tags = from.array<local_id>();
+  }
+  return piece;
+}
+
+} // namespace dovetail

@@ -1,0 +1,288 @@
+#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "mesher/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace dovetail;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Connects a star-shaped boundary to its middle. The first `bad_rungs` rungs of its ladder fail on the
+/// subdomains of material 1, in the way given.
+struct fan_mesher {
+  enum class misbehaviour { throws, aborts, hangs, loses_an_element };
+  static constexpr mesher_traits traits{.keeps_boundary = true, .repeats_in_process = true};
+
+  int bad_rungs = 0;
+  misbehaviour how = misbehaviour::throws;
+  int rung = 0;
+
+  std::vector<fan_mesher> fallbacks() const { return {{bad_rungs, how, 1}, {bad_rungs, how, 2}}; }
+
+  mesher_result<3> operator()(const mesher_input<3>& in, const any_sizing& size) const {
+    const bool fails = in.material == 1 && rung < bad_rungs;
+    if (fails && how == misbehaviour::throws)
+      throw mesher_error("rung " + std::to_string(rung));
+    if (fails && how == misbehaviour::aborts)
+      std::abort();
+    while (fails && how == misbehaviour::hangs)
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+    mesher_result<3> result;
+    result.mesh.points = in.boundary.points;
+    box3 box;
+    for (const vec3 p : in.boundary.points)
+      box.include(p);
+    const auto middle = static_cast<local_id>(result.mesh.points.size());
+    result.mesh.points.push_back(box.center());
+    if (!(size(box.center()) > 0))
+      throw sizing_error("no size");
+    for (const auto& t : in.boundary.elements)
+      result.mesh.elements.push_back({t[0], t[2], t[1], middle});
+    if (fails)
+      result.mesh.elements.pop_back();
+    result.mesh.tags.assign(result.mesh.elements.size(), in.material);
+    return result;
+  }
+};
+static_assert(boundary_keeping_mesher<fan_mesher, 3>);
+
+struct counting_improver {
+  bool throws = false;
+  report operator()(simplicial_mesh<3>&, const frozen_entities<3>& frozen, const any_sizing&) const {
+    if (throws)
+      throw mesh_error("cannot improve");
+    report r;
+    r.set("frozen points", frozen.points);
+    return r;
+  }
+};
+
+/// A row of cubes; cube 2 is of material 1.
+subdomain_input cube_number(local_id s) {
+  subdomain_input input;
+  input.boundary.boundary = shapes::cube(2 + s % 3, 1, {static_cast<double>(s), 0, 0});
+  input.boundary.material = s == 2 ? 1 : 0;
+  for (std::size_t v = 0; v < input.boundary.boundary.points.size(); ++v)
+    input.skeleton_points.push_back(static_cast<local_id>(v) + 1000 * s);
+  return input;
+}
+
+const any_sizing unit_size = [](vec3) { return 1.0; };
+constexpr std::size_t piece_count = 6;
+
+struct scratch_folder {
+  fs::path path = fs::temp_directory_path() / ("dovetail_pieces_" + std::to_string(::getpid()));
+  scratch_folder() { fs::remove_all(path); }
+  ~scratch_folder() { fs::remove_all(path); }
+};
+
+byte_buffer all_bytes(const meshing_result& result) {
+  byte_writer bytes;
+  for (local_id s = 0; s < static_cast<local_id>(result.pieces.size()); ++s)
+    encode(bytes, result.load(s));
+  return bytes.take();
+}
+
+meshing_result run_fan(const fan_mesher& mesher, const meshing_options& options = {}) {
+  return mesh_subdomains(piece_count, cube_number, mesher, counting_improver{}, unit_size,
+                         parallel::processes{2}, options);
+}
+
+} // namespace
+
+TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points") {
+  const auto result = mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
+                                      parallel::serial{});
+  CHECK(result.failures.empty());
+  global_id elements = 0;
+  for (local_id s = 0; s < static_cast<local_id>(piece_count); ++s) {
+    const auto input = cube_number(s);
+    const auto piece = result.load(s);
+    const auto& summary = result.pieces[static_cast<std::size_t>(s)];
+    CHECK(piece.subdomain == s);
+    CHECK(piece.material == input.boundary.material);
+    CHECK(piece.skeleton_points == input.skeleton_points);
+    CHECK_NOTHROW(check_mesher_result(input.boundary, piece.mesh));
+    CHECK(summary.counts.elements == static_cast<global_id>(input.boundary.boundary.elements.size()));
+    CHECK(summary.counts.inner_points == 1);
+    CHECK(summary.quality.elements == summary.counts.elements);
+    CHECK(summary.summary.children.at(1).get("frozen points") ==
+          static_cast<double>(input.skeleton_points.size()));
+    elements += summary.counts.elements;
+  }
+  CHECK(result.quality.elements == elements);
+  CHECK(result.summary.get("elements") == static_cast<double>(elements));
+  CHECK(result.summary.get("failed") == 0);
+}
+
+TEST_CASE("The result does not depend on the executor, its workers or the store") {
+  const scratch_folder scratch;
+  const auto run = [&](const auto& executor, const meshing_options& options) {
+    return all_bytes(mesh_subdomains(piece_count, cube_number, fan_mesher{1}, counting_improver{}, unit_size,
+                                     executor, options));
+  };
+  const auto expected = run(parallel::serial{}, {});
+  for (const int workers : {1, 2, 4}) {
+    CHECK(run(parallel::processes{workers}, {}) == expected);
+    meshing_options spooled;
+    spooled.store = spool::start(scratch.path, {});
+    CHECK(run(parallel::processes{workers}, spooled) == expected);
+  }
+}
+
+TEST_CASE("The largest predicted cost is started first") {
+  std::vector<local_id> started;
+  meshing_options options;
+  options.predicted_cost = {1, 5, 2, 5, 9, 0};
+  mesh_subdomains(
+      piece_count,
+      [&](local_id s) {
+        started.push_back(s);
+        return cube_number(s);
+      },
+      fan_mesher{}, counting_improver{}, unit_size, parallel::serial{}, options);
+  CHECK(started == std::vector<local_id>{4, 1, 3, 2, 0, 5});
+  options.predicted_cost.pop_back();
+  CHECK_THROWS_AS(run_fan({}, options), usage_error);
+}
+
+TEST_CASE("A failed subdomain climbs the ladder, the others do not") {
+  for (const auto how : {fan_mesher::misbehaviour::throws, fan_mesher::misbehaviour::aborts,
+                         fan_mesher::misbehaviour::loses_an_element}) {
+    const auto result = run_fan({2, how});
+    CHECK(result.failures.empty());
+    CHECK(result.summary.get("retried") == 1);
+    for (std::size_t s = 0; s < piece_count; ++s)
+      CHECK(result.pieces[s].summary.get("rung") == (s == 2 ? 2 : 0));
+  }
+}
+
+TEST_CASE("What no rung can mesh comes back as data, with a file of its facets") {
+  const scratch_folder scratch;
+  meshing_options options;
+  options.failure_folder = scratch.path;
+  const auto result = run_fan({3, fan_mesher::misbehaviour::aborts}, options);
+  REQUIRE(result.failures.size() == 1);
+  const piece_failure& failure = result.failures[0];
+  CHECK(failure.subdomain == 2);
+  REQUIRE(failure.reasons.size() == 4);
+  CHECK(failure.reasons[0].find("signal 6") != std::string::npos);
+  CHECK(failure.crossing_facets == 0);
+  CHECK(result.pieces[2].counts.elements == 0);
+  CHECK(result.summary.get("failed") == 1);
+  std::ifstream file(failure.facets);
+  std::string keyword;
+  std::size_t points = 0;
+  std::size_t triangles = 0;
+  file >> keyword >> points >> triangles;
+  CHECK(keyword == "OFF");
+  CHECK(triangles == cube_number(2).boundary.boundary.elements.size()); // none crosses: all of them
+  CHECK_NOTHROW(result.load(3));
+}
+
+TEST_CASE("The facets that cross are singled out") {
+  const scratch_folder scratch;
+  auto crossing = shapes::cube(2);
+  shapes::append(crossing, shapes::cube(2, 1, {0.9, 0.1, 0.1}));
+  fs::create_directories(scratch.path);
+  const auto path = scratch.path / "facets.off";
+  const std::size_t count = write_offending_facets(crossing, path);
+  CHECK(count > 0);
+  CHECK(count < crossing.elements.size());
+  CHECK(crossing_facets(shapes::cube(2)).empty());
+}
+
+TEST_CASE("A hang ends at the time limit and is recorded") {
+  meshing_options options;
+  options.limit_seconds = 0.3;
+  const auto result = run_fan({1, fan_mesher::misbehaviour::hangs}, options);
+  CHECK(result.failures.empty());
+  REQUIRE(result.summary.warnings.size() == 1);
+  CHECK(result.summary.warnings[0].find("wall-clock") != std::string::npos);
+}
+
+TEST_CASE("A piece that cannot be improved is kept unimproved, with a warning") {
+  const auto result = mesh_subdomains(2, cube_number, fan_mesher{}, counting_improver{true}, unit_size,
+                                      parallel::processes{2});
+  CHECK(result.failures.empty());
+  CHECK(result.summary.warnings.size() == 2);
+  CHECK(result.pieces[0].summary.get("rung") == 3);
+}
+
+TEST_CASE("An unusable field and a mesher in threads are typed errors") {
+  const any_sizing nothing = [](vec3) { return 0.0; };
+  CHECK_THROWS_AS(mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, nothing,
+                                  parallel::processes{2}),
+                  sizing_error);
+  CHECK_THROWS_AS(mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
+                                  parallel::threads{2}),
+                  usage_error);
+  CHECK_NOTHROW(mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
+                                parallel::threads{1}));
+}
+
+TEST_CASE("A store that cannot be written is an io_error") {
+  const scratch_folder scratch;
+  meshing_options options;
+  options.store = spool::start(scratch.path, {});
+  fs::remove_all(scratch.path);
+  CHECK_THROWS_AS(run_fan({}, options), io_error);
+}
+
+TEST_CASE("A killed run is resumed, makes only what is missing, and gives the same mesh") {
+  const scratch_folder scratch;
+  const auto expected = all_bytes(run_fan({}));
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) { // is killed while cube 4 is being made
+    meshing_options options;
+    options.store = spool::start(scratch.path, {});
+    mesh_subdomains(
+        piece_count,
+        [](local_id s) {
+          if (s == 4)
+            ::kill(::getppid(), SIGKILL); // by its worker: the death of the parent ends the worker too
+          return cube_number(s);
+        },
+        fan_mesher{}, counting_improver{}, unit_size, parallel::processes{1}, options);
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  REQUIRE(WIFSIGNALED(status));
+
+  meshing_options options;
+  options.store = spool::resume(scratch.path, {});
+  REQUIRE(options.store->read("piece_3"));
+  REQUIRE_FALSE(options.store->read("piece_5"));
+  fs::resize_file(options.store->path_of("piece_1"), 100); // and one is damaged
+  std::vector<local_id> made;
+  const auto result = mesh_subdomains(
+      piece_count,
+      [&](local_id s) {
+        made.push_back(s);
+        return cube_number(s);
+      },
+      fan_mesher{}, counting_improver{}, unit_size, parallel::serial{}, options);
+  CHECK(std::find(made.begin(), made.end(), 0) == made.end());
+  CHECK(std::find(made.begin(), made.end(), 1) != made.end());
+  CHECK(std::find(made.begin(), made.end(), 5) != made.end());
+  CHECK(all_bytes(result) == expected);
+  CHECK(result.summary.get("elements") > 0);
+  fs::remove(options.store->path_of("piece_0"));
+  CHECK_THROWS_AS(result.load(0), io_error);
+}

@@ -1,0 +1,181 @@
+#include "dovetail/parallel/piece_codec.hpp"
+#include "dovetail/parallel/spool.hpp"
+
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+using namespace dovetail;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for each test, removed at the end.
+struct scratch_folder {
+  fs::path path = fs::temp_directory_path() / ("dovetail_spool_" + std::to_string(::getpid()));
+  scratch_folder() { fs::remove_all(path); }
+  ~scratch_folder() { fs::remove_all(path); }
+};
+
+const run_identity identity{{"input", "abc"}, {"size", "0.5"}};
+
+byte_buffer some_bytes(std::size_t count) {
+  byte_buffer bytes(count);
+  for (std::size_t i = 0; i < count; ++i)
+    bytes[i] = static_cast<std::byte>(i * 31);
+  return bytes;
+}
+
+} // namespace
+
+TEST_CASE("What was written is read back, by a resumed run too") {
+  const scratch_folder scratch;
+  const auto store = spool::start(scratch.path, identity);
+  CHECK_FALSE(store.read("piece_0"));
+  store.write("piece_0", some_bytes(1000));
+  store.write("empty", {});
+  CHECK(store.read("piece_0") == some_bytes(1000));
+  const auto resumed = spool::resume(scratch.path, identity);
+  CHECK(resumed.read("piece_0") == some_bytes(1000));
+  REQUIRE(resumed.read("empty"));
+  CHECK(resumed.read("empty")->empty());
+  resumed.remove("piece_0");
+  CHECK_FALSE(store.read("piece_0"));
+}
+
+TEST_CASE("A new start forgets what was there and leaves other files alone") {
+  const scratch_folder scratch;
+  spool::start(scratch.path, identity).write("piece_0", some_bytes(10));
+  std::ofstream(scratch.path / "mine.txt") << "keep";
+  const auto store = spool::start(scratch.path, identity);
+  CHECK_FALSE(store.read("piece_0"));
+  CHECK(fs::exists(scratch.path / "mine.txt"));
+  store.write("piece_1", some_bytes(10));
+  store.clear();
+  CHECK(fs::exists(scratch.path / "mine.txt"));
+  CHECK_FALSE(fs::exists(store.path_of("piece_1")));
+  fs::remove(scratch.path / "mine.txt");
+  spool::start(scratch.path, identity).clear();
+  CHECK_FALSE(fs::exists(scratch.path));
+}
+
+TEST_CASE("Another run is not resumed, and the message says what differs") {
+  const scratch_folder scratch;
+  CHECK_THROWS_AS(spool::resume(scratch.path, identity), usage_error);
+  spool::start(scratch.path, identity);
+  auto other = identity;
+  other[1].second = "0.6";
+  try {
+    spool::resume(scratch.path, other);
+    FAIL("resumed");
+  } catch (const usage_error& e) {
+    const std::string text = e.what();
+    CHECK(text.find("size 0.5") != std::string::npos);
+    CHECK(text.find("size 0.6") != std::string::npos);
+  }
+  other.pop_back();
+  CHECK_THROWS_AS(spool::resume(scratch.path, other), usage_error);
+}
+
+TEST_CASE("A truncated, altered, foreign or misnamed blob counts as absent") {
+  const scratch_folder scratch;
+  const auto store = spool::start(scratch.path, identity);
+  const auto damaged = [&](auto&& damage) {
+    store.write("piece_0", some_bytes(1000));
+    REQUIRE(store.read("piece_0"));
+    damage(store.path_of("piece_0"));
+    return !store.read("piece_0");
+  };
+  for (const std::uintmax_t size : {0u, 5u, 24u, 500u, 1023u})
+    CHECK(damaged([&](const fs::path& path) { fs::resize_file(path, size); }));
+  CHECK(damaged([](const fs::path& path) { fs::resize_file(path, 2000); }));
+  for (const int position : {3, 10, 20, 24, 700, 1023})
+    CHECK(damaged([&](const fs::path& path) {
+      std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+      file.seekg(position);
+      const int old = file.get();
+      file.seekp(position);
+      file.put(static_cast<char>(old ^ 1));
+    }));
+  store.write("piece_0", some_bytes(1000));
+  fs::copy_file(store.path_of("piece_0"), store.path_of("piece_1"));
+  CHECK_FALSE(store.read("piece_1"));
+
+  auto other = identity;
+  other[0].second = "xyz";
+  fs::rename(store.path_of("piece_0"), scratch.path / "saved");
+  const auto foreign = spool::start(scratch.path, other);
+  fs::rename(scratch.path / "saved", store.path_of("piece_0"));
+  CHECK_FALSE(foreign.read("piece_0"));
+}
+
+TEST_CASE("A full disk gives an io_error and leaves nothing under the name") {
+  const scratch_folder scratch;
+  const auto store = spool::start(scratch.path, identity);
+  const auto previous = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &old) == 0);
+  rlimit small = old;
+  small.rlim_cur = 100000;
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  CHECK_THROWS_AS(store.write("piece_0", some_bytes(1000000)), io_error);
+  ::setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, previous);
+  CHECK_FALSE(store.read("piece_0"));
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(scratch.path))
+    ++files;
+  CHECK(files == 1); // the manifest
+}
+
+TEST_CASE("A folder that cannot be made is an io_error") {
+  const scratch_folder scratch;
+  std::ofstream(scratch.path) << "in the way";
+  CHECK_THROWS_AS(spool::start(scratch.path, identity), io_error);
+}
+
+TEST_CASE("Pieces and reports survive encoding") {
+  mesh_piece piece;
+  piece.subdomain = 4;
+  piece.material = 2;
+  piece.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  piece.mesh.elements = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  piece.skeleton_points = {9, 8, 7};
+  for (const std::vector<local_id>& tags : {std::vector<local_id>{}, {2, 2}, {2, 3}}) {
+    piece.mesh.tags = tags;
+    byte_writer writer;
+    encode(writer, piece);
+    const auto bytes = writer.take();
+    byte_reader reader(bytes);
+    const auto back = decode_piece(reader);
+    CHECK(reader.at_end());
+    CHECK(back.subdomain == 4);
+    CHECK(back.material == 2);
+    CHECK(back.mesh.points == piece.mesh.points);
+    CHECK(back.mesh.elements == piece.mesh.elements);
+    CHECK(back.mesh.tags == tags);
+    CHECK(back.skeleton_points == piece.skeleton_points);
+  }
+  report r;
+  r.name = "outer";
+  r.seconds = 1.5;
+  r.set("count", 3);
+  r.warnings = {"one", "two"};
+  r.children.push_back(r);
+  byte_writer writer;
+  encode(writer, r);
+  const auto bytes = writer.take();
+  byte_reader reader(bytes);
+  const report back = decode_report(reader);
+  CHECK(reader.at_end());
+  CHECK(back.children.at(0).name == "outer");
+  CHECK(back.children.at(0).warnings == r.warnings);
+  CHECK(back.children.at(0).counters == r.counters);
+  CHECK(back.seconds == 1.5);
+}
