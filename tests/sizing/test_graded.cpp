@@ -63,9 +63,9 @@ TEST_CASE("small steep sources in a large box are seen and limited") {
       least = std::min(least, spacing + slope * std::max(0.0, distance(foot, p) - inner));
     };
     from({1, 2, 3}, 0.01, 0.002);
-    const auto s = sizing::nearest_on_segment({-3, -3, -3}, {-1, -3, 2}, p);
+    const auto s = nearest_on_segment({-3, -3, -3}, {-1, -3, 2}, p);
     from(s[0] * vec3{-3, -3, -3} + s[1] * vec3{-1, -3, 2}, 0.05, 0.02);
-    const auto t = sizing::nearest_on_triangle({4, 0, 0}, {4, 3, 0}, {4, 0, 3}, p);
+    const auto t = nearest_on_triangle({4, 0, 0}, {4, 3, 0}, {4, 0, 3}, p);
     from(t[0] * vec3{4, 0, 0} + t[1] * vec3{4, 3, 0} + t[2] * vec3{4, 0, 3}, 0.1, 0.05);
     return least;
   };

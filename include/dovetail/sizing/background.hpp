@@ -3,10 +3,10 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/sizing/bounds.hpp"
-#include "dovetail/sizing/distance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -133,7 +133,7 @@ private:
         [&](local_id id) {
           const auto index = static_cast<std::size_t>(id);
           const auto& side = boundary_[index];
-          const auto w = sizing::nearest_on_triangle(point(side[0]), point(side[1]), point(side[2]), p);
+          const auto w = nearest_on_triangle(point(side[0]), point(side[1]), point(side[2]), p);
           const double away =
               distance(p, w[0] * point(side[0]) + w[1] * point(side[1]) + w[2] * point(side[2]));
           if (away < best.distance || (away == best.distance && index < best.side))

@@ -9,8 +9,8 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/candidate_octree.hpp"
+#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/sizing/bounds.hpp"
-#include "dovetail/sizing/distance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -246,10 +246,10 @@ private:
     const grid_source& s = sources_[i];
     weights at{1, 0, 0};
     if (s.dimension == 1) {
-      const auto w = sizing::nearest_on_segment(s.corners[0], s.corners[1], p);
+      const auto w = nearest_on_segment(s.corners[0], s.corners[1], p);
       at = {w[0], w[1], 0};
     } else if (s.dimension == 2) {
-      at = sizing::nearest_on_triangle(s.corners[0], s.corners[1], s.corners[2], p);
+      at = nearest_on_triangle(s.corners[0], s.corners[1], s.corners[2], p);
     }
     const vec3 foot = at[0] * s.corners[0] + at[1] * s.corners[1] + at[2] * s.corners[2];
     return {distance(foot, p), at};

@@ -2,7 +2,7 @@
 /// How many tetrahedra will fill a closed surface, before there is any volume mesh.
 #pragma once
 
-#include "dovetail/sizing/inside_surface.hpp"
+#include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
 #include <algorithm>

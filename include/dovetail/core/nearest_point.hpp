@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace dovetail::sizing {
+namespace dovetail {
 
 /// Barycentric coordinates of the point of segment (a, b) nearest to p; a degenerate segment is its first
 /// point.
@@ -59,4 +59,4 @@ inline std::array<double, 3> nearest_on_triangle(vec3 a, vec3 b, vec3 c, vec3 p)
   return {va / sum, vb / sum, vc / sum};
 }
 
-} // namespace dovetail::sizing
+} // namespace dovetail
