@@ -238,12 +238,14 @@ TEST_CASE("ghosts are the elements that touch another partition in a point") {
           nodes[0].begin() + static_cast<std::ptrdiff_t>(4 * e + 4)};
   }
   REQUIRE(elements_of_partition.size() == 8);
-  for (const auto& [partition, own_nodes_] : nodes_of_partition) {
+  for (const auto& at : nodes_of_partition) {
+    const int partition = at.first;
+    const auto& own = at.second;
     std::set<std::size_t> expected;
     for (const auto& [other, elements] : elements_of_partition)
       if (other != partition)
         for (const auto& [element, nodes] : elements)
-          if (std::any_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return own_nodes_.count(n) > 0; }))
+          if (std::any_of(nodes.begin(), nodes.end(), [&](std::size_t n) { return own.count(n) > 0; }))
             expected.insert(element);
     CHECK_FALSE(expected.empty());
     CHECK(ghosts_of_partition[partition] == expected);

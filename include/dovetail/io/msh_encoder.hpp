@@ -2,6 +2,7 @@
 /// The number encoding of MSH 4.1: the same records as text or as raw bytes.
 #pragma once
 
+#include "dovetail/core/ids.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/io/output_file.hpp"
 

@@ -164,8 +164,7 @@ inline void write_vtu_group(output_file& file, const distributed_mesh& mesh, con
   else
     append_computed<std::int32_t>(file, group.elements,
                                   [](auto i) { return static_cast<std::int32_t>(4 * (i + 1)); });
-  constexpr std::uint8_t vtk_tetra = 10;
-  append_computed<std::uint8_t>(file, group.elements, [](auto) { return vtk_tetra; });
+  append_computed<std::uint8_t>(file, group.elements, [](auto) { return std::uint8_t{10}; }); // tetrahedra
   append_per_subdomain(file, mesh, group, [](local_id s) { return s; });
   append_per_subdomain(file, mesh, group,
                        [&](local_id s) { return mesh.counts[static_cast<std::size_t>(s)].material; });

@@ -63,7 +63,7 @@ void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path
   append_values(file, std::span(mesh.elements));
   append_computed<std::int64_t>(file, cells,
                                 [](auto i) { return static_cast<std::int64_t>((D + 1) * (i + 1)); });
-  append_computed<std::uint8_t>(file, cells, [](auto) { return cell_type; });
+  append_computed<std::uint8_t>(file, cells, [cell_type](auto) { return cell_type; });
   if (tagged)
     append_values(file, std::span(mesh.tags));
   file.text("\n</AppendedData>\n</VTKFile>\n");

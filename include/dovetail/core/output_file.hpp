@@ -1,0 +1,165 @@
+/// @file
+/// Files that appear under their final name only when they are complete.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A buffered, sequential output file. It is written as `<path>.part` and gets its final name in `commit`;
+/// without a commit the destructor removes it. Every failure throws `io_error` naming the path. (A process
+/// that wants an `io_error` at a file size limit must ignore SIGXFSZ, as for any program.)
+class output_file {
+public:
+  explicit output_file(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {
+    descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      fail("cannot create");
+    buffer_ = std::make_unique<char[]>(capacity);
+  }
+  output_file(const output_file&) = delete;
+  output_file& operator=(const output_file&) = delete;
+  ~output_file() {
+    if (descriptor_ >= 0)
+      ::close(descriptor_);
+    if (!committed_)
+      ::unlink(part_.c_str());
+  }
+
+  void bytes(const void* data, std::size_t size) {
+    size_ += size;
+    if (size > capacity - used_) {
+      flush();
+      if (size >= capacity)
+        return write_out(static_cast<const char*>(data), size);
+    }
+    if (size > 0)
+      std::memcpy(buffer_.get() + used_, data, size);
+    used_ += size;
+  }
+  /// The bytes of one plain value, in the order of this machine.
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void value(const T& item) { bytes(&item, sizeof(T)); }
+  template <class T>
+    requires std::is_trivially_copyable_v<T>
+  void array(std::span<const T> items) { bytes(items.data(), items.size_bytes()); }
+
+  void text(std::string_view s) { bytes(s.data(), s.size()); }
+  /// The shortest decimal form that reads back to the same number.
+  template <class Number>
+    requires std::integral<Number> || std::floating_point<Number>
+  void number(Number value) {
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    bytes(digits, static_cast<std::size_t>(end - digits));
+  }
+
+  /// Bytes written so far.
+  std::uint64_t size() const { return size_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Writes what is buffered and closes the file, which keeps its temporary name.
+  void close() {
+    if (descriptor_ < 0)
+      return;
+    flush();
+    if (::close(std::exchange(descriptor_, -1)) != 0)
+      fail("cannot write");
+    buffer_.reset();
+  }
+  /// Closes the file and gives it its final name, replacing an older file at once.
+  void commit() {
+    close();
+    if (::rename(part_.c_str(), path_.c_str()) != 0)
+      fail("cannot rename the finished file to");
+    committed_ = true;
+  }
+
+private:
+  static constexpr std::size_t capacity = 1 << 18;
+
+  void flush() { write_out(buffer_.get(), std::exchange(used_, 0)); }
+  void write_out(const char* data, std::size_t size) {
+    while (size > 0) {
+      const auto written = ::write(descriptor_, data, size);
+      if (written < 0 && errno == EINTR)
+        continue;
+      if (written <= 0)
+        fail("cannot write");
+      data += written;
+      size -= static_cast<std::size_t>(written);
+    }
+  }
+  [[noreturn]] void fail(const char* what) const {
+    const int reason = errno;
+    throw io_error(std::string(what) + " " + path_.string() + ": " + std::strerror(reason));
+  }
+
+  std::filesystem::path path_;
+  std::string part_;
+  int descriptor_ = -1;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t used_ = 0;
+  std::uint64_t size_ = 0;
+  bool committed_ = false;
+};
+
+/// Several files that belong together: all are finished under temporary names before the first gets its
+/// final one, so a failure leaves the earlier set of files as it was.
+class output_batch {
+public:
+  /// Opens the next file; the one before it is closed. The reference stays valid.
+  output_file& open(std::filesystem::path path) {
+    if (!files_.empty())
+      files_.back()->close();
+    files_.push_back(std::make_unique<output_file>(std::move(path)));
+    return *files_.back();
+  }
+  /// Gives all files their final names, in the order they were opened.
+  void commit() {
+    if (!files_.empty())
+      files_.back()->close();
+    for (auto& file : files_)
+      file->commit();
+  }
+  std::size_t files() const { return files_.size(); }
+  std::uint64_t size() const {
+    std::uint64_t sum = 0;
+    for (const auto& file : files_)
+      sum += file->size();
+    return sum;
+  }
+
+private:
+  std::vector<std::unique_ptr<output_file>> files_;
+};
+
+/// Creates the folder and its parents where they are missing; throws `io_error` naming it.
+inline void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure || !std::filesystem::is_directory(folder, failure))
+    throw io_error("cannot create the folder " + folder.string() + ": " +
+                   (failure ? failure.message() : std::string("a file with that name is in the way")));
+}
+
+} // namespace dovetail
