@@ -125,11 +125,23 @@ private:
         intervals.push_back(patch.origin[at(s)]);
     for (const local_id s : mesh.misplaced)
       intervals.push_back(patch.origin[at(s)]);
-    if (mesh.crossings.empty() && mesh.misplaced.empty()) {
-      requests_[at(f)].size_factor *= 0.6;
-      if (requests_[at(f)].size_factor < 0.4)
-        for (const auto& origin : patch.origin)
-          intervals.push_back(origin);
+    if (!mesh.crossings.empty() || !mesh.misplaced.empty())
+      return;
+    halve_at_folds(mesh, patch, intervals);
+    requests_[at(f)].size_factor *= 0.8;
+  }
+
+  /// Halves the boundary segments that touch a folded triangle: mostly two curves of a narrow face whose
+  /// chords cross in space.
+  static void halve_at_folds(const patch_mesh& mesh, const face_patch& patch,
+                             std::vector<std::array<local_id, 2>>& intervals) {
+    std::set<local_id> touched;
+    for (const local_id t : mesh.folded)
+      touched.insert(mesh.triangles[at(t)].begin(), mesh.triangles[at(t)].end());
+    for (std::size_t s = 0; s < patch.origin.size(); ++s) {
+      const auto& [a, b] = patch.boundary.segments[s];
+      if (touched.contains(a) || touched.contains(b))
+        intervals.push_back(patch.origin[s]);
     }
   }
 
@@ -217,8 +229,8 @@ private:
                            std::to_string(patch.origin[at(r)][0]) +
                            ", also when refined; repair the face in the CAD system");
     }
-    if (result.mesh.folded > 0)
-      throw mesher_error(start + std::to_string(result.mesh.folded) +
+    if (!result.mesh.folded.empty())
+      throw mesher_error(start + std::to_string(result.mesh.folded.size()) +
                          " triangles stay folded over; the face is nearly singular there, repair it or give "
                          "a smaller size");
     throw mesher_error(start + "it cannot be kept apart from its neighbours; give a smaller size");

@@ -20,34 +20,74 @@ struct face_patch {
   std::vector<std::array<local_id, 2>> origin; ///< per segment: curve, index of its interval
 };
 
+namespace detail {
+
+/// Appends the points of one coedge but its last, which starts the next coedge.
+template <geometry_model G>
+void append_coedge(const G& model, local_id f, int k, const geometry_topology::coedge& coedge,
+                   const curve_points& curves, face_patch& made) {
+  const geometry_topology& topology = model.topology();
+  const auto& t = curves.t[static_cast<std::size_t>(coedge.curve)];
+  const std::size_t count = t.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = coedge.reversed ? count - i : i;
+    const local_id id = curves.point_id(topology, coedge.curve, j);
+    made.boundary.uv.push_back(model.curve_uv(f, k, t[j]));
+    made.boundary.labels.push_back(id);
+    made.boundary.points.push_back(static_cast<std::size_t>(id) < topology.vertices.size()
+                                       ? topology.vertices[static_cast<std::size_t>(id)].point
+                                       : model.curve_point(coedge.curve, t[j]));
+    made.origin.push_back({coedge.curve, static_cast<local_id>(coedge.reversed ? j - 1 : j)});
+  }
+}
+
+/// True for a pole that is (nearly) a point in the parameter plane too: it adds nothing to the loop.
+template <geometry_model G>
+bool is_point_in_plane(const G& model, local_id f, int k, const geometry_topology::curve& curve,
+                       vec2 extent) {
+  const vec2 d = model.curve_uv(f, k, curve.t[1]) - model.curve_uv(f, k, curve.t[0]);
+  return curve.degenerate && std::abs(d.x) <= 1e-6 * extent.x && std::abs(d.y) <= 1e-6 * extent.y;
+}
+
+/// Width and height of a face in its parameter plane, from a few points of its curves.
+template <geometry_model G>
+vec2 parameter_extent(const G& model, local_id f) {
+  const geometry_topology& topology = model.topology();
+  vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
+  int k = 0;
+  for (const auto& coedge : topology.faces[static_cast<std::size_t>(f)].coedges) {
+    const auto& t = topology.curves[static_cast<std::size_t>(coedge.curve)].t;
+    for (int i = 0; i <= 4; ++i) {
+      const vec2 uv = model.curve_uv(f, k, t[0] + 0.25 * i * (t[1] - t[0]));
+      lower = {std::min(lower.x, uv.x), std::min(lower.y, uv.y)};
+      upper = {std::max(upper.x, uv.x), std::max(upper.y, uv.y)};
+    }
+    ++k;
+  }
+  return upper - lower;
+}
+
+} // namespace detail
+
 /// Assembles the loops of a face from its curves' points.
 template <geometry_model G>
 face_patch make_face_patch(const G& model, local_id f, const curve_points& curves) {
   const geometry_topology& topology = model.topology();
+  const vec2 extent = detail::parameter_extent(model, f);
   face_patch made;
   patch_boundary& b = made.boundary;
   int k = 0;
   for (const auto& loop : topology.faces[static_cast<std::size_t>(f)].loops) {
     const auto first = static_cast<local_id>(b.uv.size());
     for (const auto& coedge : loop) {
-      const auto& t = curves.t[static_cast<std::size_t>(coedge.curve)];
-      const std::size_t count = t.size() - 1;
-      for (std::size_t i = 0; i < count; ++i) { // the last point starts the next coedge
-        const std::size_t j = coedge.reversed ? count - i : i;
-        const local_id id = curves.point_id(topology, coedge.curve, j);
-        b.uv.push_back(model.curve_uv(f, k, t[j]));
-        b.labels.push_back(id);
-        b.points.push_back(static_cast<std::size_t>(id) < topology.vertices.size()
-                               ? topology.vertices[static_cast<std::size_t>(id)].point
-                               : model.curve_point(coedge.curve, t[j]));
-        const auto at = static_cast<local_id>(b.uv.size()) - 1;
-        b.segments.push_back({at, at + 1});
-        made.origin.push_back({coedge.curve, static_cast<local_id>(coedge.reversed ? j - 1 : j)});
-      }
+      const auto& curve = topology.curves[static_cast<std::size_t>(coedge.curve)];
+      if (!detail::is_point_in_plane(model, f, k, curve, extent))
+        detail::append_coedge(model, f, k, coedge, curves, made);
       ++k;
     }
-    if (!b.segments.empty())
-      b.segments.back()[1] = first;
+    const auto end = static_cast<local_id>(b.uv.size());
+    for (local_id i = first; i < end; ++i)
+      b.segments.push_back({i, i + 1 < end ? i + 1 : first});
   }
   return made;
 }

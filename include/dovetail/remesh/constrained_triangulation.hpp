@@ -116,8 +116,11 @@ private:
       lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
       upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
     }
-    const double size = std::max({upper.x - lower.x, upper.y - lower.y, 1e-300});
     const vec2 center = 0.5 * (lower + upper);
+    const double far = std::max(std::abs(center.x), std::abs(center.y));
+    double size = std::max({upper.x - lower.x, upper.y - lower.y, 1e-12 * far});
+    if (!(size > 0))
+      size = 1; // all points are the origin
     enclosing_ = static_cast<local_id>(points_.size());
     for (const vec2 corner : {vec2{-30, -20}, vec2{30, -20}, vec2{0, 40}}) {
       points_.push_back(center + size * corner);
@@ -307,6 +310,8 @@ private:
 
   /// The corner whose opposite side joins p and q, in either direction; no_id when they are not neighbours.
   local_id corner_opposite(local_id p, local_id q) const {
+    if (p >= enclosing_) // its fan is not closed; no segment crosses a side of the enclosing triangle
+      std::swap(p, q);
     local_id found = no_id;
     table().for_each_corner(p, [&](local_id c) {
       if (table().tail(c) == q)

@@ -48,11 +48,14 @@ struct patch_mesh {
   std::vector<std::array<local_id, 2>>
       crossings;                   ///< segments that cross, touch or overlap; no triangles then
   std::vector<local_id> misplaced; ///< segments with the domain on their wrong side; no triangles then
-  local_id folded = 0; ///< triangles whose normal disagrees with the surface's; 0 unless the loop forces them
+  /// Triangles whose normal disagrees with the surface's; empty unless the loops or the surface force them.
+  std::vector<local_id> folded;
   std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
   report summary;
 
-  bool ok() const { return crossings.empty() && misplaced.empty() && folded == 0 && repeated_edges.empty(); }
+  bool ok() const {
+    return crossings.empty() && misplaced.empty() && folded.empty() && repeated_edges.empty();
+  }
 };
 
 /// Encodes a patch mesh for executors; the summary keeps its counters and warnings only.
@@ -63,7 +66,7 @@ inline byte_buffer encode(const patch_mesh& mesh) {
   out.array(mesh.triangles);
   out.array(mesh.crossings);
   out.array(mesh.misplaced);
-  out.value(mesh.folded);
+  out.array(mesh.folded);
   out.array(mesh.repeated_edges);
   out.text(mesh.summary.name);
   out.value(mesh.summary.seconds);
@@ -87,7 +90,7 @@ inline patch_mesh decode_patch_mesh(const byte_buffer& buffer) {
   mesh.triangles = in.array<simplex<2>>();
   mesh.crossings = in.array<std::array<local_id, 2>>();
   mesh.misplaced = in.array<local_id>();
-  mesh.folded = in.value<local_id>();
+  mesh.folded = in.array<local_id>();
   mesh.repeated_edges = in.array<std::array<local_id, 2>>();
   mesh.summary.name = in.text();
   mesh.summary.seconds = in.value<double>();

@@ -127,7 +127,8 @@ private:
                            detail::smoother<std::remove_cvref_t<decltype(state.surface)>>& smooth) const {
     constexpr double thirty_degrees = 0.25;
     std::size_t improved = 0;
-    for (local_id t = 0; t < state.table.triangle_slots(); ++t) {
+    const local_id slots = state.table.triangle_slots(); // triangles added on the way wait for the next round
+    for (local_id t = 0; t < slots; ++t) {
       if (!state.table.alive(t) || state.quality(t) >= thirty_degrees)
         continue;
       const double before = state.quality(t);
@@ -196,7 +197,7 @@ private:
         continue;
       const double q = state.quality(t);
       if (q <= 0)
-        ++mesh.folded;
+        mesh.folded.push_back(static_cast<local_id>(mesh.triangles.size()));
       least = std::min(least, q);
       below_thirty += q < 0.25 - 1e-12;
       angle_sum += q > 0 ? std::asin(std::sqrt(q)) : 0;
@@ -216,7 +217,7 @@ private:
     mesh.summary.set("mean_min_angle_deg", degrees * angle_sum / count);
     mesh.summary.set("below_30_deg", static_cast<double>(below_thirty));
     mesh.summary.set("mean_relative_length", lengths > 0 ? length_sum / static_cast<double>(lengths) : 1);
-    mesh.summary.set("folded", static_cast<double>(mesh.folded));
+    mesh.summary.set("folded", static_cast<double>(mesh.folded.size()));
   }
 };
 
