@@ -80,30 +80,4 @@ inline std::size_t join_stray_components(const csr_graph& graph, std::span<local
   return joined;
 }
 
-/// Is the part with this label connected (or empty)? Linear in the size of the graph.
-inline bool is_connected(const csr_graph& graph, std::span<const local_id> part, local_id label) {
-  std::vector<local_id> stack;
-  std::size_t left = 0;
-  for (std::size_t v = 0; v < part.size(); ++v)
-    if (part[v] == label) {
-      ++left;
-      if (stack.empty())
-        stack.push_back(static_cast<local_id>(v));
-    }
-  std::vector<bool> seen(part.size(), false);
-  for (const local_id v : stack)
-    seen[static_cast<std::size_t>(v)] = true;
-  while (!stack.empty()) {
-    const local_id v = stack.back();
-    stack.pop_back();
-    --left;
-    for (const local_id w : graph.row(v))
-      if (!seen[static_cast<std::size_t>(w)] && part[static_cast<std::size_t>(w)] == label) {
-        seen[static_cast<std::size_t>(w)] = true;
-        stack.push_back(w);
-      }
-  }
-  return left == 0;
-}
-
 } // namespace dovetail

@@ -3,25 +3,24 @@
 ///
 /// The whole chain for a solid, on plain data (weights = predicted final elements per coarse element):
 ///
-///     const auto edges = build_sides(surface.mesh);                       // simplicial_mesh<2>
-///     const simplify_parameters<2> on_surface{.subdomains = parts};
-///     const auto flat = simplify<2>(surface.mesh, edges, {.fixed_sides = cad_curve_edges}, on_surface);
-///     const auto coupled = coupling(surface.mesh, edges, flat, on_surface, volume_point_of_surface_point);
-///     const auto sides = build_sides(coarse);                             // simplicial_mesh<3>
-///     const auto simplified = simplify<3>(coarse, sides, {.coupled_ridges = coupled, .element_weights =
-///     weights},
-///                                         {.subdomains = parts});
-///     const auto pieces = decompose<3>(coarse, sides, simplified, partition::metis{}, parts);
-///     const auto boundary = subdomain_boundary(coarse, sides, pieces.part_of_element);  // the coarse
-///     skeleton's faces const auto contract = check_interface_contract(...);                // see
-///     interface_contract.hpp
-///
-/// `simplify_volume_and_surface` (simplify_coupled.hpp) does the first five lines in one call.
+///     const auto sides = build_sides(volume); // simplicial_mesh<3>, tags = materials
+///     const auto simplified =
+///         simplify_coupled(surface, volume, sides,
+///                          {.curve_edges = edges_on_cad_curves, .element_weights = weights},
+///                          {.subdomains = parts}, {.subdomains = parts});
+///     const auto pieces =
+///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,
+///                      volume.tags, partition::metis{}, parts);
+///     const auto boundary = subdomain_boundary<3>(volume, sides, pieces.part_of_element);
+///     const auto origins = triangle_origins(boundary, simplified.volume.side_states);
+///     const auto contract =
+///         check_interface_contract({volume.points, boundary.sides, boundary.subdomains, origins});
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/apportion.hpp"
+#include "dovetail/decomposition/connected_refinement.hpp"
 #include "dovetail/decomposition/connectivity.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/partition/concepts.hpp"
@@ -85,18 +84,30 @@ std::vector<local_id> partition_components(const csr_graph& graph, const labelle
   return part;
 }
 
+/// The limit of every part: `imbalance` times the average of its component.
+inline std::vector<double> part_limits(std::span<const double> component_weights,
+                                       std::span<const int> parts_of_component, double imbalance) {
+  std::vector<double> limits;
+  for (std::size_t c = 0; c < component_weights.size(); ++c)
+    limits.insert(limits.end(), static_cast<std::size_t>(parts_of_component[c]),
+                  imbalance * component_weights[c] / parts_of_component[c]);
+  return limits;
+}
+
 } // namespace detail
 
 /// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).
 ///
 /// `material` has one entry per element, or is empty: `mesh.tags` for D = 3; empty for D = 2 when subsurfaces
 /// may cross CAD curves. Every subdomain is non-empty and connected through sides; its boundary is
-/// manifold but at `defective_points`. Deterministic for a deterministic partitioner. Throws
-/// `partition_error` when the mesh is empty or the partitioner fails.
+/// manifold but at `defective_points`. Parts are kept under `imbalance` times the average of their component
+/// where that is possible. Deterministic for a deterministic partitioner. Throws `partition_error` when the
+/// mesh is empty or the partitioner fails.
 template <int D, graph_partitioner Partitioner>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
-                        std::span<const local_id> material, const Partitioner& partitioner, int parts) {
+                        std::span<const local_id> material, const Partitioner& partitioner, int parts,
+                        double imbalance = 1.05) {
   const stopwatch time;
   if (mesh.elements.empty())
     throw partition_error("cannot decompose a mesh without elements");
@@ -118,8 +129,14 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
     result.parts += count;
   const double cut = edge_cut(graph, result.part_of_super);
   const std::size_t joined = join_stray_components(graph, result.part_of_super, result.parts);
-  manifold_repair<D> repair(mesh, sides, super_of_element, graph, result.part_of_super);
-  const std::size_t moved = repair.run();
+  reassignable_parts<D> reassignable(mesh, sides, super_of_element, graph, result.part_of_super,
+                                     result.parts);
+  manifold_repair<D> repair(reassignable);
+  const std::size_t repaired = repair.run();
+  const std::size_t refined =
+      connected_refinement<D>(reassignable, detail::part_limits(weights, parts_of_component, imbalance))
+          .run();
+  const std::size_t repaired_later = repair.run();
   result.defective_points = repair.defective_points();
 
   result.part_of_element.resize(mesh.elements.size());
@@ -138,7 +155,8 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   summary.set("cut_of_partitioner", cut);
   summary.set("cut", edge_cut(graph, result.part_of_super));
   summary.set("joined_strays", static_cast<double>(joined));
-  summary.set("reassigned_super_elements", static_cast<double>(moved));
+  summary.set("repaired_super_elements", static_cast<double>(repaired + repaired_later));
+  summary.set("refined_super_elements", static_cast<double>(refined));
   summary.set("defective_points", static_cast<double>(result.defective_points.size()));
   if (!result.defective_points.empty())
     summary.warnings.push_back("subdomain boundaries are not manifold at " +

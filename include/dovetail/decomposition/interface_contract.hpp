@@ -4,7 +4,9 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
 #include <algorithm>
@@ -197,6 +199,18 @@ private:
 };
 
 } // namespace detail
+
+/// The origins of the sides of a decomposed coarse mesh, from what the simplification decided about them.
+inline std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
+                                                     std::span<const side_state> side_states) {
+  std::vector<triangle_origin> origins(boundary.sides.size(), triangle_origin::cad);
+  for (std::size_t k = 0; k < origins.size(); ++k)
+    if (boundary.on_surface[k] == 0)
+      origins[k] = side_states[static_cast<std::size_t>(boundary.side_ids[k])] == side_state::refused
+                       ? triangle_origin::refused
+                       : triangle_origin::kept;
+  return origins;
+}
 
 /// Measures the contract. About linear in the number of triangles. Throws `usage_error` when the spans do not
 /// match.

@@ -12,6 +12,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/mesh/side_state.hpp"
 #include "dovetail/simplification/side_shape.hpp"
 #include "dovetail/simplification/wedge_runs.hpp"
 
@@ -28,14 +29,6 @@
 #include <vector>
 
 namespace dovetail {
-
-/// What became of a side.
-enum class side_state : std::uint8_t {
-  kept,    ///< may become an interface
-  removed, ///< inside a super-element: can never become an interface
-  refused, ///< ought to be removed, but the bound forbade it: may become an interface, at a high price
-  fixed    ///< boundary, change of tag, non-manifold, or given as fixed
-};
 
 /// Thresholds and bound; the defaults are those of the paper.
 template <int D>
