@@ -4,15 +4,12 @@
 set -euo pipefail
 cd include/dovetail
 
-tier_of() {
-  case $1 in
-    core | mesh | graph | geometry | sizing) echo 1 ;;
-    partition | remesh | mesher | improver | parallel | io) echo 2 ;;
-    background | simplification | decomposition | skeleton | intersection) echo 3 ;;
-    pipeline) echo 4 ;;
-    *) echo "check_layers: folder '$1' has no tier" >&2; exit 1 ;;
-  esac
-}
+declare -A tier=(
+  [core]=1 [mesh]=1 [graph]=1 [geometry]=1 [sizing]=1
+  [partition]=2 [remesh]=2 [mesher]=2 [improver]=2 [parallel]=2 [io]=2
+  [background]=3 [simplification]=3 [decomposition]=3 [skeleton]=3 [intersection]=3
+  [pipeline]=4
+)
 
 problems=0
 complain() {
@@ -22,11 +19,12 @@ complain() {
 
 while IFS=: read -r file include; do
   folder=${file%%/*}
-  target=$(sed 's|.*"dovetail/\(.*\)".*|\1|' <<<"$include")
+  target=${include#*\"dovetail/}
+  target=${target%%\"*}
   target_folder=${target%%/*}
   [[ $folder == "$target_folder" ]] && continue
-  own=$(tier_of "$folder")
-  other=$(tier_of "$target_folder")
+  own=${tier[$folder]:?has no tier}
+  other=${tier[$target_folder]:?has no tier}
   ((other > own)) && complain "$file includes $target of a higher tier"
   ((own == 3 && other == 3)) && complain "$file includes $target: a stage includes another stage"
   ((own == 2 && other == 2)) && [[ $target != */concepts.hpp ]] &&
@@ -37,7 +35,8 @@ done < <(grep -H '#include "dovetail/' */*.hpp)
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|dirent\.h|errno\.h|netinet|linux)'
 adapters='^(partition/(metis|scotch|parmetis|spectral|greedy)|mesher/(tetgen|gmsh|hxt|netgen|cgal)|improver/(gmsh|netgen|cgal)|geometry/(occt|discrete|builtin_models)|parallel/mpi|io/hdf5|sizing/json|graph/)'
 while IFS=: read -r file include; do
-  header=$(sed 's|.*<\(.*\)>.*|\1|' <<<"$include")
+  header=${include#*<}
+  header=${header%%>*}
   [[ $header =~ ^[a-z_0-9]+$ || $header =~ $posix ]] && continue
   [[ $file =~ $adapters ]] || complain "$file includes the third-party header <$header> and is no adapter"
 done < <(grep -H '#include <' */*.hpp)
