@@ -1,0 +1,55 @@
+/// @file
+/// Triangulated surfaces from files: STL, OBJ, OFF, PLY.
+#pragma once
+
+#include "dovetail/geometry/discrete_obj_off.hpp"
+#include "dovetail/geometry/discrete_ply.hpp"
+#include "dovetail/geometry/discrete_soup.hpp"
+#include "dovetail/geometry/discrete_stl.hpp"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace dovetail {
+
+/// The format by the name's ending, lower case, without the dot; empty when this library reads no triangles
+/// from it.
+inline std::string triangle_format_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* known : {"stl", "obj", "off", "ply"})
+    if (ending == std::string(".") + known)
+      return known;
+  return {};
+}
+
+/// Reads the triangles of an STL, OBJ, OFF or PLY file as they are; polygons become fans. O(size). Throws
+/// `input_error` naming the file, and the line in text files, when it is missing, empty, truncated, foreign
+/// or malformed.
+inline triangle_soup read_triangles(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const std::string format = triangle_format_of(file);
+  if (format.empty())
+    throw input_error(name + ": unknown kind of surface file; known are .stl, .obj, .off, .ply");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file))
+    throw input_error(name + ": the file cannot be read; check its name and permissions");
+  std::ostringstream buffer;
+  buffer << stream.rdbuf();
+  const std::string data = buffer.str();
+  if (data.empty())
+    throw input_error(name + ": the file is empty");
+  triangle_soup soup = format == "stl"   ? discrete::parse_stl(data, name)
+                       : format == "obj" ? discrete::parse_obj(data, name)
+                       : format == "off" ? discrete::parse_off(data, name)
+                                         : discrete::parse_ply(data, name);
+  if (soup.triangles.empty())
+    throw input_error(name + ": the file has no triangle");
+  return soup;
+}
+
+} // namespace dovetail
