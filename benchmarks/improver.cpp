@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -44,17 +45,26 @@ improvement::native preset_called(const std::string& name) {
                             : improvement::native::fine();
 }
 
+/// One timed run without statistics, in processor time: other programs on the machine do not count.
+double seconds_of(improvement::native improver, const char* path) {
+  frozen_entities<3> frozen;
+  auto mesh = read_raw(path, frozen.points);
+  improver.statistics = false;
+  const std::clock_t start = std::clock();
+  improver(mesh, frozen, {});
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
 void print(const std::string& preset, const char* path, const report& r, double seconds) {
   const double n = r.get("elements before");
-  const double statistics = r.get("statistics before seconds") + r.get("statistics after seconds");
   const auto per_million = [&](const char* key) { return 1e6 * r.get(key) / n; };
   std::printf(
-      "%-7s %-24s %8.0f el %7.3f s (%.3f stat) %8.0f k/s | free: bad %5.1f low %8.1f min %5.2f max %6.2f "
-      "| limited: bad %4.0f low %5.0f | was low %.0f\n",
-      preset.c_str(), path, n, seconds, statistics, n / (seconds - statistics) / 1e3,
-      per_million("after free bad"), per_million("after free low"), r.get("after free min angle"),
-      r.get("after free max angle"), r.get("after limited bad"), r.get("after limited low"),
-      per_million("before free low"));
+      "%-7s %-20s %8.0f el %6.3f s %6.0f k/s | free per M: bad %.1f low %.1f (was %.0f) angles %.2f..%.2f"
+      " | limited: %.0f el, bad %.0f low %.0f\n",
+      preset.c_str(), path, n, seconds, n / seconds / 1e3, per_million("after free bad"),
+      per_million("after free low"), per_million("before free low"), r.get("after free min angle"),
+      r.get("after free max angle"), r.get("after limited elements"), r.get("after limited bad"),
+      r.get("after limited low"));
 }
 
 } // namespace
@@ -69,15 +79,14 @@ int main(int argc, char** argv) {
   const bool verbose = std::getenv("VERBOSE") != nullptr;
   for (std::string preset; std::getline(presets, preset, ',');)
     for (int i = 3; i < argc; ++i) {
+      const auto improver = preset_called(preset);
       std::vector<double> seconds;
-      report last;
-      for (int k = 0; k < repeats; ++k) {
-        frozen_entities<3> frozen;
-        auto mesh = read_raw(argv[i], frozen.points);
-        last = preset_called(preset)(mesh, frozen, {});
-        seconds.push_back(last.seconds);
-      }
+      for (int k = 0; k < repeats; ++k)
+        seconds.push_back(seconds_of(improver, argv[i]));
       std::sort(seconds.begin(), seconds.end());
+      frozen_entities<3> frozen;
+      auto mesh = read_raw(argv[i], frozen.points);
+      const report last = improver(mesh, frozen, {});
       print(preset, argv[i], last, seconds[seconds.size() / 2]);
       if (verbose)
         for (const auto& [key, value] : last.counters)

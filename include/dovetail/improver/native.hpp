@@ -26,7 +26,7 @@ struct native {
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
   int hard_passes = 3;
-  /// A sweep that mends a smaller part of the poor elements than this is the last one.
+  /// Two sweeps in a row that mend a smaller part of what the poor elements lack are the last ones.
   double least_gain = 0.01;
   /// Edges that an operation makes stay between these two, times the size there, or between the shortest and
   /// longest edge that were there before. Without a sizing field the size is the mean length of the edges

@@ -8,6 +8,7 @@
 #include "dovetail/improver/vertex_insertion.hpp"
 #include "dovetail/improver/vertex_smoothing.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace dovetail::improvement {
@@ -15,7 +16,7 @@ namespace dovetail::improvement {
 struct schedule_limits {
   float target = 0.17F;     ///< elements with a smaller value are worked on
   int passes = 8;           ///< sweeps over the poor elements
-  double least_gain = 0.02; ///< a sweep that mends a smaller part of the poor elements is the last
+  double least_gain = 0.02; ///< two sweeps in a row that mend a smaller part of what is lacking are the last
   int hard_passes = 3;      ///< sweeps in which vertices are inserted and removed as well
   apex_search_limits search = {};
   size_band band = {};
@@ -35,29 +36,28 @@ public:
 
 private:
   bool is_poor(local_id e) const { return mesh_.is_alive(e) && mesh_.value(e) < limits_.target; }
-  void collect_poor(std::vector<local_id>& poor) const {
-    poor.clear();
+  /// Lists the poor elements; the result is the sum of what they lack.
+  double collect_poor() {
+    double deficit = 0;
+    poor_.clear();
     for (local_id e = 0; e < mesh_.element_slots(); ++e)
-      if (is_poor(e))
-        poor.push_back(e);
+      if (is_poor(e)) {
+        poor_.push_back(e);
+        deficit += static_cast<double>(limits_.target - mesh_.value(e));
+      }
+    return deficit;
   }
-
-  /// Sweeps over the poor elements as long as it pays.
+  /// Sweeps over the poor elements until two sweeps in a row did not pay.
   template <class Mend>
   void sweep_until_settled(int passes, const Mend& mend_one) {
-    collect_poor(poor_);
-    for (int pass = 0; pass < passes && !poor_.empty(); ++pass) {
-      const std::size_t before = poor_.size();
-      const std::size_t accepted = log_.total_accepted();
+    double deficit = collect_poor();
+    for (int pass = 0, idle = 0; pass < passes && idle < 2 && !poor_.empty(); ++pass) {
       for (const local_id e : poor_)
         if (is_poor(e))
           mend_one(e);
-      collect_poor(poor_);
       ++passes_;
-      const bool pays = poor_.size() < before && static_cast<double>(before - poor_.size()) >=
-                                                     limits_.least_gain * static_cast<double>(before);
-      if (!pays || log_.total_accepted() == accepted)
-        break;
+      const double before = std::exchange(deficit, collect_poor());
+      idle = before - deficit < limits_.least_gain * before ? idle + 1 : 0;
     }
   }
 
