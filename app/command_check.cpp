@@ -1,8 +1,8 @@
 #include "commands.hpp"
 #include "failure.hpp"
-#include "mesh_files.hpp"
 #include "run_figures.hpp"
 
+#include "dovetail/io/read_mesh.hpp"
 #include "dovetail/mesh/validity.hpp"
 
 #include <cstdio>
@@ -10,7 +10,7 @@
 namespace dovetail::app {
 
 int run_check(const check_options& options) {
-  const io::loaded_mesh loaded = read_mesh_file(options.mesh);
+  const io::loaded_mesh loaded = io::read_mesh(options.mesh);
   const validity found = check_validity(loaded.mesh);
   if (!found.valid()) {
     complain(options.mesh + ": not a valid mesh: " + found.text());
@@ -22,7 +22,7 @@ int run_check(const check_options& options) {
 }
 
 int run_stats(const stats_options& options) {
-  const io::loaded_mesh loaded = read_mesh_file(options.mesh);
+  const io::loaded_mesh loaded = io::read_mesh(options.mesh);
   const quality_statistics quality = measure_quality(loaded.mesh);
   std::printf("%s: %zu vertices\n%s", options.mesh.c_str(), loaded.mesh.points.size(),
               quality_text(quality).c_str());

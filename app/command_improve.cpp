@@ -5,6 +5,7 @@
 #include "policies.hpp"
 #include "run_figures.hpp"
 
+#include "dovetail/io/read_mesh.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <cstdio>
@@ -58,7 +59,7 @@ void print_change(const quality_statistics& before, const quality_statistics& af
 int run_improve(const improve_options& options) {
   const any_improver improve = make_improver(options.preset);
   check_can_write(options.out);
-  io::loaded_mesh loaded = read_mesh_file(options.input);
+  io::loaded_mesh loaded = io::read_mesh(options.input);
   const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(loaded.mesh));
 
   const quality_statistics before = measure_quality(loaded.mesh);

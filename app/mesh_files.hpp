@@ -1,5 +1,5 @@
 /// @file
-/// Mesh files of any kind the driver knows.
+/// Mesh files that hold one mesh.
 #pragma once
 
 #include "dovetail/io/loaded_mesh.hpp"
@@ -7,9 +7,6 @@
 #include <filesystem>
 
 namespace dovetail::app {
-
-/// Reads a VTU, PVTU or MSH file; the extension decides. Throws `input_error` naming the file.
-io::loaded_mesh read_mesh_file(const std::filesystem::path& file);
 
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);

@@ -1,7 +1,7 @@
 #include "run_figures.hpp"
 
+#include "dovetail/core/output_file.hpp"
 #include "dovetail/core/version.hpp"
-#include "dovetail/io/output_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -71,7 +71,7 @@ std::string hash_text(std::uint64_t hash) {
 }
 
 void write_json(const json& document, const std::filesystem::path& path) {
-  io::output_file file(path);
+  output_file file(path);
   file.text(document.dump(2) + '\n');
   file.commit();
 }

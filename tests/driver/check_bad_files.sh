@@ -27,7 +27,10 @@ for extension in vtu pvtu msh; do
   done
   expect_error "missing.$extension" improve "$inputs/missing.$extension" --out better.vtu
 done
-expect_error "extension" check "$inputs/letter.txt"
+cp "$inputs/letter" "$inputs/letter.txt"
+expect_error "letter.txt" check "$inputs/letter.txt"
+expect_error "folder" check "$inputs/folder"
+expect_error "better.png.*extension" improve "$inputs/letter" --out better.png
 
 # CAD files that begin well.
 cat >"$inputs/truncated.step" <<'STEP'

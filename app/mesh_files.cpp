@@ -1,0 +1,36 @@
+#include "mesh_files.hpp"
+
+#include "failure.hpp"
+
+#include "dovetail/io/write_mesh.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace dovetail::app {
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+} // namespace
+
+void check_can_write(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension != ".vtu" && extension != ".msh")
+    throw command_line_error(file.string() + ": meshes are written to files with the extension .vtu or .msh");
+}
+
+void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
+  if (extension_of(file) == ".msh")
+    io::write_msh(mesh.mesh, file, mesh.region_names);
+  else
+    io::write_vtu(mesh.mesh, file);
+}
+
+} // namespace dovetail::app
