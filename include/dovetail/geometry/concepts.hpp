@@ -1,23 +1,29 @@
 /// @file
 /// The role `geometry_model`: what the pipeline asks of a CAD model.
 ///
-/// Valid expressions for `const G& g`, face and curve indices `local_id f, c`, `vec2 uv`, `double t`, `vec3
-/// p`:
-///   g.topology()                  const geometry_topology&: vertices, curves, faces, solids as plain data
-///   g.curve_point(c, t)           point of a curve
-///   g.curve_frame(c, t)           curve_frame: point and first derivative
-///   g.curve_uv(f, k, t)           parameters on face f of the point t of coedge k (index into the face's
-///   coedges) g.face_point(f, uv)           point of a face's surface g.face_frame(f, uv) surface_frame:
-///   point and both first derivatives g.face_curvature(f, uv)       largest absolute principal curvature, 1 /
-///   length g.project_to_face(f, p, uv)   parameters of the point of the surface nearest p, started from seed
-///   uv g.project_to_curve(c, p, t)   parameter of the point of the curve nearest p, started from seed t
-///   g.bounds()                    box3 of the model
+/// Valid expressions for `const G& g`, indices `local_id f` of a face and `c` of a curve, `vec2 uv`, `double
+/// t`, `vec3 p`:
+///
+/// - `g.topology()`: const geometry_topology&; vertices, curves, faces, solids as plain data
+/// - `g.curve_point(c, t)`: vec3; point of a curve
+/// - `g.curve_frame(c, t)`: curve_frame; point and first derivative
+/// - `g.curve_uv(f, k, t)`: vec2; parameters on face f of the point t of its coedge k (index into the face's
+/// coedges)
+/// - `g.face_point(f, uv)`: vec3; point of a face's surface
+/// - `g.face_frame(f, uv)`: surface_frame; point and both first derivatives
+/// - `g.face_curvature(f, uv)`: largest absolute principal curvature, 1 / length
+/// - `g.project_to_face(f, p, uv)`: vec2; parameters of the point of the surface nearest p, started from the
+/// seed uv
+/// - `g.project_to_curve(c, p, t)`: parameter of the point of the curve nearest p, started from the seed t
+/// - `g.bounds()`: box3 of the model
+/// - `g.thread_safe()`: whether queries may run in several threads at once
+///
 /// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
 /// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
-/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes; in
-/// several threads when `g.thread_safe()`. Complexity: constant; a projection takes a few Newton steps from
-/// its seed and never searches globally. Failure: a query throws `geometry_error` naming the entity when the
-/// kernel cannot evaluate it. Models: occt_model, discrete_model.
+/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes.
+/// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
+/// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
+/// Models: occt_model, discrete_model.
 #pragma once
 
 #include "dovetail/core/vector.hpp"

@@ -3,11 +3,14 @@
 ///
 /// Valid expression for `const I& i`, `simplicial_mesh<D>& mesh`, `const frozen_entities<D>& frozen`,
 /// `const any_sizing& h` (may be empty: edge lengths are then kept near their present ones):
-///   i(mesh, frozen, h) -> report
+///
+/// - `i(mesh, frozen, h)`: report
+///
 /// Semantics: every frozen side is a side of the result; frozen points keep their index and coordinates bit
-/// for bit (other points may be renumbered, removed or added after them); the mesh stays valid and its worst
-/// element does not get worse; elements keep tags. Deterministic: stops by counts, never by time. Failure:
-/// throws `mesh_error` when the input is not a valid mesh. Models for D = 3: native_improver, no_improver.
+/// for bit (other points may be renumbered, removed or added after them); the mesh stays valid and its
+/// worst element does not get worse; elements keep tags. Deterministic: stops by counts, never by time.
+/// Failure: throws `mesh_error` when the input is not a valid mesh.
+/// Models for D = 3: native_improver, no_improver.
 #pragma once
 
 #include "dovetail/core/report.hpp"

@@ -2,15 +2,18 @@
 /// The role `piece_mesher<M, D>`: fill a bounded piece with elements without touching its boundary.
 ///
 /// Valid expressions for `const M& m`, `const mesher_input<D>& in`, `const any_sizing& h`:
-///   m(in, h)    -> mesher_result<D>
-///   M::traits   -> mesher_traits, constexpr static
+///
+/// - `m(in, h)`: mesher_result<D>
+/// - `M::traits`: mesher_traits, constexpr static
+///
 /// Semantics: every boundary side of `in` is a side of exactly one element of the result (two for a side
 /// listed in both directions); points [0, in.boundary.points.size()) of the result are the input's, bit for
-/// bit; all elements are positively oriented and fill exactly the inside of the oriented shells (outer shells
-/// and voids). The mean edge length on a uniform field equals the size within 5 %. Complexity: about linear
-/// in the number of elements made. Failure: throws `mesher_error`; with `traits.may_crash` it may also end
-/// the process, so run it in a worker. Models for D = 3: tetgen. A mesher is a local (not collective)
-/// operation.
+/// bit; all elements are positively oriented and fill exactly the inside of the oriented shells (outer
+/// shells and voids). The mean edge length on a uniform field equals the size within 5 %.
+/// Complexity: about linear in the number of elements made.
+/// Failure: throws `mesher_error`; with `traits.may_crash` it may also end the process, so run it in a
+/// worker.
+/// Models for D = 3: tetgen. A mesher is a local (not collective) operation.
 #pragma once
 
 #include "dovetail/core/report.hpp"

@@ -2,8 +2,10 @@
 /// The role `sizing_field`: position -> target edge length.
 ///
 /// Valid expression for `const H& h`, `vec3 p`: `h(p)`, a positive finite double in the unit of the model.
+///
 /// Semantics: pure; the same point always gives the same value. Callable from several threads at once.
-/// Complexity: O(log n) for n sources. Failure: construction throws `sizing_error`, evaluation never throws.
+/// Complexity: O(log n) for n sources.
+/// Failure: construction throws `sizing_error`, evaluation never throws.
 /// Models: uniform_size, source_field, background_field, minimum_of, scaled, graded, any_sizing, a user's
 /// lambda.
 #pragma once
