@@ -7,12 +7,21 @@
 #include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
+#include <BRepClass3d_SolidClassifier.hxx>
+
 #include <string>
 #include <utility>
 
 namespace dovetail::occt {
 
-/// The same shape as solids that enclose a positive volume; what is in no solid is left out.
+/// Whether the faces of a solid point inwards, so that it is all of space but its inside.
+inline bool is_inside_out(const TopoDS_Solid& solid) {
+  BRepClass3d_SolidClassifier classifier(solid);
+  classifier.PerformInfinitePoint(1e-7);
+  return classifier.State() == TopAbs_IN;
+}
+
+/// The same shape as solids with outward faces; what is in no solid is left out.
 inline void keep_oriented_solids(attributed_shape& input) {
   TopoDS_Compound all;
   const BRep_Builder builder;
@@ -20,7 +29,7 @@ inline void keep_oriented_solids(attributed_shape& input) {
   const TopTools_IndexedMapOfShape solids = sub_shapes(input.shape, TopAbs_SOLID);
   for (int i = 1; i <= solids.Extent(); ++i) {
     TopoDS_Shape solid = solids(i).Oriented(TopAbs_FORWARD);
-    if (volume_of(solid) < 0)
+    if (is_inside_out(TopoDS::Solid(solid)))
       solid.Reverse();
     builder.Add(all, solid);
   }

@@ -10,7 +10,9 @@
 #include <BOPAlgo_Builder.hxx>
 
 #include <array>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::occt {
@@ -20,29 +22,32 @@ inline std::string solid_text(const brep& data, std::size_t s) {
   return "solid " + std::to_string(s) + (name.empty() ? "" : " (" + name + ")");
 }
 
-/// The first two solids whose bounding boxes meet; equal indices when none do.
-inline std::array<std::size_t, 2> first_close_pair(const brep& data) {
+/// The pairs of solids whose bounding boxes meet.
+inline std::vector<std::array<std::size_t, 2>> close_pairs(const brep& data) {
   std::vector<Bnd_Box> boxes(data.solids.size());
   for (std::size_t s = 0; s < boxes.size(); ++s)
     BRepBndLib::Add(data.solids[s], boxes[s], false);
+  std::vector<std::array<std::size_t, 2>> pairs;
   for (std::size_t s = 0; s < boxes.size(); ++s)
     for (std::size_t other = s + 1; other < boxes.size(); ++other)
       if (!boxes[s].IsOut(boxes[other]))
-        return {s, other};
-  return {0, 0};
+        pairs.push_back({s, other});
+  return pairs;
 }
 
-/// The general fuse of all solids at a fuzzy tolerance: every solid keeps its extent, contacts become shared
-/// faces, overlaps become solids of their own. Returns whether a shape was made.
-inline bool general_fuse(attributed_shape& input, const brep& data, double fuzzy) {
+/// The general fuse of solids at a fuzzy tolerance: every solid keeps its extent, contacts become shared
+/// faces, overlaps become solids of their own. Empty when OCCT fails; else its faults tell whether it is
+/// sound.
+inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Solid>& solids,
+                                        double fuzzy) {
   BOPAlgo_Builder fuse;
-  for (const auto& solid : data.solids)
+  for (const auto& solid : solids)
     fuse.AddArgument(solid);
   fuse.SetNonDestructive(true);
   fuse.SetFuzzyValue(fuzzy);
   fuse.Perform();
   if (fuse.HasErrors())
-    return false;
+    return std::nullopt;
   inherit_attributes(input.names, input.shape, [&](const TopoDS_Shape& old) {
     TopoDS_Compound images;
     const BRep_Builder builder;
@@ -52,36 +57,47 @@ inline bool general_fuse(attributed_shape& input, const brep& data, double fuzzy
     return images;
   });
   input.shape = fuse.Shape();
-  return true;
+  return brep_builder(input.shape, input.names).build();
+}
+
+/// The first pair of solids that cannot be fused even without the others.
+inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input, const brep& data,
+                                                  const std::vector<std::array<std::size_t, 2>>& pairs) {
+  for (const auto& pair : pairs) {
+    attributed_shape trial = input;
+    const auto fused = general_fuse(trial, {data.solids[pair[0]], data.solids[pair[1]]}, 0);
+    if (!fused || !fused->faults.empty())
+      return pair;
+  }
+  return pairs.front();
 }
 
 /// Replaces `data` by the general fuse of its solids when any two of them touch or overlap. Throws
 /// `geometry_error` when their common faces cannot be made.
 inline void imprint_touching_solids(attributed_shape& input, brep& data, report& made) {
-  const auto pair = first_close_pair(data);
-  if (pair[0] == pair[1])
+  const auto pairs = close_pairs(data);
+  if (pairs.empty())
     return;
   const double size = size_of(input.shape);
   for (const double fuzzy : {0.0, 1e-6 * size}) {
     attributed_shape trial = input;
-    if (!general_fuse(trial, data, fuzzy))
+    std::optional<brep> fused = general_fuse(trial, data.solids, fuzzy);
+    if (!fused || !fused->faults.empty())
       continue;
-    brep fused = brep_builder(trial.shape, trial.names).build();
-    if (!fused.faults.empty())
-      continue;
-    if (fused.faces.size() == data.faces.size() && fused.edges.size() == data.edges.size())
+    if (fused->faces.size() == data.faces.size() && fused->edges.size() == data.edges.size())
       return; // the solids do not touch, or share their contacts already
-    if (fused.solids.size() > data.solids.size())
+    if (fused->solids.size() > data.solids.size())
       made.warnings.push_back("solids overlap; each overlap became a solid of its own, " +
-                              std::to_string(fused.solids.size()) + " solids from " +
+                              std::to_string(fused->solids.size()) + " solids from " +
                               std::to_string(data.solids.size()));
-    data = std::move(fused);
+    data = *std::move(fused);
     input = std::move(trial);
     return;
   }
+  const auto pair = pair_that_fails(input, data, pairs);
   throw geometry_error(input.source + ": " + solid_text(data, pair[0]) + " and " + solid_text(data, pair[1]) +
-                       ", or others, touch or overlap and no common boundary could be made; separate them or "
-                       "let them share faces in the CAD system");
+                       " touch or overlap and no common boundary could be made; separate them or let them "
+                       "share faces in the CAD system");
 }
 
 } // namespace dovetail::occt

@@ -3,9 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/occt_coedge.hpp"
-#include "dovetail/geometry/occt_surface.hpp"
 
-#include <BRep_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -29,35 +27,60 @@ struct face_loops {
   std::vector<std::string> faults; ///< what keeps the face from being meshed; empty when nothing does
 };
 
-/// The parameter curve of an edge on a face, or a fault.
-inline bool make_coedge_curve(const TopoDS_Edge& edge, const TopoDS_Face& face, coedge_curve& made) {
-  double first = 0, last = 0;
-  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-  if (curve.IsNull() || !(last > first))
-    return false;
-  made.curve = Geom2dAdaptor_Curve(curve);
-  made.range = {first, last};
-  made.edge_range = made.range;
-  if (!BRep_Tool::Degenerated(edge)) {
-    double t0 = 0, t1 = 0;
-    const Handle(Geom_Curve) in_space = BRep_Tool::Curve(edge, t0, t1);
-    if (!in_space.IsNull() && t1 > t0)
-      made.edge_range = {t0, t1};
+/// The rectangle around loops in the parameter plane, by samples.
+inline std::array<std::array<double, 2>, 2> box_of_loops(const face_loops& face,
+                                                         const face_surface& surface) {
+  constexpr int samples = 24;
+  constexpr double far = std::numeric_limits<double>::max();
+  std::array<std::array<double, 2>, 2> box{{{far, -far}, {far, -far}}};
+  for (const auto& loop : face.loops) {
+    for (const auto& item : loop) {
+      const auto& range = item.curve.edge_range();
+      for (int i = 0; i <= samples; ++i) {
+        const vec2 uv = item.curve.at(range[0] + (range[1] - range[0]) * i / samples, surface);
+        box[0] = {std::min(box[0][0], uv.x), std::max(box[0][1], uv.x)};
+        box[1] = {std::min(box[1][0], uv.y), std::max(box[1][1], uv.y)};
+      }
+    }
   }
-  made.reversed = edge.Orientation() == TopAbs_REVERSED;
-  return true;
+  return box;
+}
+
+/// Moves the ends of consecutive coedges together, to their middle.
+inline void close_gaps(face_loops& face, const face_surface& surface) {
+  for (auto& loop : face.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      coedge_curve& next = loop[(i + 1) % loop.size()].curve;
+      const vec2 jump = next.start(surface) - loop[i].curve.end(surface);
+      loop[i].curve.shift_end(0.5 * jump);
+      next.shift_start(-0.5 * jump);
+    }
+  }
 }
 
 /// Orders and closes the loops of one face.
 class loop_builder {
 public:
-  loop_builder(const TopoDS_Face& forward_face, const face_surface& surface)
-      : face_(forward_face), surface_(surface) {
+  /// `size` is the diagonal of the model.
+  loop_builder(const TopoDS_Face& forward_face, const face_surface& surface, double size)
+      : face_(forward_face), surface_(surface), worth_projecting_(1e-9 * size) {
     for (std::size_t k = 0; k < 2; ++k)
       width_[k] = std::max(surface.box()[k][1] - surface.box()[k][0], 1e-300);
   }
 
+  /// Parameter curves that stray from their 3D curves are projected, unless the loops then fail to close.
   face_loops build() {
+    face_loops projected = build_once(true);
+    if (projected.faults.empty())
+      return projected;
+    face_loops as_stored = build_once(false);
+    return as_stored.faults.empty() ? as_stored : projected;
+  }
+
+private:
+  face_loops build_once(bool with_projection) {
+    result_ = {};
+    with_projection_ = with_projection;
     for (TopoDS_Iterator wires(face_); wires.More(); wires.Next())
       if (wires.Value().ShapeType() == TopAbs_WIRE)
         add_wire(TopoDS::Wire(wires.Value()));
@@ -68,7 +91,6 @@ public:
     return std::move(result_);
   }
 
-private:
   /// Wires may list their edges in any order; consecutive coedges share a vertex and a parameter point.
   void add_wire(const TopoDS_Wire& wire) {
     std::vector<loop_edge> left;
@@ -81,14 +103,27 @@ private:
         result_.faults.emplace_back("has an edge without a curve in its parameter plane");
         return;
       }
+      if (with_projection_)
+        improve(made);
       left.push_back(std::move(made));
     }
     while (!left.empty()) {
       std::vector<loop_edge> loop = take_loop(left);
-      if (!close_loop(loop))
+      if (!is_closed_but_for_tolerances(loop))
         return;
       result_.loops.push_back(std::move(loop));
     }
+  }
+
+  /// Replaces a parameter curve that strays from its 3D curve by the projection of that curve, if that helps.
+  /// The two passages of a seam stay on the rims of the parameter plane.
+  void improve(loop_edge& made) const {
+    const double stray = made.curve.deviation(surface_);
+    if (stray <= worth_projecting_ || BRep_Tool::IsClosed(made.edge, face_))
+      return;
+    made.curve.set_projected(true);
+    if (!(made.curve.deviation(surface_) < 0.5 * stray))
+      made.curve.set_projected(false);
   }
 
   /// Takes one closed chain off `left`, starting with its first edge. Where several edges continue the chain
@@ -99,15 +134,15 @@ private:
     const TopoDS_Vertex start = TopExp::FirstVertex(loop.front().edge, true);
     for (;;) {
       const TopoDS_Vertex at = TopExp::LastVertex(loop.back().edge, true);
-      const vec2 uv = loop.back().curve.end();
+      const vec2 uv = loop.back().curve.end(surface_);
       std::size_t best = left.size();
-      double best_gap = at.IsSame(start) ? gap(uv, loop.front().curve.start()) : unreachable;
+      double best_gap = at.IsSame(start) ? gap(uv, loop.front().curve.start(surface_)) : unreachable;
       if (at.IsSame(start) && best_gap <= same_parameter)
         return loop;
       for (std::size_t i = 0; i < left.size(); ++i) {
         if (!TopExp::FirstVertex(left[i].edge, true).IsSame(at))
           continue;
-        const double g = gap(uv, left[i].curve.start());
+        const double g = gap(uv, left[i].curve.start(surface_));
         if (g < best_gap)
           best = i, best_gap = g;
       }
@@ -118,21 +153,18 @@ private:
     }
   }
 
-  /// Removes the gaps between consecutive coedges: whole periods, then what tolerances leave.
-  bool close_loop(std::vector<loop_edge>& loop) {
+  /// Removes whole periods between consecutive coedges; what is left must be within tolerances.
+  bool is_closed_but_for_tolerances(std::vector<loop_edge>& loop) {
     for (std::size_t i = 0; i + 1 < loop.size(); ++i)
-      loop[i + 1].curve.shift(whole_periods(loop[i + 1].curve.start() - loop[i].curve.end()));
+      loop[i + 1].curve.shift_by_periods(
+          whole_periods(loop[i + 1].curve.start(surface_) - loop[i].curve.end(surface_)));
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      coedge_curve& curve = loop[i].curve;
-      coedge_curve& next = loop[(i + 1) % loop.size()].curve;
-      const vec2 jump = next.start() - curve.end();
-      if (!is_closable(loop[i].edge, curve.end(), next.start())) {
+      const vec2 end = loop[i].curve.end(surface_);
+      if (!is_closable(loop[i].edge, end, loop[(i + 1) % loop.size()].curve.start(surface_))) {
         result_.faults.push_back("has a boundary loop that does not close in its parameter plane near " +
-                                 to_text(surface_.point(curve.end())));
+                                 to_text(surface_.point(end)));
         return false;
       }
-      curve.shift_end(0.5 * jump);
-      next.shift_start(-0.5 * jump);
     }
     return true;
   }
@@ -171,18 +203,17 @@ private:
       result_.faults.emplace_back("has several outer boundary loops");
   }
 
-public:
   /// Area enclosed by a loop in the parameter plane, by samples; positive counter-clockwise.
-  static double signed_area(const std::vector<loop_edge>& loop) {
+  double signed_area(const std::vector<loop_edge>& loop) const {
     constexpr int samples = 24;
     double twice = 0;
-    const vec2 origin = loop.front().curve.start();
+    const vec2 origin = loop.front().curve.start(surface_);
     for (const auto& item : loop) {
-      const auto& range = item.curve.edge_range;
-      vec2 before = item.curve.start() - origin;
+      const auto& range = item.curve.edge_range();
+      vec2 before = item.curve.start(surface_) - origin;
       for (int i = 1; i <= samples; ++i) {
-        const double s = static_cast<double>(item.curve.reversed ? samples - i : i) / samples;
-        const vec2 now = item.curve.at(range[0] + s * (range[1] - range[0])) - origin;
+        const double s = static_cast<double>(item.curve.reversed() ? samples - i : i) / samples;
+        const vec2 now = item.curve.at(range[0] + s * (range[1] - range[0]), surface_) - origin;
         twice += cross(before, now);
         before = now;
       }
@@ -190,11 +221,12 @@ public:
     return 0.5 * twice;
   }
 
-private:
   static constexpr double same_parameter = 1e-6;
   static constexpr double unreachable = std::numeric_limits<double>::infinity();
   const TopoDS_Face& face_;
   const face_surface& surface_;
+  double worth_projecting_;
+  bool with_projection_ = true;
   std::array<double, 2> width_{};
   face_loops result_;
 };

@@ -4,12 +4,10 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/geometry/occt_bounds.hpp"
 #include "dovetail/geometry/occt_heal.hpp"
 #include "dovetail/geometry/occt_read.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
-
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
 
 #include <filesystem>
 #include <memory>
@@ -27,7 +25,7 @@ public:
   /// `data` must be without faults; made by `occt_model_from` or `read_occt_model`.
   explicit occt_model(occt::brep data)
       : data_(std::make_shared<const occt::brep>(std::move(data))), curves_(data_->curves),
-        surfaces_(data_->surfaces), coedges_(data_->coedges), bounds_(shape_bounds(data_->shape)) {}
+        surfaces_(data_->surfaces), coedges_(data_->coedges), bounds_(occt::bounds_of(*data_)) {}
 
   occt_model(const occt_model& other)
       : data_(other.data_), curves_(other.curves_), surfaces_(other.surfaces_), coedges_(other.coedges_),
@@ -61,7 +59,8 @@ public:
     });
   }
   vec2 curve_uv(local_id f, int k, double t) const {
-    return query("face", f, [&] { return coedges_[index(f)][static_cast<std::size_t>(k)].at(t); });
+    return query("face", f,
+                 [&] { return coedges_[index(f)][static_cast<std::size_t>(k)].at(t, surfaces_[index(f)]); });
   }
   vec3 face_point(local_id f, vec2 uv) const {
     return query("face", f, [&] { return surfaces_[index(f)].point(uv); });
@@ -129,20 +128,6 @@ private:
     return t;
   }
 
-  static box3 shape_bounds(const TopoDS_Shape& shape) {
-    Bnd_Box box;
-    try {
-      BRepBndLib::AddOptimal(shape, box, false, false);
-    } catch (const Standard_Failure&) { // some valid shapes have curves its optimiser cannot handle
-      box.SetVoid();
-      BRepBndLib::Add(shape, box, false);
-    }
-    box3 result;
-    result.include(occt::to_vec3(box.CornerMin()));
-    result.include(occt::to_vec3(box.CornerMax()));
-    return result;
-  }
-
   void renew_caches() {
     for (std::size_t c = 0; c < curves_.size(); ++c)
       if (!topology().curves[c].degenerate)
@@ -151,7 +136,7 @@ private:
       surface = surface.independent_copy();
     for (auto& face : coedges_)
       for (auto& coedge : face)
-        coedge.curve = Geom2dAdaptor_Curve(coedge.curve.Curve());
+        coedge = coedge.independent_copy();
   }
 
   std::shared_ptr<const occt::brep> data_;

@@ -4,12 +4,10 @@
 
 #include "dovetail/geometry/occt_shape.hpp"
 
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
-#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_FixSmallFace.hxx>
@@ -26,13 +24,6 @@ inline double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
   return properties.Mass();
-}
-
-/// Diagonal of a box around the shape; the box may be a little too large.
-inline double size_of(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, false);
-  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
 /// ShapeFix on the whole shape: wires, missing curves and seams, orientation of faces and shells.

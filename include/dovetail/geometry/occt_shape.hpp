@@ -5,7 +5,9 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/vector.hpp"
 
+#include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <NCollection_DataMap.hxx>
@@ -21,6 +23,7 @@
 #include <gp_Pnt.hxx>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -128,6 +131,13 @@ inline TopTools_IndexedMapOfShape sub_shapes(const TopoDS_Shape& shape, TopAbs_S
   if (!shape.IsNull())
     TopExp::MapShapes(shape, kind, map);
   return map;
+}
+
+/// Diagonal of a box around the shape; the box may be a little too large.
+inline double size_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
 /// Carries the attributes of the faces and solids of `before` over to what `image_of` maps each of them to.

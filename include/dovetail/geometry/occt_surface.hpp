@@ -8,6 +8,7 @@
 #include <BRepTools.hxx>
 #include <ElSLib.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 
@@ -24,21 +25,29 @@ class face_surface {
 public:
   face_surface() = default;
   explicit face_surface(const TopoDS_Face& face) {
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face); // in place: the location is applied
+    Handle(Geom_Surface) surface = BRep_Tool::Surface(face); // in place: the location is applied
+    // A trimmed surface hides that its basis is periodic, and the face's curves may leave its rectangle.
+    while (surface->IsKind(STANDARD_TYPE(Geom_RectangularTrimmedSurface)))
+      surface = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface)->BasisSurface();
     adaptor_.Load(surface);
-    BRepTools::UVBounds(face, box_[0][0], box_[0][1], box_[1][0], box_[1][1]);
-    std::array<std::array<double, 2>, 2> natural{};
-    surface->Bounds(natural[0][0], natural[0][1], natural[1][0], natural[1][1]);
+    surface->Bounds(natural_[0][0], natural_[0][1], natural_[1][0], natural_[1][1]);
     period_ = {surface->IsUPeriodic() ? surface->UPeriod() : 0,
                surface->IsVPeriodic() ? surface->VPeriod() : 0};
+    std::array<std::array<double, 2>, 2> box{};
+    BRepTools::UVBounds(face, box[0][0], box[0][1], box[1][0], box[1][1]);
+    set_box(box);
+  }
+
+  /// The rectangle around the face in the parameter plane; projections stay in it and a margin.
+  void set_box(const std::array<std::array<double, 2>, 2>& box) {
+    box_ = box;
     for (std::size_t k = 0; k < 2; ++k) {
       const double margin = search_margin * (box_[k][1] - box_[k][0]);
       search_[k] = {box_[k][0] - margin, box_[k][1] + margin};
       if (period_[k] == 0)
-        search_[k] = {std::max(search_[k][0], natural[k][0]), std::min(search_[k][1], natural[k][1])};
+        search_[k] = {std::max(search_[k][0], natural_[k][0]), std::min(search_[k][1], natural_[k][1])};
     }
   }
-
   const std::array<std::array<double, 2>, 2>& box() const { return box_; }
   const std::array<double, 2>& period() const { return period_; }
   const GeomAdaptor_Surface& adaptor() const { return adaptor_; }
@@ -72,11 +81,13 @@ public:
   /// Parameters of the point of the surface nearest `p`, near the seed: on a periodic surface the result is
   /// the representative nearest the seed. Parameters stay inside the face's rectangle plus a margin.
   vec2 project(vec3 p, vec2 seed) const {
-    if (const auto uv = project_elementary(p, seed))
-      return clamped(*uv);
-    if (const auto uv = project_by_newton(p, clamped(seed)))
-      return *uv;
-    return project_by_kernel(p, seed);
+    const vec2 periods{whole_periods(seed.x, 0), whole_periods(seed.y, 1)};
+    const vec2 inside = seed - periods;
+    if (const auto uv = project_elementary(p, inside))
+      return clamped(*uv) + periods;
+    if (const auto uv = project_by_newton(p, clamped(inside)))
+      return *uv + periods;
+    return project_by_kernel(p, inside) + periods;
   }
 
 private:
@@ -123,6 +134,12 @@ private:
 
   vec2 clamped(vec2 uv) const {
     return {std::clamp(uv.x, search_[0][0], search_[0][1]), std::clamp(uv.y, search_[1][0], search_[1][1])};
+  }
+  /// The periods by which a parameter is outside the face's rectangle.
+  double whole_periods(double value, std::size_t k) const {
+    if (period_[k] == 0 || (value >= search_[k][0] && value <= search_[k][1]))
+      return 0;
+    return period_[k] * std::round((value - 0.5 * (box_[k][0] + box_[k][1])) / period_[k]);
   }
   static double nearest_representative(double value, double seed, double period) {
     return period > 0 ? value + period * std::round((seed - value) / period) : value;
@@ -244,9 +261,10 @@ private:
   }
 
   GeomAdaptor_Surface adaptor_;
-  std::array<std::array<double, 2>, 2> box_{};    ///< of the face's boundary in the parameter plane
-  std::array<std::array<double, 2>, 2> search_{}; ///< the rectangle projections stay in
-  std::array<double, 2> period_{0, 0};            ///< zero where not periodic
+  std::array<std::array<double, 2>, 2> box_{};     ///< of the face's boundary in the parameter plane
+  std::array<std::array<double, 2>, 2> search_{};  ///< the rectangle projections stay in
+  std::array<std::array<double, 2>, 2> natural_{}; ///< the surface's own parameter rectangle
+  std::array<double, 2> period_{0, 0};             ///< zero where not periodic
 };
 
 } // namespace dovetail::occt

@@ -5,7 +5,6 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/geometry/occt_loops.hpp"
 
-#include <BRepLib.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <TopoDS_Solid.hxx>
@@ -34,7 +33,7 @@ struct brep {
 /// Builds a `brep` from all solids of a shape. The order of entities is that of OCCT's explorer.
 class brep_builder {
 public:
-  brep_builder(const TopoDS_Shape& shape, const attribute_map& names) : names_(names) {
+  brep_builder(const TopoDS_Shape& shape, const attribute_map& names) : names_(names), size_(size_of(shape)) {
     result_.shape = shape;
   }
 
@@ -47,6 +46,7 @@ public:
     for (std::size_t s = 0; s < result_.solids.size(); ++s)
       check_closed(static_cast<local_id>(s));
     measure_tolerances();
+    warn_of_gaps();
     return std::move(result_);
   }
 
@@ -101,7 +101,11 @@ private:
   void add_loops(local_id f) {
     const auto index = static_cast<std::size_t>(f);
     result_.surfaces.emplace_back(result_.faces[index]);
-    face_loops made = loop_builder(result_.faces[index], result_.surfaces.back()).build();
+    face_loops made = loop_builder(result_.faces[index], result_.surfaces.back(), size_).build();
+    if (made.faults.empty()) {
+      result_.surfaces.back().set_box(box_of_loops(made, result_.surfaces.back()));
+      close_gaps(made, result_.surfaces.back()); // projections are confined to the box
+    }
     for (const auto& fault : made.faults)
       result_.faults.push_back(face_text(f) + " " + fault);
     auto& item = result_.topology.faces[index];
@@ -109,7 +113,8 @@ private:
     for (const auto& loop : made.loops) {
       auto& ids = item.loops.emplace_back();
       for (const auto& passage : loop) {
-        const geometry_topology::coedge coedge{curve_id(passage.edge, passage.curve), passage.curve.reversed};
+        const geometry_topology::coedge coedge{curve_id(passage.edge, passage.curve),
+                                               passage.curve.reversed()};
         ids.push_back(coedge);
         item.coedges.push_back(coedge);
         curves.push_back(passage.curve);
@@ -123,7 +128,7 @@ private:
       return known - 1;
     edge_ids_.Add(edge);
     geometry_topology::curve item;
-    item.t = passage.edge_range;
+    item.t = passage.edge_range();
     item.tolerance = BRep_Tool::Tolerance(edge);
     GeomAdaptor_Curve in_space;
     double t0 = 0, t1 = 0;
@@ -184,28 +189,44 @@ private:
     }
   }
 
-  /// Raises curve tolerances to the distances measured between each curve and its faces.
+  /// Raises curve tolerances to the distances measured between each curve and its faces. A distance that
+  /// is no tolerance any more is a fault: the curve belongs somewhere else.
   void measure_tolerances() {
-    constexpr int samples = 23; // as many as OCCT's own check uses
+    measured_.assign(result_.edges.size(), 0);
     for (std::size_t f = 0; f < result_.faces.size(); ++f) {
       for (std::size_t k = 0; k < result_.coedges[f].size(); ++k) {
-        const auto c = static_cast<std::size_t>(result_.topology.faces[f].coedges[k].curve);
-        auto& item = result_.topology.curves[c];
-        if (item.degenerate)
-          continue;
-        for (int i = 0; i < samples; ++i) {
-          const double t = item.t[0] + (item.t[1] - item.t[0]) * i / (samples - 1);
-          const vec3 on_face = result_.surfaces[f].point(result_.coedges[f][k].at(t));
-          item.tolerance = std::max(item.tolerance, distance(on_face, to_vec3(result_.curves[c].Value(t))));
-        }
+        const local_id c = result_.topology.faces[f].coedges[k].curve;
+        auto& item = result_.topology.curves[static_cast<std::size_t>(c)];
+        const double deviation = result_.coedges[f][k].deviation(result_.surfaces[f]);
+        measured_[static_cast<std::size_t>(c)] = std::max(measured_[static_cast<std::size_t>(c)], deviation);
+        item.tolerance = std::max(item.tolerance, deviation);
+        if (deviation > largest_deviation * size_)
+          result_.faults.push_back(face_text(static_cast<local_id>(f)) + " is " + to_text(deviation) +
+                                   " away from its " + curve_text(c));
       }
     }
   }
 
+  /// Names the curves that are far from their faces, up to a few.
+  void warn_of_gaps() {
+    constexpr std::size_t named = 5;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < measured_.size(); ++c)
+      if (measured_[c] > notable_deviation * size_ && ++count <= named)
+        result_.warnings.push_back(curve_text(static_cast<local_id>(c)) + " is up to " +
+                                   to_text(measured_[c]) + " away from its faces");
+    if (count > named)
+      result_.warnings.push_back(std::to_string(count - named) + " more edges are away from their faces");
+  }
+
+  static constexpr double notable_deviation = 1e-4; // of the model's diagonal
+  static constexpr double largest_deviation = 0.01; // likewise
   const attribute_map& names_;
+  double size_; ///< diagonal of the shape
   brep result_;
   TopTools_IndexedMapOfShape face_ids_, edge_ids_, vertex_map_;
   std::map<int, std::size_t> vertex_ids_;
+  std::vector<double> measured_; ///< per curve: the largest distance to its faces
 };
 
 } // namespace dovetail::occt
