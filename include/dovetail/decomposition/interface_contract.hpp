@@ -17,6 +17,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {

@@ -1,0 +1,154 @@
+#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "support/jittered_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace dovetail;
+using namespace dovetail_test;
+
+namespace {
+
+struct measured {
+  double interface_wedge = 360;
+  double surface_wedge = 360;
+  std::size_t below = 0;
+};
+
+/// Wedges of parts from the elements: around every ridge, the dihedral angles of consecutive elements of one
+/// part add up.
+measured wedges_from_elements(const simplicial_mesh<3>& mesh, const std::vector<local_id>& part,
+                              double threshold) {
+  const auto adj = build_adjacency(mesh);
+  measured m;
+  for (std::size_t f = 0; f < adj.ridges.fan_count(); ++f) {
+    struct item {
+      local_id part;
+      double angle;
+      bool surface_from;
+      bool surface_to;
+    };
+    std::vector<item> items;
+    for (const std::uint32_t code : adj.ridges.fan(f)) {
+      const wedge w = ridge_table<3>::decode(code);
+      const auto e = static_cast<std::size_t>(w.element);
+      const auto is_surface = [&](std::size_t end) {
+        return adj.sides.is_boundary(adj.sides.of_element[e][static_cast<std::size_t>(w.sides[end])]);
+      };
+      items.push_back(
+          {part[e],
+           wedge_angles(corners(std::span(mesh.points), mesh.elements[e]))[static_cast<std::size_t>(w.ridge)],
+           is_surface(0), is_surface(1)});
+    }
+    if (adj.ridges.closed[f]) {
+      std::size_t start = 0;
+      while (start < items.size() &&
+             items[start].part == items[(start + items.size() - 1) % items.size()].part)
+        ++start;
+      if (start == items.size())
+        continue; // one part all around
+      std::rotate(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(start), items.end());
+    }
+    for (std::size_t k = 0; k < items.size();) {
+      item run = items[k];
+      for (++k; k < items.size() && items[k].part == run.part; ++k) {
+        run.angle += items[k].angle;
+        run.surface_to = items[k].surface_to;
+      }
+      if (run.surface_from && run.surface_to)
+        continue;
+      double& minimum = run.surface_from || run.surface_to ? m.surface_wedge : m.interface_wedge;
+      minimum = std::min(minimum, run.angle);
+      m.below += run.angle < threshold ? 1 : 0;
+    }
+  }
+  return m;
+}
+
+std::vector<local_id> random_parts(const simplicial_mesh<3>& mesh, int parts, std::uint64_t seed) {
+  random_numbers random(seed);
+  std::vector<local_id> part(mesh.elements.size());
+  for (local_id& p : part)
+    p = static_cast<local_id>(random.bits() % static_cast<std::uint64_t>(parts));
+  return part;
+}
+
+} // namespace
+
+TEST_CASE("angles measured on the skeleton are those measured through the elements") {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto mesh = shuffled(jittered_cubes(4, 0.15, seed), seed);
+    const auto sides = build_sides(mesh);
+    for (const int parts : {2, 4}) {
+      const auto part = random_parts(mesh, parts, seed);
+      const auto boundary = subdomain_boundary<3>(mesh, sides, part);
+      const std::vector<side_state> states(sides.size(), side_state::kept);
+      const auto origins = triangle_origins(boundary, states);
+      const double threshold = 50;
+      const auto contract =
+          check_interface_contract({mesh.points, boundary.sides, boundary.subdomains, origins}, threshold);
+      const measured expected = wedges_from_elements(mesh, part, threshold);
+      CHECK(contract.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
+      CHECK(contract.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
+      std::size_t wedges = 0;
+      std::size_t faces = 0;
+      for (const contract_violation& v : contract.violations) {
+        wedges += v.is_wedge() ? 1 : 0;
+        faces += v.is_wedge() ? 0 : 1;
+        CHECK(v.angle_deg < threshold);
+        CHECK(v.cause == contract_cause::remeshing); // nothing was fixed or refused
+      }
+      CHECK(wedges == expected.below);
+      std::size_t expected_faces = 0;
+      double smallest = 360;
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        const auto [a, b] = sides.elements[s];
+        if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
+          continue;
+        const auto angles = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
+        const double angle = *std::min_element(angles.begin(), angles.end());
+        smallest = std::min(smallest, angle);
+        expected_faces += angle < threshold ? 1 : 0;
+      }
+      CHECK(contract.face_angle.angle_deg == smallest);
+      CHECK(faces == expected_faces);
+    }
+  }
+}
+
+TEST_CASE("the place and the cause of a violation are named") {
+  // Two tetrahedra on either side of the triangle (0, 1, 2); the one below is flat.
+  simplicial_mesh<3> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.3, 0.2, -0.02}};
+  mesh.elements = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  const auto sides = build_sides(mesh);
+  const std::vector<local_id> part{0, 1};
+  const auto boundary = subdomain_boundary<3>(mesh, sides, part);
+  std::vector<side_state> states(sides.size(), side_state::fixed);
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (sides.is_interior(static_cast<local_id>(s)))
+      states[s] = side_state::refused;
+  const auto origins = triangle_origins(boundary, states);
+  const auto contract =
+      check_interface_contract({mesh.points, boundary.sides, boundary.subdomains, origins}, 30);
+  CHECK(contract.interface_faces == 1);
+  CHECK(contract.face_angle.angle_deg == doctest::Approx(45));
+  CHECK(contract.interface_wedge.angle_deg == 360); // none
+  REQUIRE(contract.violations.size() == 3);         // the wedges of the flat element at the interface's edges
+  for (const auto& v : contract.violations) {
+    CHECK(v.is_wedge());
+    CHECK(v.subdomain == 1);
+    CHECK(v.cause == contract_cause::refused);
+  }
+  CHECK(contract.surface_wedge.angle_deg == contract.violations[0].angle_deg);
+  CHECK(contract.surface_wedge.edge == std::array<local_id, 2>{0, 1});
+  CHECK(contract.surface_wedge.angle_deg == doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.2)));
+}
+
+TEST_CASE("spans of different length are refused") {
+  const std::vector<vec3> points{{0, 0, 0}};
+  const std::vector<simplex<2>> triangles{{0, 0, 0}};
+  CHECK_THROWS_AS(check_interface_contract({points, triangles, {}, {}}), usage_error);
+}
