@@ -143,8 +143,9 @@ TEST_CASE("the place and the cause of a violation are named") {
     CHECK(v.cause == contract_cause::refused);
   }
   CHECK(contract.surface_wedge.angle_deg == contract.violations[0].angle_deg);
-  CHECK(contract.surface_wedge.edge == std::array<local_id, 2>{0, 1});
-  CHECK(contract.surface_wedge.angle_deg == doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.2)));
+  CHECK(contract.surface_wedge.edge == std::array<local_id, 2>{1, 2});
+  CHECK(contract.surface_wedge.angle_deg ==
+        doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
 TEST_CASE("spans of different length are refused") {
