@@ -1,5 +1,7 @@
-// Gmsh itself rereads what the MSH writer writes.
+// Gmsh itself rereads what the MSH writer writes, and the MSH reader reads what Gmsh writes.
+#include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/read_mesh.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -283,4 +285,76 @@ TEST_CASE("long and odd names survive as far as Gmsh allows") {
   CHECK(name == std::string(120, 'x'));
   gmsh::model::getPhysicalName(2, 3, name);
   CHECK(name == "line break 'quoted' \xc3\xa4");
+}
+
+TEST_CASE("what Gmsh writes is read: versions 2.2 and 4.1, text and binary, whole and partitioned") {
+  const testing::scratch_folder folder("msh_by_gmsh");
+  const auto mesh = cubes.distributed();
+  for (const bool partitioned : {false, true}) {
+    io::msh_writer{.partitioned = partitioned}(mesh, folder);
+    for (const double version : {2.2, 4.1})
+      for (const int binary : {0, 1}) {
+        {
+          const gmsh_session session(folder / "mesh.msh");
+          gmsh::option::setNumber("Mesh.MshFileVersion", version);
+          gmsh::option::setNumber("Mesh.Binary", binary);
+          gmsh::option::setNumber("Mesh.SaveAll", version == 2.2 ? 0 : 1);
+          gmsh::write((folder / "by_gmsh.msh").string());
+        }
+        CAPTURE(version);
+        CAPTURE(binary);
+        const auto read = io::read_mesh(folder / "by_gmsh.msh");
+        CHECK(read.mesh.elements.size() == 6 * 6 * 6 * 6);
+        CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 2) == 3 * 6 * 6 * 6);
+        CHECK(read.subdomains.size() == (partitioned ? read.mesh.elements.size() : 0));
+        CHECK(read.region_names.size() == 2);
+        // Text has 16 digits, and Gmsh renumbers nodes for version 2.2.
+        if (binary == 1 && version == 4.1)
+          CHECK(io::mesh_hash(read) == io::mesh_hash(mesh));
+      }
+  }
+}
+
+TEST_CASE("a mesh that Gmsh made is read, with names and node data, and quadratic elements are refused") {
+  const testing::scratch_folder folder("msh_made_by_gmsh");
+  for (const double version : {2.2, 4.1})
+    for (const int binary : {0, 1}) {
+      gmsh::initialize();
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::model::add("ball");
+      gmsh::model::occ::addSphere(0, 0, 0, 1, 5);
+      gmsh::model::occ::synchronize();
+      gmsh::model::addPhysicalGroup(3, {5}, 42);
+      gmsh::model::setPhysicalName(3, 42, "a ball");
+      gmsh::option::setNumber("Mesh.MeshSizeMax", 0.4);
+      gmsh::model::mesh::generate(3);
+      gmsh::option::setNumber("Mesh.MshFileVersion", version);
+      gmsh::option::setNumber("Mesh.Binary", binary);
+      gmsh::write((folder / "ball.msh").string());
+      std::vector<std::size_t> nodes;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(nodes, coordinates, parameters);
+      const int view = gmsh::view::add("size");
+      std::vector<std::vector<double>> values;
+      for (const auto n : nodes)
+        values.push_back({static_cast<double>(n)});
+      gmsh::view::addModelData(view, 0, "ball", "NodeData", nodes, values);
+      gmsh::view::write(view, (folder / "size.msh").string());
+      gmsh::model::mesh::setOrder(2);
+      gmsh::write((folder / "quadratic.msh").string());
+      gmsh::finalize();
+
+      const auto read = io::read_mesh(folder / "ball.msh");
+      CHECK(read.mesh.elements.size() > 100);
+      CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 42) ==
+            static_cast<std::ptrdiff_t>(read.mesh.elements.size()));
+      CHECK(read.region_names == std::vector{std::pair(local_id{42}, std::string("a ball"))});
+      const auto sizes = io::read_mesh(folder / "size.msh");
+      REQUIRE(sizes.scalars("size") != nullptr);
+      REQUIRE(sizes.scalars("size")->size() == nodes.size());
+      for (std::size_t v = 0; v < nodes.size(); ++v)
+        CHECK((*sizes.scalars("size"))[v] == static_cast<double>(sizes.node_ids[v] + 1));
+      CHECK_THROWS_WITH_AS(io::read_mesh(folder / "quadratic.msh"), doctest::Contains("elements of type"),
+                           input_error);
+    }
 }

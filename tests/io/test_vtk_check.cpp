@@ -1,5 +1,9 @@
-// VTK itself reads what the VTU writer writes: scripts/check_mesh.py says what it found.
+// VTK itself reads what the VTU writer writes (scripts/check_mesh.py says what it found), and the VTU reader
+// reads what VTK writes.
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/io/write_mesh.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -74,4 +78,43 @@ TEST_CASE("the check finds a crack, an inverted element and a wrong surface") {
   const auto cracked = spoil([](mesh_piece& piece) { piece.mesh.elements[9] = piece.mesh.elements[8]; });
   CHECK(cracked.first != 0);
   CHECK(cracked.second.find("surface.vtp is not the boundary") != std::string::npos);
+}
+
+TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zlib, both byte orders") {
+  if (!has_vtk())
+    return;
+  const testing::scratch_folder folder("vtk_variants");
+  const auto mesh = cubes.whole();
+  std::vector<double> sizes;
+  for (const auto& p : mesh.points)
+    sizes.push_back(0.1 + p.x * p.y);
+  io::write_vtu(mesh, folder / "mesh.vtu", {{"size", sizes}});
+  const auto variants = folder / "variants";
+  std::filesystem::create_directory(variants);
+  REQUIRE(std::system((python + " " DOVETAIL_TESTS "/write_vtk_variants.py '" +
+                       (folder / "mesh.vtu").string() + "' '" + variants.string() + "' > /dev/null 2>&1")
+                          .c_str()) == 0);
+  std::size_t read_files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(variants)) {
+    if (entry.path().filename() == "lz4") {
+      CHECK_THROWS_WITH_AS(io::read_mesh(entry.path()), doctest::Contains("vtkLZ4DataCompressor"),
+                           input_error);
+      continue;
+    }
+    CAPTURE(entry.path().string());
+    const auto read = io::read_mesh(entry.path());
+    ++read_files;
+    CHECK(read.mesh.elements == mesh.elements);
+    CHECK(read.mesh.tags == mesh.tags);
+    REQUIRE(read.scalars("size") != nullptr);
+    if (entry.path().filename().string().starts_with("Ascii")) {
+      REQUIRE(read.mesh.points.size() == mesh.points.size());
+      for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        CHECK(distance(read.mesh.points[v], mesh.points[v]) < 1e-6);
+    } else {
+      CHECK(read.mesh.points == mesh.points);
+      CHECK(*read.scalars("size") == sizes);
+    }
+  }
+  CHECK(read_files == 2 + 3 * 2 * 2 * 2);
 }
