@@ -1,0 +1,101 @@
+#include "any_geometry.hpp"
+#include "any_policies.hpp"
+
+#include "concepts/archetypes.hpp"
+
+#include <doctest/doctest.h>
+
+namespace dovetail::app {
+namespace {
+
+TEST_CASE("a held partitioner gives what the policy itself gives") {
+  csr_graph path;
+  path.offsets = {0, 1, 3, 4};
+  path.neighbours = {1, 0, 2, 1};
+  path.edge_weights.assign(4, 1.0);
+  path.node_weights.assign(3, 1.0);
+  const any_partitioner held("archetype", archetype::partitioner(0));
+  CHECK(held.name() == "archetype");
+  CHECK(held(path, 3) == archetype::partitioner(0)(path, 3));
+}
+
+TEST_CASE("a held mesher passes on its input and its traits") {
+  mesher_input<3> input;
+  input.boundary.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  input.material = 7;
+  const any_mesher held("archetype", archetype::mesher(0));
+  CHECK(held.actual_traits().keeps_boundary);
+  CHECK_FALSE(held.actual_traits().may_crash);
+  const auto result = held(input, {});
+  CHECK(result.mesh.points.size() == 4);
+  CHECK(result.mesh.tags == std::vector<local_id>{7});
+}
+
+TEST_CASE("a held improver works on the caller's mesh") {
+  struct marking {
+    report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {
+      mesh.points.push_back({h({1, 2, 3}), 0, 0});
+      report made;
+      made.set("frozen", frozen.points);
+      return made;
+    }
+  };
+  simplicial_mesh<3> mesh;
+  const any_improver held("marking", marking{});
+  const report made = held(mesh, {.points = 5}, [](vec3 p) { return p.z; });
+  CHECK(made.get("frozen") == 5);
+  REQUIRE(mesh.points.size() == 1);
+  CHECK(mesh.points[0].x == 3);
+}
+
+TEST_CASE("a held executor runs every task once, and knows its workers") {
+  struct backwards {
+    std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
+      std::vector<task_outcome> outcomes(count);
+      for (std::size_t i = count; i-- > 0;)
+        outcomes[i].result = task(i);
+      return outcomes;
+    }
+    int workers() const { return 3; }
+  };
+  const any_executor held("backwards", backwards{});
+  CHECK(held.workers() == 3);
+  const auto outcomes = held.run(4, [](std::size_t i) { return byte_buffer(i); }, {});
+  REQUIRE(outcomes.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i)
+    CHECK(outcomes[i].result.size() == i);
+}
+
+TEST_CASE("a held geometry forwards every query with its arguments") {
+  struct echo {
+    const geometry_topology& topology() const { return entities; }
+    vec3 curve_point(local_id c, double t) const { return {double(c), t, 1}; }
+    dovetail::curve_frame curve_frame(local_id c, double t) const { return {{double(c), t, 2}, {}}; }
+    vec2 curve_uv(local_id f, int k, double t) const { return {double(f) + k, t}; }
+    vec3 face_point(local_id f, vec2 uv) const { return {double(f), uv.x, uv.y}; }
+    surface_frame face_frame(local_id f, vec2 uv) const { return {{double(f), uv.x, uv.y}, {}, {}}; }
+    double face_curvature(local_id f, vec2 uv) const { return f + uv.x + uv.y; }
+    vec2 project_to_face(local_id f, vec3 p, vec2 seed) const { return {f + p.x, seed.y}; }
+    double project_to_curve(local_id c, vec3 p, double seed) const { return c + p.x + seed; }
+    box3 bounds() const { return {{0, 0, 0}, {1, 2, 3}}; }
+    bool thread_safe() const { return true; }
+    geometry_topology entities;
+  };
+  echo model;
+  model.entities.solids.push_back({"body"});
+  const any_geometry held(model);
+  CHECK(held.topology().solids.at(0).name == "body");
+  CHECK(held.curve_point(4, 0.5) == vec3{4, 0.5, 1});
+  CHECK(held.curve_frame(4, 0.5).point == vec3{4, 0.5, 2});
+  CHECK(held.curve_uv(4, 2, 0.5) == vec2{6, 0.5});
+  CHECK(held.face_point(4, {5, 6}) == vec3{4, 5, 6});
+  CHECK(held.face_frame(4, {5, 6}).point == vec3{4, 5, 6});
+  CHECK(held.face_curvature(4, {5, 6}) == 15);
+  CHECK(held.project_to_face(4, {1, 0, 0}, {5, 6}) == vec2{5, 6});
+  CHECK(held.project_to_curve(4, {1, 0, 0}, 0.5) == 5.5);
+  CHECK(held.bounds().upper == vec3{1, 2, 3});
+  CHECK(held.thread_safe());
+}
+
+} // namespace
+} // namespace dovetail::app

@@ -1,0 +1,107 @@
+#include "run_figures.hpp"
+
+#include "dovetail/core/error.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace dovetail::app {
+namespace {
+
+/// A folder of its own, removed at the end.
+struct temporary_folder {
+  temporary_folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "dovetail_report_XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path = pattern;
+  }
+  ~temporary_folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
+run_figures example() {
+  run_figures figures;
+  figures.model = "a \"quoted\" name\n";
+  figures.workers = 2;
+  figures.elements = 3'000'000'000;
+  figures.vertices = 500'000'000;
+  figures.subdomains = 32;
+  figures.seconds.total = 10;
+  figures.seconds.meshing = 6;
+  figures.quality.elements = figures.elements;
+  figures.quality.min_wedge_deg = 11.5;
+  figures.quality.min_wedges.bins[11] = 6000;
+  figures.interfaces.min_face_angle_deg = 30.5;
+  figures.interfaces.refused = 3;
+  figures.coarse_interfaces.min_face_angle_deg = 31.5;
+  figures.mesh_hash = 0x0123456789abcdef;
+  report child;
+  child.name = "part";
+  child.set("cells", 5);
+  figures.details.children.push_back(child);
+  return figures;
+}
+
+TEST_CASE("the report has all promised fields with the figures' values") {
+  const temporary_folder folder;
+  write_report(example(), folder.path / "report.json");
+  std::ifstream file(folder.path / "report.json");
+  const auto document = nlohmann::json::parse(file);
+
+  for (const char* key : {"elements", "vertices", "background_elements", "subdomains", "seconds", "quality",
+                          "interfaces", "merges", "failed_subdomains", "peak_rss_bytes", "mesh_hash"})
+    CHECK_MESSAGE(document.contains(key), key);
+  for (const char* key : {"background", "simplification", "partition", "skeleton", "intersection", "meshing",
+                          "improvement", "output", "total"})
+    CHECK_MESSAGE(document["seconds"].contains(key), key);
+  for (const char* key :
+       {"min_dihedral_deg", "max_dihedral_deg", "bad_per_million", "low_per_million", "histogram"})
+    CHECK_MESSAGE(document["quality"].contains(key), key);
+  for (const char* key : {"min_face_angle_deg", "min_wedge_deg", "faces", "forced", "refused", "coarse"})
+    CHECK_MESSAGE(document["interfaces"].contains(key), key);
+
+  CHECK(document["model"] == "a \"quoted\" name\n");
+  CHECK(document["elements"] == 3'000'000'000);
+  CHECK(document["seconds"]["meshing"] == 6.0);
+  CHECK(document["quality"]["min_dihedral_deg"] == 11.5);
+  CHECK(document["quality"]["bad_per_million"].get<double>() == doctest::Approx(2.0));
+  CHECK(document["quality"]["histogram"]["min_dihedral"][11] == 6000);
+  CHECK(document["interfaces"]["refused"] == 3);
+  CHECK(document["interfaces"]["coarse"]["min_face_angle_deg"] == 31.5);
+  CHECK(document["mesh_hash"] == "0123456789abcdef");
+  CHECK(document["details"]["children"][0]["counters"]["cells"] == 5.0);
+}
+
+TEST_CASE("a report that cannot be written throws an error naming the file, and leaves nothing") {
+  const temporary_folder folder;
+  const auto file = folder.path / "no_such_folder" / "report.json";
+  try {
+    write_report(example(), file);
+    FAIL("no error");
+  } catch (const io_error& problem) {
+    CHECK(std::string(problem.what()).find(file.string()) != std::string::npos);
+  }
+  CHECK(std::filesystem::is_empty(folder.path));
+}
+
+TEST_CASE("the summary shows the figures under the paper's headings") {
+  const std::string text = summary_text(example());
+  for (const char* expected : {"General data", "No. of tetrahedra", "3,000,000,000", "Timing (seconds)",
+                               "Domain decomposition", "Mesh generation", "Relative speed", "150 M",
+                               "Minimum dihedral angle", "11.50", "6,000", "Interfaces"})
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+}
+
+TEST_CASE("the summary of a single subdomain has no interfaces") {
+  run_figures figures = example();
+  figures.subdomains = 1;
+  CHECK(summary_text(figures).find("Interfaces") == std::string::npos);
+}
+
+} // namespace
+} // namespace dovetail::app
