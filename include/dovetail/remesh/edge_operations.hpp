@@ -14,7 +14,7 @@ public:
   /// Delaunay in 3-space: opposite angles add up to at most pi. Returns the number of flips.
   template <class S>
   std::size_t make_delaunay(patch_state<S>& s) {
-    return run(s, [&](local_id c) { return violates_delaunay(s, c); });
+    return run(s, [&](local_id c) { return violates_delaunay(s, c) && !flip_folds(s, c); });
   }
   /// Flips whatever raises the smaller quality of the two triangles; never loops, as that strictly grows.
   template <class S>
@@ -49,6 +49,15 @@ private:
     const double sine_of_sum = sin_p * cos_q + cos_p * sin_q;
     return sine_of_sum <
            -1e-9 * (norm_squared(pa) + norm_squared(pb)) * (norm_squared(qa) + norm_squared(qb));
+  }
+  /// True when a flip would make a triangle whose normal is wrong out of two whose normals are right.
+  template <class S>
+  static bool flip_folds(const patch_state<S>& s, local_id c) {
+    const local_id d = s.table.twin[s.at(c)];
+    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
+    const local_id a = s.table.tail(c), b = s.table.head(c);
+    const double after = std::min(s.quality(p, a, q), s.quality(q, b, p));
+    return after <= 0 && after <= std::min(s.quality(p, a, b), s.quality(q, b, a));
   }
   template <class S>
   static bool flip_raises_quality(const patch_state<S>& s, local_id c) {

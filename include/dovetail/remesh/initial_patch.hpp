@@ -74,7 +74,7 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
 }
 
 /// True when the straight edge a-b is a poor stand-in for the surface curve between the same parameters: it
-/// turns by more than about 90 degrees.
+/// turns by more than about 70 degrees.
 template <class S>
 bool bridges_curvature(const patch_state<S>& s, local_id a, local_id b) {
   const double chord = s.length(a, b);
@@ -90,7 +90,7 @@ bool bridges_curvature(const patch_state<S>& s, local_id a, local_id b) {
     length += distance(from, to);
     from = to;
   }
-  return chord < 0.9 * length && length > 0.3 * s.target(a, b);
+  return chord < 0.94 * length && length > 0.3 * s.target(a, b);
 }
 
 /// Makes the patch Delaunay in the scaled parameter plane around the queued corners.

@@ -155,15 +155,18 @@ private:
     return improved;
   }
 
-  /// Splits the longest free side of a folded triangle: smaller triangles follow the surface better.
+  /// Splits the free side of a folded triangle that is longest in the scaled parameter plane (in space it may
+  /// be a short chord of a long way around): smaller triangles follow the surface better.
   template <class State>
   static std::size_t split_folded(State& state, local_id t, detail::flip_queue& flips) {
     local_id longest = no_id;
     double length = 0;
     for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      if (state.table.free_side(c) && state.length(state.table.tail(c), state.table.head(c)) > length) {
+      if (const double l =
+              norm(state.xy[state.at(state.table.head(c))] - state.xy[state.at(state.table.tail(c))]);
+          state.table.free_side(c) && l > length) {
         longest = c;
-        length = state.length(state.table.tail(c), state.table.head(c));
+        length = l;
       }
     if (longest == no_id || detail::split_at_middle(state, longest, flips) == no_id)
       return 0;
