@@ -1,0 +1,515 @@
+/// @file
+/// Cuts closed surfaces into smooth patches along feature edges, and patches into charts, pieces that can be
+/// projected onto a plane without a fold.
+#pragma once
+
+#include "dovetail/core/box_tree.hpp"
+#include "dovetail/geometry/discrete_frame.hpp"
+#include "dovetail/geometry/discrete_repair.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+struct chart_options {
+  double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature edge
+  double cone_angle_deg = 60;    ///< largest angle between a triangle's normal and its chart's mean normal
+};
+
+/// The surfaces with triangles split where charts end, and the charts.
+struct charted_surface {
+  simplicial_mesh<2> mesh;
+  std::vector<local_id> smooth_of; ///< per triangle: the smooth patch; it changes across feature edges
+  std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
+  std::vector<local_id> patch_of;  ///< per triangle: named patch of the file, or no_id
+  std::vector<local_id> solid_of;  ///< per triangle
+  std::vector<discrete::chart_frame> frames; ///< per chart
+};
+
+namespace discrete {
+
+inline constexpr double radians_per_degree = std::numbers::pi / 180;
+
+/// A directed edge of a chart's boundary, the chart on its left.
+struct boundary_edge {
+  local_id from;
+  local_id to;
+  std::size_t triangle;
+};
+
+/// Chains boundary edges of one chart to loops, turning around each vertex through the chart's triangles.
+/// `across(t, i)` is the triangle across the edge opposite corner i of t.
+template <class Across>
+std::vector<std::vector<boundary_edge>>
+boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local_id>& chart_of,
+               const std::vector<std::size_t>& members, Across&& across) {
+  const auto key_less = [](const boundary_edge& a, const boundary_edge& b) {
+    return std::tie(a.from, a.triangle, a.to) < std::tie(b.from, b.triangle, b.to);
+  };
+  std::vector<boundary_edge> edges;
+  for (const std::size_t t : members)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (chart_of[across(t, i)] != chart_of[t])
+        edges.push_back({triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], t});
+  std::sort(edges.begin(), edges.end(), key_less);
+  std::vector<char> used(edges.size(), 0);
+
+  // From the end of an edge, turn through triangles of the chart to the boundary edge that leaves there.
+  const auto next_of = [&](const boundary_edge& e) {
+    std::size_t t = e.triangle;
+    while (true) {
+      std::size_t i = 0; // the edge of t that leaves e.to is opposite the corner before it
+      while (triangles[t][(i + 1) % 3] != e.to)
+        ++i;
+      const std::size_t next = across(t, i);
+      if (chart_of[next] != chart_of[t])
+        return boundary_edge{e.to, triangles[t][(i + 2) % 3], t};
+      t = next;
+    }
+  };
+  std::vector<std::vector<boundary_edge>> loops;
+  for (std::size_t first = 0; first < edges.size(); ++first) {
+    if (used[first])
+      continue;
+    std::vector<boundary_edge> loop;
+    boundary_edge at = edges[first];
+    while (true) {
+      const auto found = std::lower_bound(edges.begin(), edges.end(), at, key_less);
+      const auto index = static_cast<std::size_t>(found - edges.begin());
+      if (used[index])
+        break;
+      used[index] = 1;
+      loop.push_back(at);
+      at = next_of(at);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+/// Do the loops bound one plane domain: one loop counter-clockwise, the others clockwise, none crossing
+/// itself or another?
+inline bool loops_are_simple(const std::vector<std::vector<boundary_edge>>& loops,
+                             const std::vector<vec3>& points, const chart_frame& frame) {
+  const auto flat = [&](local_id v) { return frame.flat(points[static_cast<std::size_t>(v)]); };
+  std::vector<std::pair<local_id, local_id>> segments;
+  int outer = 0;
+  for (const auto& loop : loops) {
+    double twice_area = 0;
+    for (const auto& e : loop) {
+      twice_area += cross(flat(e.from) - flat(loop.front().from), flat(e.to) - flat(loop.front().from));
+      segments.emplace_back(e.from, e.to);
+    }
+    outer += twice_area > 0 ? 1 : 0;
+  }
+  if (outer != 1)
+    return false;
+  std::vector<box3> boxes;
+  for (const auto& [a, b] : segments) {
+    box3 box;
+    for (const vec2 p : {flat(a), flat(b)})
+      box.include({p.x, p.y, 0});
+    boxes.push_back(box);
+  }
+  const auto strictly_cross = [&](std::size_t s, std::size_t t) {
+    const vec2 a = flat(segments[s].first);
+    const vec2 b = flat(segments[s].second);
+    const vec2 c = flat(segments[t].first);
+    const vec2 d = flat(segments[t].second);
+    return (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0) &&
+           (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
+  };
+  const box_tree tree(boxes);
+  bool simple = true;
+  for (std::size_t s = 0; s < segments.size() && simple; ++s)
+    tree.for_each([&](const box3& box, std::size_t) { return simple && box.overlaps(boxes[s]); },
+                  [&](local_id id) {
+                    const auto t = static_cast<std::size_t>(id);
+                    const auto [a, b] = segments[s];
+                    const auto [c, d] = segments[t];
+                    if (t > s && a != c && a != d && b != c && b != d && strictly_cross(s, t))
+                      simple = false;
+                  });
+  return simple;
+}
+
+/// Cuts in rounds: every chart that cannot be projected yet is cut along a contour line of a function on its
+/// vertices, the component of the normals (or, where normals agree, of the positions) along their principal
+/// axis. Contour lines split triangles, so charts do not end in teeth.
+class chart_cutter {
+public:
+  chart_cutter(const closed_surfaces& surfaces, const chart_options& options)
+      : cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
+    s_.mesh = surfaces.mesh;
+    s_.patch_of = surfaces.patches;
+    s_.solid_of = surfaces.solid_of;
+    box3 box;
+    for (const vec3& p : s_.mesh.points)
+      box.include(p);
+    sliver_height_ = 1e-6 * box.diagonal();
+    connect();
+    find_smooth_patches(options.feature_angle_deg * radians_per_degree);
+    s_.chart_of = s_.smooth_of;
+  }
+
+  charted_surface run() {
+    for (int round = 0; round < largest_rounds; ++round) {
+      gather();
+      values_.assign(triangles().size(), std::nullopt);
+      bool done = true;
+      for (std::size_t c = 0; c < members_.size(); ++c)
+        if (const auto by = needed_cut(c)) {
+          set_values(c, *by);
+          done = false;
+        }
+      if (done)
+        break;
+      split_along_contours();
+      connect();
+      renumber_charts(round < rounds_of_tidying);
+    }
+    gather();
+    s_.frames = frames_;
+    s_.mesh.tags = s_.chart_of;
+    return std::move(s_);
+  }
+
+private:
+  static constexpr int largest_rounds = 40;
+  static constexpr int rounds_of_tidying = 8;
+  static constexpr double snap =
+      0.15; ///< a contour this near an edge's end, as a share of the edge, goes through it
+
+  enum class cut_by { normal, position };
+  using corner_values = std::array<double, 3>;
+
+  std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
+  vec3 point(local_id v) const { return s_.mesh.points[static_cast<std::size_t>(v)]; }
+  /// Twice the area vector of a triangle.
+  vec3 area_vector(std::size_t t) const {
+    const auto& v = s_.mesh.elements[t];
+    return cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
+  }
+  bool is_sliver(std::size_t t) const {
+    const auto& v = s_.mesh.elements[t];
+    const double longest = std::max({distance(point(v[0]), point(v[1])), distance(point(v[1]), point(v[2])),
+                                     distance(point(v[2]), point(v[0]))});
+    return norm(area_vector(t)) <= sliver_height_ * longest;
+  }
+
+  void connect() { neighbours_ = element_neighbours(build_sides<2>(s_.mesh)); }
+  std::size_t across(std::size_t t, std::size_t i) const {
+    return static_cast<std::size_t>(neighbours_[t][i]);
+  }
+
+  /// Floods over triangle pairs that `joined`; numbers the pieces in the order of their first triangles.
+  template <class Joined>
+  std::vector<local_id> pieces(Joined&& joined) const {
+    std::vector<local_id> piece(neighbours_.size(), no_id);
+    std::vector<std::size_t> pending;
+    local_id count = 0;
+    for (std::size_t seed = 0; seed < piece.size(); ++seed) {
+      if (piece[seed] != no_id)
+        continue;
+      piece[seed] = count;
+      pending.assign(1, seed);
+      while (!pending.empty()) {
+        const std::size_t t = pending.back();
+        pending.pop_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t next = across(t, i);
+          if (piece[next] == no_id && joined(t, next)) {
+            piece[next] = count;
+            pending.push_back(next);
+          }
+        }
+      }
+      ++count;
+    }
+    return piece;
+  }
+
+  void find_smooth_patches(double feature_angle) {
+    s_.smooth_of = pieces([&](std::size_t t, std::size_t next) {
+      if (s_.patch_of[t] != s_.patch_of[next])
+        return false;
+      return is_sliver(t) || is_sliver(next) ||
+             angle_between(area_vector(t), area_vector(next)) <= feature_angle;
+    });
+  }
+
+  void gather() {
+    const local_id count = 1 + *std::max_element(s_.chart_of.begin(), s_.chart_of.end());
+    members_.assign(static_cast<std::size_t>(count), {});
+    for (std::size_t t = 0; t < triangles().size(); ++t)
+      members_[static_cast<std::size_t>(s_.chart_of[t])].push_back(t);
+    frames_.clear();
+    for (const auto& chart : members_) {
+      vec3 normal;
+      vec3 center;
+      double area = 0;
+      for (const std::size_t t : chart) {
+        const vec3 n = area_vector(t);
+        normal += n;
+        area += norm(n);
+        center +=
+            (norm(n) / 3) * (point(triangles()[t][0]) + point(triangles()[t][1]) + point(triangles()[t][2]));
+      }
+      frames_.push_back(
+          frame_along(center / area, norm(normal) > 1e-9 * area ? normal : area_vector(chart[0])));
+    }
+  }
+
+  /// What the chart must be cut by; nothing when it can be projected.
+  std::optional<cut_by> needed_cut(std::size_t c) const {
+    for (const std::size_t t : members_[c])
+      if (dot(normalized(area_vector(t)), frames_[c].n) < cone_ && !is_sliver(t))
+        return members_[c].size() > 1 ? std::optional(cut_by::normal) : std::nullopt;
+    const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, members_[c],
+                                      [&](std::size_t t, std::size_t i) { return across(t, i); });
+    if (loops_are_simple(loops, s_.mesh.points, frames_[c]))
+      return std::nullopt;
+    return cut_by::position;
+  }
+
+  /// Signed values at the corners of the chart's triangles; the contour at zero is the cut.
+  void set_values(std::size_t c, cut_by by) {
+    const auto& chart = members_[c];
+    std::vector<std::pair<local_id, vec3>> at; // per vertex of the chart: normal or position
+    for (const std::size_t t : chart)
+      for (const local_id v : triangles()[t])
+        at.emplace_back(v, by == cut_by::normal ? area_vector(t) : point(v));
+    std::stable_sort(at.begin(), at.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (kept > 0 && at[kept - 1].first == at[i].first)
+        at[kept - 1].second += by == cut_by::normal ? at[i].second : vec3{};
+      else
+        at[kept++] = at[i];
+    at.resize(kept);
+    const auto vector_at = [&](local_id v) {
+      const auto found =
+          std::lower_bound(at.begin(), at.end(), v, [](const auto& a, local_id b) { return a.first < b; });
+      return by == cut_by::normal ? normalized(found->second) : found->second;
+    };
+    vector_moments moments;
+    for (const std::size_t t : chart)
+      for (const local_id v : triangles()[t])
+        moments.add(vector_at(v), norm(area_vector(t)));
+    const vec3 axis = moments.principal_axis();
+    double lowest = 1e300;
+    double highest = -1e300;
+    for (const auto& [v, ignored] : at) {
+      const double value = dot(vector_at(v), axis);
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    for (const std::size_t t : chart) {
+      corner_values values;
+      for (std::size_t i = 0; i < 3; ++i)
+        values[i] = dot(vector_at(triangles()[t][i]), axis) - 0.5 * (lowest + highest);
+      values_[t] = values;
+    }
+    snap_to_vertices(chart);
+  }
+
+  /// A contour that passes close to a vertex passes through it.
+  void snap_to_vertices(const std::vector<std::size_t>& chart) {
+    std::vector<local_id> snapped;
+    for (const std::size_t t : chart)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double a = (*values_[t])[i];
+        const double b = (*values_[t])[(i + 1) % 3];
+        if (a * b >= 0)
+          continue;
+        const double s = a / (a - b);
+        if (s < snap)
+          snapped.push_back(triangles()[t][i]);
+        else if (s > 1 - snap)
+          snapped.push_back(triangles()[t][(i + 1) % 3]);
+      }
+    std::sort(snapped.begin(), snapped.end());
+    for (const std::size_t t : chart)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (std::binary_search(snapped.begin(), snapped.end(), triangles()[t][i]))
+          (*values_[t])[i] = 0;
+  }
+
+  struct edge_split {
+    std::array<local_id, 2> ends; ///< sorted
+    double s;                     ///< from ends[0] to ends[1]
+    local_id vertex = no_id;
+  };
+
+  /// Every edge that a contour crosses gets one new vertex, whichever chart asked for it first.
+  std::vector<edge_split> collect_splits() {
+    std::vector<edge_split> splits;
+    for (std::size_t t = 0; t < triangles().size(); ++t)
+      if (values_[t])
+        for (std::size_t i = 0; i < 3; ++i) {
+          local_id from = triangles()[t][i];
+          local_id to = triangles()[t][(i + 1) % 3];
+          double a = (*values_[t])[i];
+          double b = (*values_[t])[(i + 1) % 3];
+          if (a * b >= 0)
+            continue;
+          if (from > to) {
+            std::swap(from, to);
+            std::swap(a, b);
+          }
+          splits.push_back({{from, to}, a / (a - b)});
+        }
+    std::stable_sort(splits.begin(), splits.end(),
+                     [](const edge_split& a, const edge_split& b) { return a.ends < b.ends; });
+    splits.erase(std::unique(splits.begin(), splits.end(),
+                             [](const edge_split& a, const edge_split& b) { return a.ends == b.ends; }),
+                 splits.end());
+    for (edge_split& split : splits) {
+      split.vertex = static_cast<local_id>(s_.mesh.points.size());
+      const vec3 a = point(split.ends[0]);
+      s_.mesh.points.push_back(a + split.s * (point(split.ends[1]) - a));
+    }
+    return splits;
+  }
+
+  void split_along_contours() {
+    const auto splits = collect_splits();
+    const auto split_on = [&](local_id a, local_id b) -> const edge_split* {
+      const std::array<local_id, 2> ends{std::min(a, b), std::max(a, b)};
+      const auto found = std::lower_bound(splits.begin(), splits.end(), ends,
+                                          [](const edge_split& e, const auto& key) { return e.ends < key; });
+      return found != splits.end() && found->ends == ends ? &*found : nullptr;
+    };
+    const std::size_t count = triangles().size();
+    for (std::size_t t = 0; t < count; ++t) {
+      const auto v = triangles()[t];
+      std::array<const edge_split*, 3> on{}; // the edge from corner i to the next
+      int split_edges = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        on[i] = split_on(v[i], v[(i + 1) % 3]);
+        split_edges += on[i] ? 1 : 0;
+      }
+      if (split_edges > 0)
+        split_triangle(t, on, split_edges);
+    }
+  }
+
+  /// Replaces a triangle by two, three or four; its corner values go along, new ones are zero where the sign
+  /// changes.
+  void split_triangle(std::size_t t, const std::array<const edge_split*, 3>& on, int split_edges) {
+    const simplex<2> v = triangles()[t];
+    const std::optional<corner_values> g = values_[t];
+    std::array<local_id, 3> m{};
+    corner_values at_m{};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (on[i]) {
+        m[i] = on[i]->vertex;
+        if (g && (*g)[i] * (*g)[(i + 1) % 3] > 0)
+          at_m[i] = 0.5 * ((*g)[i] + (*g)[(i + 1) % 3]);
+      }
+    struct corner {
+      local_id v;
+      double g;
+    };
+    const auto old_corner = [&](std::size_t i) { return corner{v[i % 3], g ? (*g)[i % 3] : 0}; };
+    const auto new_corner = [&](std::size_t i) { return corner{m[i % 3], at_m[i % 3]}; };
+    bool first = true;
+    const auto put = [&](corner a, corner b, corner c) {
+      const std::optional<corner_values> values =
+          g ? std::optional(corner_values{a.g, b.g, c.g}) : std::nullopt;
+      if (first) {
+        triangles()[t] = {a.v, b.v, c.v};
+        values_[t] = values;
+      } else {
+        triangles().push_back({a.v, b.v, c.v});
+        values_.push_back(values);
+        for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.patch_of, &s_.solid_of}) {
+          const local_id tag = (*tags)[t];
+          tags->push_back(tag);
+        }
+      }
+      first = false;
+    };
+    if (split_edges == 3) {
+      for (std::size_t i = 0; i < 3; ++i)
+        put(old_corner(i), new_corner(i), new_corner(i + 2));
+      put(new_corner(0), new_corner(1), new_corner(2));
+      return;
+    }
+    std::size_t i = 0;
+    if (split_edges == 1) {
+      while (!on[i])
+        ++i;
+      put(old_corner(i), new_corner(i), old_corner(i + 2));
+      put(new_corner(i), old_corner(i + 1), old_corner(i + 2));
+      return;
+    }
+    while (on[(i + 1) % 3]) // edges i and i + 2 are split, they meet at corner i
+      ++i;
+    put(old_corner(i), new_corner(i), new_corner(i + 2));
+    const corner a = new_corner(i);
+    const corner b = old_corner(i + 1);
+    const corner c = old_corner(i + 2);
+    const corner d = new_corner(i + 2);
+    if (distance(point(a.v), point(c.v)) <= distance(point(b.v), point(d.v))) {
+      put(a, b, c);
+      put(a, c, d);
+    } else {
+      put(a, b, d);
+      put(b, c, d);
+    }
+  }
+
+  /// The pieces of the charts on both sides of their contours; small ones join the other side when asked to.
+  void renumber_charts(bool tidy) {
+    std::vector<char> side(triangles().size(), 0);
+    for (std::size_t t = 0; t < side.size(); ++t)
+      if (values_[t])
+        side[t] = (*values_[t])[0] + (*values_[t])[1] + (*values_[t])[2] > 0 ? 1 : 0;
+    const auto joined = [&](std::size_t t, std::size_t next) {
+      return s_.chart_of[t] == s_.chart_of[next] && side[t] == side[next];
+    };
+    if (tidy) {
+      const auto piece = pieces(joined);
+      std::vector<double> piece_area(1 +
+                                     static_cast<std::size_t>(*std::max_element(piece.begin(), piece.end())));
+      std::vector<double> chart_area(members_.size());
+      for (std::size_t t = 0; t < piece.size(); ++t) {
+        piece_area[static_cast<std::size_t>(piece[t])] += norm(area_vector(t));
+        chart_area[static_cast<std::size_t>(s_.chart_of[t])] += norm(area_vector(t));
+      }
+      for (std::size_t t = 0; t < piece.size(); ++t)
+        if (values_[t] && piece_area[static_cast<std::size_t>(piece[t])] <
+                              0.02 * chart_area[static_cast<std::size_t>(s_.chart_of[t])])
+          side[t] = side[t] ? 0 : 1;
+    }
+    s_.chart_of = pieces(joined);
+  }
+
+  charted_surface s_;
+  double cone_;
+  double sliver_height_ = 0;
+  std::vector<std::array<local_id, 3>> neighbours_;
+  std::vector<std::vector<std::size_t>> members_; ///< per chart: its triangles
+  std::vector<chart_frame> frames_;               ///< per chart
+  std::vector<std::optional<corner_values>> values_;
+};
+
+} // namespace discrete
+
+/// Feature edges by angle and by named patches, and charts. About O(n log n) per round of cuts, rarely more
+/// than six rounds.
+inline charted_surface charted(const closed_surfaces& surfaces, const chart_options& options = {}) {
+  return discrete::chart_cutter(surfaces, options).run();
+}
+
+} // namespace dovetail
