@@ -29,7 +29,8 @@ public:
       word(value);
     }
     std::uint64_t tail = 0;
-    std::memcpy(&tail, data.data() + i, data.size() - i);
+    if (i < data.size()) // an empty span may have no address
+      std::memcpy(&tail, data.data() + i, data.size() - i);
     word(tail);
   }
   void text(std::string_view s) { bytes(std::as_bytes(std::span(s.data(), s.size()))); }
