@@ -1,0 +1,262 @@
+#!/usr/bin/python3
+"""Pictures of an output folder: render.py OUT [--to FOLDER] [--axis y] [--at 0.5] [--view 1,-1.3,0.8] ...
+
+Writes surface.png (the boundary by patch), cut.png (elements behind a plane, by subdomain), exploded.png (the
+decomposition, pulled apart) and worst.png (the elements with the smallest dihedral angles) with VTK, off screen;
+without a display, run it as `xvfb-run -a scripts/render.py OUT`. Faces on the sides of the bounding box are left
+out of the surface when there is something inside (--box keeps them).
+"""
+
+import argparse
+import glob
+import os
+import sys
+
+import numpy as np
+import vtkmodules.vtkInteractionStyle  # noqa: F401 (VTK's object factories)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkOutlineSource
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
+from vtkmodules.vtkRenderingCore import (
+    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+
+SIDES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
+
+
+def read(reader, path):
+    if not os.path.exists(path):
+        sys.exit(f"render: {path} is missing")
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def cells_of(cells, corners):
+    return vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, corners)
+
+
+def cell_array(data, name):
+    return vtk_to_numpy(data.GetCellData().GetArray(name))
+
+
+def distinct_colours(numbers):
+    """One soft colour per number; neighbouring numbers get different hues (golden angle)."""
+    hue = (np.asarray(numbers) * 0.381966 + 0.58) % 1.0
+    value = 0.80 + 0.15 * ((np.asarray(numbers) % 3) / 2)
+    channels = [(hue * 6 + shift) % 6 for shift in (5, 3, 1)]
+    rgb = np.stack([value * (1 - 0.45 * np.clip(np.minimum(k, 4 - k), 0, 1)) for k in channels], axis=-1)
+    return (255 * rgb).astype(np.uint8)
+
+
+def surface_actor(points, triangles, colours, edges=True, opacity=1.0):
+    """Triangles (indices into points), each with its colour; shape (n, 3) both."""
+    used, local = np.unique(triangles, return_inverse=True)
+    cells = vtkCellArray()
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
+    cells.SetData(numpy_to_vtkIdTypeArray(offsets, True),
+                  numpy_to_vtkIdTypeArray(local.astype(np.int64).ravel(), True))
+    poly, coordinates = vtkPolyData(), vtkPoints()
+    coordinates.SetData(numpy_to_vtk(points[used], True))
+    poly.SetPoints(coordinates)
+    poly.SetPolys(cells)
+    poly.GetCellData().SetScalars(
+        numpy_to_vtk(np.ascontiguousarray(colours), True, vtkUnsignedCharArray().GetDataType()))
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(poly)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetInterpolationToFlat()
+    actor.GetProperty().SetEdgeVisibility(edges)
+    actor.GetProperty().SetEdgeColor(0.15, 0.15, 0.2)
+    actor.GetProperty().SetLineWidth(0.6)
+    actor.GetProperty().SetOpacity(opacity)
+    actor.GetProperty().SetAmbient(0.25)
+    actor.GetProperty().SetDiffuse(0.75)
+    return actor
+
+
+def outline_actor(points):
+    source = vtkOutlineSource()
+    low, high = points.min(axis=0), points.max(axis=0)
+    source.SetBounds(*np.stack([low, high], axis=1).ravel())
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.4, 0.4, 0.45)
+    return actor
+
+
+def save(actors, path, options):
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    for actor in actors:
+        renderer.AddActor(actor)
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(4)
+    window.SetSize(*options.size)
+    window.AddRenderer(renderer)
+    camera = renderer.GetActiveCamera()
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetPosition(*options.view)
+    camera.SetViewUp(0, 0, 1) if abs(options.view[0]) + abs(options.view[1]) > 1e-9 else camera.SetViewUp(0, 1, 0)
+    renderer.ResetCamera()
+    camera.Zoom(options.zoom)
+    renderer.ResetCameraClippingRange()
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputConnection(grab.GetOutputPort())
+    writer.Write()
+    print(path)
+
+
+def on_box(points, triangles):
+    """Which triangles lie in a side of the bounding box."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    tolerance = 1e-9 * np.linalg.norm(high - low)
+    corners = points[triangles]
+    return np.any(np.all(np.abs(corners - low) < tolerance, axis=1) |
+                  np.all(np.abs(corners - high) < tolerance, axis=1), axis=1)
+
+
+def picture_surface(surface, options):
+    points, triangles = points_of(surface), cells_of(surface.GetPolys(), 3)
+    colours = distinct_colours(cell_array(surface, "patch"))
+    box = on_box(points, triangles)
+    inside = np.ones(len(box), bool)
+    if not options.box and 0 < box.sum() < len(box):
+        extent = np.ptp(points[triangles[~box]].reshape(-1, 3), axis=0).max()
+        if extent < 0.9 * np.ptp(points, axis=0).max():  # something small inside a far-field box
+            inside = ~box
+    return [surface_actor(points, triangles[inside], colours[inside])] + \
+        ([] if inside.all() else [outline_actor(points[triangles[inside]].reshape(-1, 3))])
+
+
+def picture_cut(volume, options):
+    """The elements whose centres are behind the plane, by their outer faces."""
+    points, elements = points_of(volume), cells_of(volume.GetCells(), 4)
+    ids = vtk_to_numpy(volume.GetPointData().GetGlobalIds())
+    axis = "xyz".index(options.axis)
+    low, high = points[:, axis].min(), points[:, axis].max()
+    centres = points[elements][:, :, axis].mean(axis=1)
+    plane = low + options.at * (high - low)
+    kept = np.flatnonzero(centres > plane if options.view[axis] < 0 else centres < plane)
+    faces = np.concatenate([elements[kept][:, side] for side in SIDES])
+    owners = np.tile(kept, 4)
+    keys = np.sort(ids[faces], axis=1)
+    order = np.lexsort(keys.T[::-1])
+    same = np.all(keys[order][1:] == keys[order][:-1], axis=1)
+    single = np.ones(len(order), bool)
+    single[1:] &= ~same
+    single[:-1] &= ~same
+    outer = order[single]
+    colours = distinct_colours(cell_array(volume, "subdomain")[owners[outer]])
+    return [surface_actor(points, faces[outer], colours), outline_actor(points)]
+
+
+def picture_exploded(surface, interfaces, options):
+    """Each subdomain's faces, moved away from the middle of the mesh."""
+    parts = [(points_of(surface), cells_of(surface.GetPolys(), 3), cell_array(surface, "subdomain"))]
+    if interfaces is not None:
+        points, triangles = points_of(interfaces), cells_of(interfaces.GetPolys(), 3)
+        for side in ("subdomain", "front_subdomain"):
+            parts.append((points, triangles, cell_array(interfaces, side)))
+    corners = np.concatenate([points[triangles] for points, triangles, _ in parts])
+    owners = np.concatenate([owner for _, _, owner in parts])
+    middle = (corners.min(axis=(0, 1)) + corners.max(axis=(0, 1))) / 2
+    counts = np.bincount(owners)
+    sums = np.stack([np.bincount(owners, corners.mean(axis=1)[:, k]) for k in range(3)], axis=1)
+    centres = sums / np.maximum(counts, 1)[:, None]
+    moved = corners + options.explode * (centres[owners] - middle)[:, None, :]
+    triangles = np.arange(3 * len(corners)).reshape(-1, 3)
+    return [surface_actor(moved.reshape(-1, 3), triangles, distinct_colours(owners), edges=len(corners) < 400000)]
+
+
+def smallest_dihedral(p):
+    """Degrees, per element; p has shape (elements, 4, 3)."""
+    normals = [np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in SIDES]
+    normals = [n / np.maximum(np.linalg.norm(n, axis=1), 1e-300)[:, None] for n in normals]
+    cosines = [-np.sum(normals[i] * normals[j], axis=1) for i in range(4) for j in range(i)]
+    return np.degrees(np.arccos(np.clip(np.max(cosines, axis=0), -1, 1)))
+
+
+def picture_worst(volume, surface, options):
+    """The worst elements, red the worst, in the faint boundary; each is drawn larger when it is small."""
+    points, elements = points_of(volume), cells_of(volume.GetCells(), 4)
+    angles = np.concatenate([smallest_dihedral(points[part]) for part in
+                             np.array_split(elements, max(1, len(elements) // 500000))])
+    worst = np.argsort(angles, kind="stable")[:options.worst]
+    for e in worst[:5]:
+        place = ", ".join(f"{x:.5g}" for x in points[elements[e]].mean(axis=0))
+        print(f"smallest dihedral angle {angles[e]:.2f} deg at ({place})")
+    corners = points[elements[worst]]
+    centres = corners.mean(axis=1, keepdims=True)
+    sizes = np.linalg.norm(corners - centres, axis=2).max(axis=1)
+    wanted = 0.012 * np.linalg.norm(np.ptp(points, axis=0))
+    corners = centres + (corners - centres) * np.maximum(1, wanted / sizes)[:, None, None]
+    triangles = np.concatenate([4 * np.arange(len(worst))[:, None] + np.array(side) for side in SIDES])
+    shade = np.clip(angles[np.tile(worst, 4)] / 30, 0, 1)
+    colours = np.stack([np.full_like(shade, 220), 40 + 180 * shade, 40 * np.ones_like(shade)], axis=1).astype(np.uint8)
+    skin, hull = cells_of(surface.GetPolys(), 3), points_of(surface)
+    inside = skin if options.box or on_box(hull, skin).all() else skin[~on_box(hull, skin)]
+    faint = surface_actor(hull, inside, np.full((len(inside), 3), 190, np.uint8), edges=False, opacity=0.15)
+    return [surface_actor(corners.reshape(-1, 3), triangles, colours), faint, outline_actor(hull)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("--to", help="folder of the pictures (default: OUT)")
+    parser.add_argument("--only", default="surface,cut,exploded,worst", help="which pictures, separated by commas")
+    parser.add_argument("--axis", default="y", choices="xyz", help="normal of the cutting plane")
+    parser.add_argument("--at", type=float, default=0.5, help="its place, as a fraction of the extent")
+    parser.add_argument("--explode", type=float, default=0.5, help="how far pieces move away from the middle")
+    parser.add_argument("--worst", type=int, default=50, help="number of worst elements")
+    parser.add_argument("--view", default="0.9,-1.4,0.8", help="direction to the eye: x,y,z")
+    parser.add_argument("--zoom", type=float, default=1.0)
+    parser.add_argument("--size", default="1400x1000", help="pixels")
+    parser.add_argument("--box", action="store_true", help="draw faces on the bounding box too")
+    options = parser.parse_args()
+    options.view = [float(x) for x in options.view.split(",")]
+    options.size = [int(x) for x in options.size.split("x")]
+    target = options.to or options.folder
+    os.makedirs(target, exist_ok=True)
+    wanted = options.only.split(",")
+
+    surface = read(vtkXMLPolyDataReader(), os.path.join(options.folder, "surface.vtp"))
+    volume = None
+    if "cut" in wanted or "worst" in wanted:
+        found = glob.glob(os.path.join(glob.escape(options.folder), "*.pvtu"))
+        if not found:
+            sys.exit(f"render: there is no .pvtu file in {options.folder}")
+        volume = read(vtkXMLPUnstructuredGridReader(), found[0])
+    between = os.path.join(options.folder, "interfaces.vtp")
+    interfaces = read(vtkXMLPolyDataReader(), between) if "exploded" in wanted and os.path.exists(between) else None
+    pictures = {
+        "surface": lambda: picture_surface(surface, options),
+        "cut": lambda: picture_cut(volume, options),
+        "exploded": lambda: picture_exploded(surface, interfaces, options),
+        "worst": lambda: picture_worst(volume, surface, options),
+    }
+    for name in wanted:
+        if name not in pictures:
+            sys.exit(f"render: there is no picture called {name}")
+        save(pictures[name](), os.path.join(target, name + ".png"), options)
+
+
+if __name__ == "__main__":
+    main()
