@@ -9,7 +9,9 @@
 
 #include <BOPAlgo_Builder.hxx>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,6 +74,14 @@ inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input,
   return pairs.front();
 }
 
+/// Numbers of vertices, curves, faces and faces between two solids.
+inline std::array<std::size_t, 4> entity_counts(const brep& data) {
+  const auto& faces = data.topology.faces;
+  const auto common =
+      std::count_if(faces.begin(), faces.end(), [](const auto& face) { return face.solids[1] != no_id; });
+  return {data.topology.vertices.size(), data.edges.size(), faces.size(), static_cast<std::size_t>(common)};
+}
+
 /// Replaces `data` by the general fuse of its solids when any two of them touch or overlap. Throws
 /// `geometry_error` when their common faces cannot be made.
 inline void imprint_touching_solids(attributed_shape& input, brep& data, report& made) {
@@ -84,7 +94,7 @@ inline void imprint_touching_solids(attributed_shape& input, brep& data, report&
     std::optional<brep> fused = general_fuse(trial, data.solids, fuzzy);
     if (!fused || !fused->faults.empty())
       continue;
-    if (fused->faces.size() == data.faces.size() && fused->edges.size() == data.edges.size())
+    if (entity_counts(*fused) == entity_counts(data))
       return; // the solids do not touch, or share their contacts already
     if (fused->solids.size() > data.solids.size())
       made.warnings.push_back("solids overlap; each overlap became a solid of its own, " +

@@ -58,11 +58,31 @@ inline std::string file_content(const std::filesystem::path& path) {
   return std::move(content).str();
 }
 
+/// Whether a BREP text has all the shapes it announces. OCCT's own reader loops for ever on some truncated
+/// files, so it must never see one. The last section, "TShapes n", lists n shapes that each end with an
+/// asterisk; then follows the reference to the whole shape.
+inline bool is_whole_brep(std::string_view content) {
+  const std::size_t section = content.rfind("TShapes ");
+  if (section == std::string_view::npos)
+    return false;
+  std::size_t announced = 0;
+  std::size_t at = section + 8;
+  for (; at < content.size() && content[at] >= '0' && content[at] <= '9' && announced < content.size(); ++at)
+    announced = 10 * announced + static_cast<std::size_t>(content[at] - '0');
+  const std::string_view shapes = content.substr(at);
+  const std::size_t last = shapes.rfind('*');
+  return announced > 0 && last != std::string_view::npos &&
+         static_cast<std::size_t>(std::count(shapes.begin(), shapes.end(), '*')) == announced &&
+         shapes.find_first_of("+-ie", last) != std::string_view::npos;
+}
+
 /// Throws `input_error` when the mark that ends every complete file of its format is absent.
 inline void require_complete(const std::string& source, file_format format, std::string_view content) {
   const std::string_view tail = content.substr(content.size() - std::min<std::size_t>(content.size(), 4096));
   if (format == file_format::step && tail.find("END-ISO-10303-21") == std::string_view::npos)
     throw input_error(source + ": the STEP file is truncated (it does not end with END-ISO-10303-21)");
+  if (format == file_format::brep && !is_whole_brep(content))
+    throw input_error(source + ": the BREP file is truncated or damaged (shapes it announces are missing)");
   if (format == file_format::iges) {
     std::string_view last = tail;
     while (!last.empty() && std::isspace(static_cast<unsigned char>(last.back())))
