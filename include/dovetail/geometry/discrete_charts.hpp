@@ -142,9 +142,10 @@ inline bool loops_are_simple(const std::vector<std::vector<boundary_edge>>& loop
   return simple;
 }
 
-/// Cuts in rounds: every chart that cannot be projected yet is cut along a contour line of a function on its
-/// vertices, the component of the normals (or, where normals agree, of the positions) along their principal
-/// axis. Contour lines split triangles, so charts do not end in teeth.
+/// Cuts in rounds every chart that cannot be projected yet, by the component of its normals (or, where
+/// normals agree, of its positions) along their principal axis. A chart of many triangles is cut along a
+/// contour line through them, so that it does not end in teeth; one of few along edges, which always ends, at
+/// single triangles if need be.
 class chart_cutter {
 public:
   chart_cutter(const closed_surfaces& surfaces, const chart_options& options)
@@ -168,14 +169,17 @@ public:
       bool done = true;
       for (std::size_t c = 0; c < members_.size(); ++c)
         if (const auto by = needed_cut(c)) {
-          set_values(c, *by);
+          if (round < rounds_of_contours && members_[c].size() >= many_triangles)
+            set_corner_values(c, *by);
+          else
+            set_triangle_values(c, *by);
           done = false;
         }
       if (done)
         break;
       split_along_contours();
       connect();
-      renumber_charts(round < rounds_of_tidying);
+      renumber_charts(round < rounds_of_contours);
     }
     gather();
     s_.frames = frames_;
@@ -185,7 +189,8 @@ public:
 
 private:
   static constexpr int largest_rounds = 40;
-  static constexpr int rounds_of_tidying = 8;
+  static constexpr int rounds_of_contours = 6;
+  static constexpr std::size_t many_triangles = 100;
   static constexpr double snap =
       0.15; ///< a contour this near an edge's end, as a share of the edge, goes through it
 
@@ -281,8 +286,34 @@ private:
     return cut_by::position;
   }
 
+  /// The same signed value at all corners of a triangle: the cut runs along edges.
+  void set_triangle_values(std::size_t c, cut_by by) {
+    const auto& chart = members_[c];
+    const auto vector_of = [&](std::size_t t) {
+      const auto& v = triangles()[t];
+      return by == cut_by::normal ? normalized(area_vector(t))
+                                  : (point(v[0]) + point(v[1]) + point(v[2])) / 3;
+    };
+    vector_moments moments;
+    for (const std::size_t t : chart)
+      if (!is_sliver(t))
+        moments.add(vector_of(t), norm(area_vector(t)));
+    const vec3 axis = moments.principal_axis();
+    double lowest = 1e300;
+    double highest = -1e300;
+    for (const std::size_t t : chart)
+      if (!is_sliver(t)) {
+        lowest = std::min(lowest, dot(vector_of(t), axis));
+        highest = std::max(highest, dot(vector_of(t), axis));
+      }
+    for (const std::size_t t : chart) {
+      const double value = dot(vector_of(t), axis) - 0.5 * (lowest + highest);
+      values_[t] = corner_values{value, value, value};
+    }
+  }
+
   /// Signed values at the corners of the chart's triangles; the contour at zero is the cut.
-  void set_values(std::size_t c, cut_by by) {
+  void set_corner_values(std::size_t c, cut_by by) {
     const auto& chart = members_[c];
     std::vector<std::pair<local_id, vec3>> at; // per vertex of the chart: normal or position
     for (const std::size_t t : chart)
