@@ -42,11 +42,16 @@ private:
     const local_id a = s.table.tail(c), b = s.table.head(c);
     const vec3 pa = s.point[s.at(a)] - s.point[s.at(p)], pb = s.point[s.at(b)] - s.point[s.at(p)];
     const vec3 qa = s.point[s.at(a)] - s.point[s.at(q)], qb = s.point[s.at(b)] - s.point[s.at(q)];
+    // Angles have the sign of their triangle's orientation. Where one is inside out the angles mean nothing,
+    // but a flip that makes things better is welcome.
+    const vec3 normal = s.normal[s.at(a)] + s.normal[s.at(b)];
+    const vec3 area_p = cross(pa, pb), area_q = cross(qb, qa);
+    if (dot(area_p, normal) < 0 || dot(area_q, normal) < 0)
+      return flip_raises_quality(s, c);
     const double cos_p = dot(pa, pb), cos_q = dot(qa, qb);
     if (cos_p >= 0 && cos_q >= 0)
       return false;
-    const double sin_p = norm(cross(pa, pb)), sin_q = norm(cross(qa, qb));
-    const double sine_of_sum = sin_p * cos_q + cos_p * sin_q;
+    const double sine_of_sum = norm(area_p) * cos_q + cos_p * norm(area_q);
     return sine_of_sum <
            -1e-9 * (norm_squared(pa) + norm_squared(pb)) * (norm_squared(qa) + norm_squared(qb));
   }

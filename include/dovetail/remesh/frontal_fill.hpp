@@ -133,11 +133,26 @@ private:
     const double size = graded_size(f.point, s_.target(a, b), near);
     if (!has_room(t, xy, f.point, size))
       return no_id;
+    if (folds(t, f))
+      return no_id;
     const local_id v = s_.add_vertex(xy, f, size);
     for (const local_id piece : s_.table.split_triangle(t, v))
       flips.push(3 * piece + 2);
     flips.make_delaunay(s_);
     return v;
+  }
+
+  /// True when a point inside triangle t in the parameter plane would make triangles inside out in space.
+  bool folds(local_id t, const surface_frame& f) const {
+    const vec3 normal = normalized(cross(f.du, f.dv));
+    for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
+      const local_id a = s_.table.tail(c), b = s_.table.head(c);
+      if (!s_.vanishes(a, b, s_.table.vertex[s_.at(c)]) &&
+          oriented_quality(s_.point[s_.at(a)], s_.point[s_.at(b)], f.point,
+                           s_.normal[s_.at(a)] + s_.normal[s_.at(b)] + normal) <= 0)
+        return s_.quality(t) > 0;
+    }
+    return false;
   }
 
   /// Distance of the new point from the base: that of an equilateral triangle of the local size, but not

@@ -60,6 +60,7 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
     surface_frame& f = frames[i];
     f.du = f.du / s.scale.x;
     f.dv = f.dv / s.scale.y;
+    s.misfit.push_back(distance(f.point, boundary.points[i]));
     f.point = boundary.points[i];
     s.add_vertex(scaled[i], f, 0);
     s.label[i] = boundary.labels[i];
@@ -91,6 +92,53 @@ bool bridges_curvature(const patch_state<S>& s, local_id a, local_id b) {
     from = to;
   }
   return chord < 0.94 * length && length > 0.3 * s.target(a, b);
+}
+
+/// The free side of a triangle whose straight edge is farthest from the surface curve between the same
+/// parameters, relative to its length; no_id when all are straight.
+template <class S>
+local_id most_bent_side(const patch_state<S>& s, local_id t) {
+  local_id most = no_id;
+  double bend = 1e-6;
+  for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
+    if (!s.table.free_side(c))
+      continue;
+    const local_id a = s.table.tail(c), b = s.table.head(c);
+    const vec3 on_surface = s.frame_at(0.5 * (s.xy[s.at(a)] + s.xy[s.at(b)])).point;
+    const double off = distance(on_surface, midpoint(s.point[s.at(a)], s.point[s.at(b)]));
+    if (off > bend) {
+      bend = off;
+      most = c;
+    }
+  }
+  return most;
+}
+
+/// Splits the most bent sides of triangles that are inside out in space, until there are none or splitting
+/// does not help. A parameter plane that maps straight lines to strongly curved ones (polar coordinates)
+/// makes such triangles although the surface itself is flat.
+template <class S>
+void unfold(patch_state<S>& s, flip_queue& flips) {
+  const std::size_t most_vertices = 8 * s.point.size() + 2000;
+  for (int round = 0; round < 12; ++round) {
+    bool any = false;
+    const local_id slots = s.table.triangle_slots();
+    for (local_id t = 0; t < slots; ++t) {
+      if (!s.table.alive(t) || s.quality(t) > 0 || s.point.size() > most_vertices)
+        continue;
+      const local_id c = most_bent_side(s, t);
+      if (c == no_id)
+        continue;
+      const local_id v = split_at_middle(s, c, flips);
+      if (v == no_id)
+        continue;
+      s.size[s.at(v)] = s.sizing(s.point[s.at(v)]);
+      flips.raise_quality(s);
+      any = true;
+    }
+    if (!any)
+      return;
+  }
 }
 
 /// Makes the patch Delaunay in the scaled parameter plane around the queued corners.

@@ -52,6 +52,8 @@ private:
   template <class State>
   void fill(State& state, detail::flip_queue& flips) const {
     detail::resolve_curvature(state);
+    flip_all(state, flips);
+    detail::unfold(state, flips);
     flips.push_all(state);
     flips.make_delaunay(state);
     detail::front_parameters front;
@@ -199,7 +201,7 @@ private:
       if (state.vanishes(triangle[0], triangle[1], triangle[2]))
         continue;
       const double q = state.quality(t);
-      if (q <= 0)
+      if (q <= 0 && !state.within_misfit(t))
         mesh.folded.push_back(static_cast<local_id>(mesh.triangles.size()));
       least = std::min(least, q);
       below_thirty += q < 0.25 - 1e-12;
