@@ -3,8 +3,7 @@
 /// projected onto a plane without a fold.
 #pragma once
 
-#include "dovetail/core/box_tree.hpp"
-#include "dovetail/geometry/discrete_frame.hpp"
+#include "dovetail/geometry/discrete_loops.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
@@ -14,7 +13,6 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +21,7 @@ namespace dovetail {
 struct chart_options {
   double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature edge
   double cone_angle_deg = 60;    ///< largest angle between a triangle's normal and its chart's mean normal
+  double merge_angle_deg = 50;   ///< charts are joined again when that angle stays below this
 };
 
 /// The surfaces with triangles split where charts end, and the charts.
@@ -39,108 +38,57 @@ namespace discrete {
 
 inline constexpr double radians_per_degree = std::numbers::pi / 180;
 
-/// A directed edge of a chart's boundary, the chart on its left.
-struct boundary_edge {
-  local_id from;
-  local_id to;
-  std::size_t triangle;
-};
-
-/// Chains boundary edges of one chart to loops, turning around each vertex through the chart's triangles.
-/// `across(t, i)` is the triangle across the edge opposite corner i of t.
-template <class Across>
-std::vector<std::vector<boundary_edge>>
-boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local_id>& chart_of,
-               const std::vector<std::size_t>& members, Across&& across) {
-  const auto key_less = [](const boundary_edge& a, const boundary_edge& b) {
-    return std::tie(a.from, a.triangle, a.to) < std::tie(b.from, b.triangle, b.to);
-  };
-  std::vector<boundary_edge> edges;
-  for (const std::size_t t : members)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (chart_of[across(t, i)] != chart_of[t])
-        edges.push_back({triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], t});
-  std::sort(edges.begin(), edges.end(), key_less);
-  std::vector<char> used(edges.size(), 0);
-
-  // From the end of an edge, turn through triangles of the chart to the boundary edge that leaves there.
-  const auto next_of = [&](const boundary_edge& e) {
-    std::size_t t = e.triangle;
-    while (true) {
-      std::size_t i = 0; // the edge of t that leaves e.to is opposite the corner before it
-      while (triangles[t][(i + 1) % 3] != e.to)
-        ++i;
-      const std::size_t next = across(t, i);
-      if (chart_of[next] != chart_of[t])
-        return boundary_edge{e.to, triangles[t][(i + 2) % 3], t};
-      t = next;
-    }
-  };
-  std::vector<std::vector<boundary_edge>> loops;
-  for (std::size_t first = 0; first < edges.size(); ++first) {
-    if (used[first])
-      continue;
-    std::vector<boundary_edge> loop;
-    boundary_edge at = edges[first];
-    while (true) {
-      const auto found = std::lower_bound(edges.begin(), edges.end(), at, key_less);
-      const auto index = static_cast<std::size_t>(found - edges.begin());
-      if (used[index])
-        break;
-      used[index] = 1;
-      loop.push_back(at);
-      at = next_of(at);
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
-}
-
-/// Do the loops bound one plane domain: one loop counter-clockwise, the others clockwise, none crossing
-/// itself or another?
-inline bool loops_are_simple(const std::vector<std::vector<boundary_edge>>& loops,
-                             const std::vector<vec3>& points, const chart_frame& frame) {
-  const auto flat = [&](local_id v) { return frame.flat(points[static_cast<std::size_t>(v)]); };
-  std::vector<std::pair<local_id, local_id>> segments;
-  int outer = 0;
-  for (const auto& loop : loops) {
-    double twice_area = 0;
-    for (const auto& e : loop) {
-      twice_area += cross(flat(e.from) - flat(loop.front().from), flat(e.to) - flat(loop.front().from));
-      segments.emplace_back(e.from, e.to);
-    }
-    outer += twice_area > 0 ? 1 : 0;
-  }
-  if (outer != 1)
-    return false;
-  std::vector<box3> boxes;
-  for (const auto& [a, b] : segments) {
+/// Normals and frames of pieces of a mesh. Slivers, whose normals are rounding, do not count.
+class piece_measures {
+public:
+  explicit piece_measures(const simplicial_mesh<2>& mesh) : mesh_(&mesh) {
     box3 box;
-    for (const vec2 p : {flat(a), flat(b)})
-      box.include({p.x, p.y, 0});
-    boxes.push_back(box);
+    for (const vec3& p : mesh.points)
+      box.include(p);
+    sliver_height_ = 1e-6 * box.diagonal();
   }
-  const auto strictly_cross = [&](std::size_t s, std::size_t t) {
-    const vec2 a = flat(segments[s].first);
-    const vec2 b = flat(segments[s].second);
-    const vec2 c = flat(segments[t].first);
-    const vec2 d = flat(segments[t].second);
-    return (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0) &&
-           (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
-  };
-  const box_tree tree(boxes);
-  bool simple = true;
-  for (std::size_t s = 0; s < segments.size() && simple; ++s)
-    tree.for_each([&](const box3& box, std::size_t) { return simple && box.overlaps(boxes[s]); },
-                  [&](local_id id) {
-                    const auto t = static_cast<std::size_t>(id);
-                    const auto [a, b] = segments[s];
-                    const auto [c, d] = segments[t];
-                    if (t > s && a != c && a != d && b != c && b != d && strictly_cross(s, t))
-                      simple = false;
-                  });
-  return simple;
-}
+
+  vec3 point(local_id v) const { return mesh_->points[static_cast<std::size_t>(v)]; }
+  /// Along the normal, twice the area long.
+  vec3 area_vector(std::size_t t) const {
+    const auto& v = mesh_->elements[t];
+    return cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
+  }
+  vec3 centroid(std::size_t t) const {
+    const auto& v = mesh_->elements[t];
+    return (point(v[0]) + point(v[1]) + point(v[2])) / 3;
+  }
+  bool is_sliver(std::size_t t) const {
+    const auto& v = mesh_->elements[t];
+    const double longest = std::max({distance(point(v[0]), point(v[1])), distance(point(v[1]), point(v[2])),
+                                     distance(point(v[2]), point(v[0]))});
+    return norm(area_vector(t)) <= sliver_height_ * longest;
+  }
+
+  /// The frame along the mean normal, its origin at the mean point.
+  chart_frame frame_of(const std::vector<std::size_t>& piece) const {
+    vec3 normal;
+    vec3 center;
+    double area = 0;
+    for (const std::size_t t : piece) {
+      const vec3 n = area_vector(t);
+      normal += n;
+      area += norm(n);
+      center += norm(n) * centroid(t);
+    }
+    return frame_along(center / area, norm(normal) > 1e-9 * area ? normal : area_vector(piece.front()));
+  }
+
+  bool within_cone(const std::vector<std::size_t>& piece, vec3 axis, double cosine) const {
+    return std::all_of(piece.begin(), piece.end(), [&](std::size_t t) {
+      return is_sliver(t) || dot(normalized(area_vector(t)), axis) >= cosine;
+    });
+  }
+
+private:
+  const simplicial_mesh<2>* mesh_;
+  double sliver_height_ = 0;
+};
 
 /// Cuts in rounds every chart that cannot be projected yet, by the component of its normals (or, where
 /// normals agree, of its positions) along their principal axis. A chart of many triangles is cut along a
@@ -149,14 +97,8 @@ inline bool loops_are_simple(const std::vector<std::vector<boundary_edge>>& loop
 class chart_cutter {
 public:
   chart_cutter(const closed_surfaces& surfaces, const chart_options& options)
-      : cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
-    s_.mesh = surfaces.mesh;
-    s_.patch_of = surfaces.patches;
-    s_.solid_of = surfaces.solid_of;
-    box3 box;
-    for (const vec3& p : s_.mesh.points)
-      box.include(p);
-    sliver_height_ = 1e-6 * box.diagonal();
+      : s_{surfaces.mesh, {}, {}, surfaces.patches, surfaces.solid_of, {}}, measures_(s_.mesh),
+        cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
     connect();
     find_smooth_patches(options.feature_angle_deg * radians_per_degree);
     s_.chart_of = s_.smooth_of;
@@ -198,18 +140,9 @@ private:
   using corner_values = std::array<double, 3>;
 
   std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
-  vec3 point(local_id v) const { return s_.mesh.points[static_cast<std::size_t>(v)]; }
-  /// Twice the area vector of a triangle.
-  vec3 area_vector(std::size_t t) const {
-    const auto& v = s_.mesh.elements[t];
-    return cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
-  }
-  bool is_sliver(std::size_t t) const {
-    const auto& v = s_.mesh.elements[t];
-    const double longest = std::max({distance(point(v[0]), point(v[1])), distance(point(v[1]), point(v[2])),
-                                     distance(point(v[2]), point(v[0]))});
-    return norm(area_vector(t)) <= sliver_height_ * longest;
-  }
+  vec3 point(local_id v) const { return measures_.point(v); }
+  vec3 area_vector(std::size_t t) const { return measures_.area_vector(t); }
+  bool is_sliver(std::size_t t) const { return measures_.is_sliver(t); }
 
   void connect() { neighbours_ = element_neighbours(build_sides<2>(s_.mesh)); }
   std::size_t across(std::size_t t, std::size_t i) const {
@@ -258,27 +191,14 @@ private:
     for (std::size_t t = 0; t < triangles().size(); ++t)
       members_[static_cast<std::size_t>(s_.chart_of[t])].push_back(t);
     frames_.clear();
-    for (const auto& chart : members_) {
-      vec3 normal;
-      vec3 center;
-      double area = 0;
-      for (const std::size_t t : chart) {
-        const vec3 n = area_vector(t);
-        normal += n;
-        area += norm(n);
-        center +=
-            (norm(n) / 3) * (point(triangles()[t][0]) + point(triangles()[t][1]) + point(triangles()[t][2]));
-      }
-      frames_.push_back(
-          frame_along(center / area, norm(normal) > 1e-9 * area ? normal : area_vector(chart[0])));
-    }
+    for (const auto& chart : members_)
+      frames_.push_back(measures_.frame_of(chart));
   }
 
   /// What the chart must be cut by; nothing when it can be projected.
   std::optional<cut_by> needed_cut(std::size_t c) const {
-    for (const std::size_t t : members_[c])
-      if (dot(normalized(area_vector(t)), frames_[c].n) < cone_ && !is_sliver(t))
-        return members_[c].size() > 1 ? std::optional(cut_by::normal) : std::nullopt;
+    if (!measures_.within_cone(members_[c], frames_[c].n, cone_))
+      return members_[c].size() > 1 ? std::optional(cut_by::normal) : std::nullopt;
     const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, members_[c],
                                       [&](std::size_t t, std::size_t i) { return across(t, i); });
     if (loops_are_simple(loops, s_.mesh.points, frames_[c]))
@@ -527,8 +447,8 @@ private:
   }
 
   charted_surface s_;
+  piece_measures measures_; ///< of s_.mesh, as it is now
   double cone_;
-  double sliver_height_ = 0;
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<std::vector<std::size_t>> members_; ///< per chart: its triangles
   std::vector<chart_frame> frames_;               ///< per chart
@@ -536,11 +456,4 @@ private:
 };
 
 } // namespace discrete
-
-/// Feature edges by angle and by named patches, and charts. About O(n log n) per round of cuts, rarely more
-/// than six rounds.
-inline charted_surface charted(const closed_surfaces& surfaces, const chart_options& options = {}) {
-  return discrete::chart_cutter(surfaces, options).run();
-}
-
 } // namespace dovetail

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/discrete_chart_surface.hpp"
-#include "dovetail/geometry/discrete_charts.hpp"
+#include "dovetail/geometry/discrete_merge.hpp"
 #include "dovetail/geometry/discrete_read.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
 #include "dovetail/geometry/discrete_topology.hpp"
