@@ -10,7 +10,9 @@
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace dovetail::app {
 namespace {
@@ -130,6 +132,16 @@ struct parser {
   }
 };
 
+/// CLI11 only says that a command is required when the one given is none.
+std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-' || !app.get_subcommands().empty())
+    return {};
+  std::vector<std::string> known;
+  for (const auto* command : app.get_subcommands({}))
+    known.push_back(command->get_name());
+  return "there is no command '" + std::string(argv[1]) + "'; there are: " + joined(known);
+}
+
 } // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -138,6 +150,9 @@ int run_command_line(int argc, char** argv) {
     line.app.parse(argc, argv);
   } catch (const CLI::Success& request) { // --help, --version
     return line.app.exit(request);
+  } catch (const CLI::RequiredError& problem) {
+    complain(unknown_command(line.app, argc, argv).value_or(problem.what()) + " (see dovetail --help)");
+    return exit_usage;
   } catch (const CLI::ParseError& problem) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
