@@ -358,3 +358,20 @@ TEST_CASE("a mesh that Gmsh made is read, with names and node data, and quadrati
                            input_error);
     }
 }
+
+TEST_CASE("a single subdomain, and subdomains without inner points") {
+  const testing::scratch_folder folder("msh_corner_cases");
+  for (const auto& cut : {testing::stacked_cubes{.cells = 3, .cuts = 1, .solids = 1},
+                          testing::stacked_cubes{.cells = 2, .cuts = 2, .solids = 2}})
+    for (const bool partitioned : {false, true}) {
+      const auto mesh = cut.distributed();
+      io::msh_writer{.partitioned = partitioned, .ghosts = true}(mesh, folder);
+      const gmsh_session session(folder / "mesh.msh");
+      CHECK(session.complaints() == std::string());
+      std::set<std::size_t> nodes;
+      for (int dimension = 0; dimension <= 3; ++dimension)
+        for (const auto& [d, tag] : entities(dimension))
+          nodes.merge(own_nodes(d, tag));
+      CHECK(nodes.size() == io::number_globally(mesh).points());
+    }
+}

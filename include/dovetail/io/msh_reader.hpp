@@ -4,12 +4,12 @@
 
 #include "dovetail/io/input_file.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
-#include "dovetail/io/msh_encoder.hpp"
+#include "dovetail/io/msh_decoder.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -21,48 +21,6 @@
 namespace dovetail::io {
 
 namespace detail {
-
-/// Numbers of the body of an MSH file, as text or as raw bytes.
-class msh_decoder {
-public:
-  explicit msh_decoder(file_cursor& at) : at_(at) {}
-
-  bool binary = false;
-  bool swapped = false;
-
-  std::int32_t integer() { return binary ? at_.raw<std::int32_t>(swapped) : at_.number<std::int32_t>(); }
-  std::uint64_t count() { return binary ? at_.raw<std::uint64_t>(swapped) : at_.number<std::uint64_t>(); }
-  double real() { return binary ? at_.raw<double>(swapped) : at_.number<double>(); }
-  vec3 point() {
-    vec3 p;
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = real();
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      at_.fail("a node has a coordinate that is not finite");
-    return p;
-  }
-  /// A count of things that take at least so many bytes each in a binary file, or as many digits in text.
-  std::size_t count_of(std::size_t bytes_each) { return at_.plausible(count(), binary ? bytes_each : 2); }
-  file_cursor& at() { return at_; }
-
-private:
-  file_cursor& at_;
-};
-
-/// The number of nodes of the element types that are read or passed over; 0 for others.
-inline std::size_t msh_node_count(int type) {
-  switch (static_cast<msh_type>(type)) {
-  case msh_type::point:
-    return 1;
-  case msh_type::line:
-    return 2;
-  case msh_type::triangle:
-    return 3;
-  case msh_type::tetrahedron:
-    return 4;
-  }
-  return 0;
-}
 
 /// What an MSH file says about an entity.
 struct msh_entity_tags {
@@ -344,27 +302,9 @@ private:
       node_data_.push_back(std::move(data));
   }
 
-  /// Node numbers to indices. O(n log n), whatever the numbers are.
   void translate_nodes() {
-    if (numbers_.size() > static_cast<std::size_t>(std::numeric_limits<local_id>::max()))
-      at_.fail("the mesh is too large to be read at once");
-    std::vector<std::pair<std::uint64_t, local_id>> known;
-    known.reserve(numbers_.size());
-    for (const auto number : numbers_)
-      known.emplace_back(number, static_cast<local_id>(known.size()));
-    std::sort(known.begin(), known.end());
-    for (std::size_t i = 1; i < known.size(); ++i)
-      if (known[i].first == known[i - 1].first)
-        at_.fail("the node number " + std::to_string(known[i].first) + " occurs twice");
-    const bool dense = !known.empty() && known.back().first - known.front().first == known.size() - 1;
-    const auto index = [&](std::uint64_t number) {
-      const auto at = dense ? known.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(
-                                                  number - known.front().first, known.size()))
-                            : std::lower_bound(known.begin(), known.end(), std::pair(number, local_id{0}));
-      if (at == known.end() || at->first != number)
-        at_.fail("an element refers to node " + std::to_string(number) + ", which does not exist");
-      return at->second;
-    };
+    const node_lookup nodes(numbers_, at_);
+    const auto index = [&](std::uint64_t number) { return nodes.index(number); };
     for (const auto& vertices : tetrahedra_)
       mesh_.mesh.elements.push_back(
           {index(vertices[0]), index(vertices[1]), index(vertices[2]), index(vertices[3])});

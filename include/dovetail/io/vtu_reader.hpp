@@ -4,6 +4,7 @@
 
 #include "dovetail/io/input_file.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
+#include "dovetail/io/merge_points.hpp"
 #include "dovetail/io/vtk_arrays.hpp"
 #include "dovetail/io/xml_tree.hpp"
 
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -253,70 +253,6 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
   }
 }
 
-/// Points that are the same in several pieces become one: those with the same global id, or, where the file
-/// has none, at exactly the same place. The first of equal points stays; order is by global id, or by first
-/// occurrence.
-inline void merge_points(loaded_mesh& mesh) {
-  const auto count = mesh.mesh.points.size();
-  const bool numbered = mesh.node_ids.size() == count;
-  std::vector<local_id> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](local_id v) { return mesh.mesh.points[static_cast<std::size_t>(v)]; };
-  const auto id = [&](local_id v) { return mesh.node_ids[static_cast<std::size_t>(v)]; };
-  const auto key = [&](local_id v) { return std::tuple(at(v).x, at(v).y, at(v).z); };
-  const auto same = [&](local_id a, local_id b) { return numbered ? id(a) == id(b) : at(a) == at(b); };
-  std::sort(order.begin(), order.end(), [&](local_id a, local_id b) {
-    return same(a, b) ? a < b : numbered ? id(a) < id(b) : key(a) < key(b);
-  });
-  std::vector<local_id> representative(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool repeated = i > 0 && same(order[i - 1], order[i]);
-    auto& mine = representative[static_cast<std::size_t>(order[i])];
-    mine = repeated ? representative[static_cast<std::size_t>(order[i - 1])] : order[i];
-    if (repeated && at(mine) != at(order[i]))
-      throw input_error("two points have the global number " + std::to_string(id(mine)) +
-                        " but not the same coordinates");
-  }
-  if (!numbered)
-    std::iota(order.begin(), order.end(), 0);
-  std::vector<local_id> place(count, no_id);
-  loaded_mesh merged;
-  merged.point_scalars.resize(mesh.point_scalars.size());
-  for (std::size_t a = 0; a < mesh.point_scalars.size(); ++a)
-    merged.point_scalars[a].name = mesh.point_scalars[a].name;
-  for (const auto v : order) {
-    const auto i = static_cast<std::size_t>(v);
-    if (representative[i] != v)
-      continue;
-    place[i] = static_cast<local_id>(merged.mesh.points.size());
-    merged.mesh.points.push_back(mesh.mesh.points[i]);
-    if (numbered)
-      merged.node_ids.push_back(mesh.node_ids[i]);
-    for (std::size_t a = 0; a < mesh.point_scalars.size(); ++a)
-      merged.point_scalars[a].values.push_back(mesh.point_scalars[a].values[i]);
-  }
-  const auto renumber = [&](auto& simplices) {
-    for (auto& simplex : simplices)
-      for (auto& v : simplex)
-        v = place[static_cast<std::size_t>(representative[static_cast<std::size_t>(v)])];
-  };
-  renumber(mesh.mesh.elements);
-  renumber(mesh.triangles);
-  mesh.mesh.points = std::move(merged.mesh.points);
-  mesh.node_ids = std::move(merged.node_ids);
-  mesh.point_scalars = std::move(merged.point_scalars);
-}
-
-/// Arrays that only some pieces have: global ids are dropped, scalars are filled with NaN.
-inline void complete_point_data(loaded_mesh& mesh) {
-  if (mesh.node_ids.size() != mesh.mesh.points.size())
-    mesh.node_ids.clear();
-  if (mesh.subdomains.size() != mesh.mesh.elements.size())
-    mesh.subdomains.clear();
-  for (auto& array : mesh.point_scalars)
-    array.values.resize(mesh.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
-}
-
 inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, loaded_mesh& mesh) {
   const auto* grid = root.child("PUnstructuredGrid");
   if (grid == nullptr)
@@ -355,10 +291,10 @@ struct vtu_reader {
     else
       throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
                         "; an UnstructuredGrid or PUnstructuredGrid is needed");
-    detail::complete_point_data(mesh);
+    complete_point_data(mesh);
     if (type == "PUnstructuredGrid") {
       try {
-        detail::merge_points(mesh);
+        merge_points(mesh);
       } catch (const input_error& problem) {
         throw input_error(file.string() + ": " + problem.what());
       }

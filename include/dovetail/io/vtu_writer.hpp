@@ -247,6 +247,11 @@ struct vtu_writer {
       detail::write_skeleton_vtp(files.open(folder / "interfaces.vtp"), mesh,
                                  detail::skeleton_part::interfaces);
     detail::write_pvtu(files.open(folder / (stem + ".pvtu")), field_data, sources);
+    // Between these lines the folder has no PVTU, rather than one that names pieces of two meshes.
+    std::error_code ignored;
+    std::filesystem::remove(folder / (stem + ".pvtu"), ignored);
+    if (subdomains == 1)
+      std::filesystem::remove(folder / "interfaces.vtp", ignored);
     files.commit();
     detail::remove_stale_pieces(folder, stem, sources);
 

@@ -70,93 +70,128 @@ void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path
   file.commit();
 }
 
+namespace detail {
+
+/// The part of a mesh that has one tag.
+struct tagged_part {
+  std::vector<local_id> points; ///< that no part before uses
+  std::vector<local_id> elements;
+  box3 box;
+};
+
+/// The parts by tag. Points without elements go with the first part, so that none is lost.
+template <int D>
+std::map<local_id, tagged_part> parts_by_tag(const simplicial_mesh<D>& mesh) {
+  if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
+    throw mesh_error("the mesh does not have one tag per element");
+  std::map<local_id, tagged_part> parts;
+  std::vector<bool> filed(mesh.points.size(), false);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto tag = mesh.tags.empty() ? 0 : mesh.tags[e];
+    if (tag < 0)
+      throw mesh_error("element " + std::to_string(e) + " has a negative tag");
+    auto& part = parts[tag];
+    part.elements.push_back(static_cast<local_id>(e));
+    for (const auto v : mesh.elements[e]) {
+      part.box.include(mesh.points[static_cast<std::size_t>(v)]);
+      if (!filed[static_cast<std::size_t>(v)])
+        part.points.push_back(v);
+      filed[static_cast<std::size_t>(v)] = true;
+    }
+  }
+  if (!parts.empty())
+    for (std::size_t v = 0; v < filed.size(); ++v)
+      if (!filed[v])
+        parts.begin()->second.points.push_back(static_cast<local_id>(v));
+  return parts;
+}
+
+/// The sections of an MSH file in which every part is an entity of its own.
+template <int D>
+class part_sections {
+public:
+  part_sections(msh_encoder& out, const simplicial_mesh<D>& mesh,
+                const std::map<local_id, tagged_part>& parts)
+      : out_(out), mesh_(mesh), parts_(parts) {}
+
+  void entities() {
+    out_.begin("Entities");
+    for (int d = 0; d < 4; ++d)
+      out_.count(d == D ? parts_.size() : 0);
+    out_.line();
+    for (const auto& [tag, part] : parts_) {
+      out_.integer(tag + 1);
+      out_.point(part.box.lower), out_.point(part.box.upper);
+      out_.count(1), out_.integer(tag + 1); // its physical group
+      out_.count(0);                        // nothing is known to bound it
+      out_.line();
+    }
+    out_.end("Entities");
+  }
+  void nodes() {
+    out_.begin("Nodes");
+    totals(parts_.empty() ? 0 : mesh_.points.size());
+    for (const auto& [tag, part] : parts_) {
+      head(tag, 0, part.points.size());
+      for (const auto v : part.points)
+        number(v), out_.line();
+      for (const auto v : part.points)
+        out_.point(mesh_.points[static_cast<std::size_t>(v)]), out_.line();
+    }
+    out_.end("Nodes");
+  }
+  void elements() {
+    constexpr auto type =
+        std::array{msh_type::point, msh_type::line, msh_type::triangle, msh_type::tetrahedron}[D];
+    out_.begin("Elements");
+    totals(mesh_.elements.size());
+    for (const auto& [tag, part] : parts_) {
+      head(tag, static_cast<int>(type), part.elements.size());
+      for (const auto e : part.elements) {
+        number(e);
+        for (const auto v : mesh_.elements[static_cast<std::size_t>(e)])
+          number(v);
+        out_.line();
+      }
+    }
+    out_.end("Elements");
+  }
+
+private:
+  void number(local_id index) { out_.count(static_cast<std::uint64_t>(index) + 1); }
+  void totals(std::size_t count) {
+    out_.count(parts_.size()), out_.count(count), out_.count(1), out_.count(count);
+    out_.line();
+  }
+  void head(local_id tag, int what, std::size_t count) {
+    out_.integer(D), out_.integer(tag + 1), out_.integer(what), out_.count(count);
+    out_.line();
+  }
+
+  msh_encoder& out_;
+  const simplicial_mesh<D>& mesh_;
+  const std::map<local_id, tagged_part>& parts_;
+};
+
+} // namespace detail
+
 /// Writes an MSH 4.1 file with one entity and one physical group per tag: group and entity t + 1 for tag t.
 /// `names` are names of tags. Points are filed under the first tag that uses them. Throws `io_error` naming
 /// the path, `mesh_error` when the tags are not one per element or negative.
 template <int D>
 void write_msh(const simplicial_mesh<D>& mesh, const std::filesystem::path& path,
                const std::vector<std::pair<local_id, std::string>>& names = {}, bool binary = true) {
-  constexpr auto element_type =
-      std::array{msh_type::point, msh_type::line, msh_type::triangle, msh_type::tetrahedron}[D];
-  if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
-    throw mesh_error("cannot write " + path.string() + ": the mesh does not have one tag per element");
-  struct entity {
-    std::vector<local_id> points;
-    std::vector<local_id> elements;
-    box3 box;
-  };
-  std::map<local_id, entity> entities;
-  std::vector<bool> filed(mesh.points.size(), false);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto tag = mesh.tags.empty() ? 0 : mesh.tags[e];
-    if (tag < 0)
-      throw mesh_error("cannot write " + path.string() + ": element " + std::to_string(e) +
-                       " has a negative tag");
-    auto& of_tag = entities[tag];
-    of_tag.elements.push_back(static_cast<local_id>(e));
-    for (const auto v : mesh.elements[e]) {
-      of_tag.box.include(mesh.points[static_cast<std::size_t>(v)]);
-      if (!filed[static_cast<std::size_t>(v)])
-        of_tag.points.push_back(v);
-      filed[static_cast<std::size_t>(v)] = true;
-    }
-  }
-  if (!entities.empty()) // points without elements go with the first entity, so that none is lost
-    for (std::size_t v = 0; v < filed.size(); ++v)
-      if (!filed[v])
-        entities.begin()->second.points.push_back(static_cast<local_id>(v));
-
+  const auto parts = detail::parts_by_tag(mesh);
   output_file file(path);
   msh_encoder out(file, binary);
   std::vector<physical_name> groups;
   for (const auto& [tag, name] : names)
     groups.push_back({D, tag + 1, name});
   write_physical_names(file, groups);
-
-  out.begin("Entities");
-  for (int d = 0; d < 4; ++d)
-    out.count(d == D ? entities.size() : 0);
-  out.line();
-  for (const auto& [tag, of_tag] : entities) {
-    out.integer(tag + 1);
-    out.point(of_tag.box.lower), out.point(of_tag.box.upper);
-    out.count(1);
-    out.integer(tag + 1);
-    out.count(0);
-    out.line();
-  }
-  out.end("Entities");
-
-  const auto head = [&](local_id tag, int what, std::size_t count) {
-    out.integer(D), out.integer(tag + 1), out.integer(what), out.count(count);
-    out.line();
-  };
-  const auto totals = [&](std::size_t blocks, std::size_t count) {
-    out.count(blocks), out.count(count), out.count(1), out.count(count);
-    out.line();
-  };
-  out.begin("Nodes");
-  totals(entities.size(), entities.empty() ? 0 : mesh.points.size());
-  for (const auto& [tag, of_tag] : entities) {
-    head(tag, 0, of_tag.points.size());
-    for (const auto v : of_tag.points)
-      out.count(static_cast<std::uint64_t>(v) + 1), out.line();
-    for (const auto v : of_tag.points)
-      out.point(mesh.points[static_cast<std::size_t>(v)]), out.line();
-  }
-  out.end("Nodes");
-  out.begin("Elements");
-  totals(entities.size(), mesh.elements.size());
-  for (const auto& [tag, of_tag] : entities) {
-    head(tag, static_cast<int>(element_type), of_tag.elements.size());
-    for (const auto e : of_tag.elements) {
-      out.count(static_cast<std::uint64_t>(e) + 1);
-      for (const auto v : mesh.elements[static_cast<std::size_t>(e)])
-        out.count(static_cast<std::uint64_t>(v) + 1);
-      out.line();
-    }
-  }
-  out.end("Elements");
+  detail::part_sections sections(out, mesh, parts);
+  sections.entities();
+  sections.nodes();
+  sections.elements();
   file.commit();
 }
 
