@@ -1,0 +1,91 @@
+#include "output.hpp"
+
+#include "failure.hpp"
+#include "terminal_progress.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/vtu_writer.hpp"
+
+#include <system_error>
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+/// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
+constexpr double spool_bytes_per_element = 22;
+
+output_format format_of(const std::string& name, int pieces) {
+  if (name == "vtu")
+    return {name, 50, io::vtu_writer{.pieces = pieces}};
+  if (name == "msh")
+    return {name, 48, io::msh_writer{}};
+  if (name == "msh-partitioned")
+    return {name, 48, io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"}};
+  throw command_line_error("--format: there is no '" + name +
+                           "'; there are: vtu, msh, msh-partitioned, none");
+}
+
+} // namespace
+
+std::vector<output_format> make_formats(const std::vector<std::string>& names, int pieces) {
+  if (pieces < 0)
+    throw command_line_error("--pieces: " + std::to_string(pieces) + " is negative");
+  std::vector<output_format> formats;
+  for (const auto& name : names)
+    if (name != "none")
+      formats.push_back(format_of(name, pieces));
+  if (names.empty())
+    formats.push_back(format_of("vtu", pieces));
+  return formats;
+}
+
+output_folder::output_folder(std::filesystem::path path) : path_(std::move(path)) {
+  for (auto folder = std::filesystem::absolute(path_).lexically_normal(); !folder.empty();
+       folder = folder.parent_path()) {
+    std::error_code ignored;
+    if (std::filesystem::exists(folder, ignored) || folder == folder.root_path())
+      break;
+    made_.push_back(folder);
+  }
+  try {
+    io::make_folder(path_);
+    check_can_create(path_ / "written_by_dovetail");
+  } catch (...) {
+    remove_if_empty();
+    throw;
+  }
+}
+
+void output_folder::remove_if_empty() {
+  std::error_code failure;
+  for (const auto& folder : made_)
+    if (!std::filesystem::is_empty(folder, failure) || failure || !std::filesystem::remove(folder, failure))
+      return;
+}
+
+void check_can_create(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw io_error(file.string() + ": cannot write the file, there is a folder of this name");
+  const output_file probe(file); // removes itself, since it is never committed
+}
+
+void check_space(double predicted_elements, const std::vector<output_format>& formats,
+                 const std::filesystem::path& folder) {
+  double bytes = spool_bytes_per_element;
+  for (const auto& format : formats)
+    bytes += format.bytes_per_element;
+  bytes *= predicted_elements;
+  std::error_code failure;
+  const auto space = std::filesystem::space(folder, failure);
+  if (!failure && bytes > static_cast<double>(space.available))
+    throw io_error(folder.string() + ": about " + count_text(predicted_elements) + " elements, which need " +
+                   count_text(bytes) + "B of disk, and there are " +
+                   count_text(static_cast<double>(space.available)) +
+                   "B free; give a larger size, or --force to try");
+}
+
+} // namespace dovetail::app

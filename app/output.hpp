@@ -1,0 +1,52 @@
+/// @file
+/// Where a mesh goes: the folder, checked before any work is done, and the formats by name.
+#pragma once
+
+#include "dovetail/core/report.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// A writer of one file format.
+struct output_format {
+  std::string name;
+  double bytes_per_element; ///< about, with its share of points
+  std::function<report(const distributed_mesh&, const std::filesystem::path& folder)> write;
+};
+
+/// The formats of the names; the default one when there are none; none for "none". Throws
+/// `command_line_error` for an unknown name and for a negative number of pieces.
+std::vector<output_format> make_formats(const std::vector<std::string>& names, int pieces);
+
+/// Makes the folder, and tries to create a file in it. Folders that it made are removed again by the
+/// destructor when they are still empty. Throws `io_error` naming the folder.
+class output_folder {
+public:
+  explicit output_folder(std::filesystem::path path);
+  output_folder(const output_folder&) = delete;
+  output_folder& operator=(const output_folder&) = delete;
+  ~output_folder() { remove_if_empty(); }
+
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  void remove_if_empty();
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_; ///< innermost first
+};
+
+/// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
+void check_can_create(const std::filesystem::path& file);
+
+/// Throws `io_error` naming --force when a mesh of so many elements does not fit on the disk of the folder,
+/// with its spool and in all the formats.
+void check_space(double predicted_elements, const std::vector<output_format>& formats,
+                 const std::filesystem::path& folder);
+
+} // namespace dovetail::app
