@@ -107,6 +107,7 @@ inline void give_back(tet_complex& complex, simplicial_mesh<3>& mesh) {
     --end;
     points[static_cast<std::size_t>(hole)] = points[static_cast<std::size_t>(end)];
     renamed[static_cast<std::size_t>(end)] = hole;
+    complex.set_kind(hole, vertex_kind::free);
   }
   while (end > 0 && complex.is_gap(end - 1))
     --end;

@@ -25,7 +25,7 @@ struct native {
   /// Sweeps over the poor elements at most.
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
-  int hard_passes = 3;
+  int hard_passes = 8;
   /// Two sweeps in a row that mend a smaller part of what the poor elements lack are the last ones.
   double least_gain = 0.01;
   /// Edges that an operation makes stay between these two, times the size there, or between the shortest and

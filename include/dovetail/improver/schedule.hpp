@@ -17,7 +17,7 @@ struct schedule_limits {
   float target = 0.17F;     ///< elements with a smaller value are worked on
   int passes = 8;           ///< sweeps over the poor elements
   double least_gain = 0.02; ///< two sweeps in a row that mend a smaller part of what is lacking are the last
-  int hard_passes = 3;      ///< sweeps in which vertices are inserted and removed as well
+  int hard_passes = 8;      ///< sweeps in which vertices are inserted and removed as well
   apex_search_limits search = {};
   size_band band = {};
 };
@@ -28,52 +28,69 @@ public:
   schedule(tet_complex& mesh, const schedule_limits& limits) : mesh_(mesh), limits_(limits) {}
 
   void run() {
-    sweep_until_settled(limits_.passes, [this](local_id e) { mend(e); });
-    sweep_until_settled(limits_.hard_passes, [this](local_id e) { mend_hard(e); });
+    sweep_until_settled(limits_.passes, [this](local_id e) { return mend(e); });
+    sweep_until_settled(limits_.hard_passes, [this](local_id e) { return mend_hard(e); });
   }
   const operation_log& log() const { return log_; }
   int passes() const { return passes_; }
 
 private:
-  bool is_poor(local_id e) const { return mesh_.is_alive(e) && mesh_.value(e) < limits_.target; }
+  bool is_poor(local_id e) const { return mesh_.value(e) < limits_.target; }
+  /// Nothing helped element `e`, and nothing around it has changed since.
+  bool is_settled(local_id e) const {
+    if (static_cast<std::size_t>(e) >= failed_at_.size())
+      return false;
+    const std::uint32_t failed = failed_at_[static_cast<std::size_t>(e)];
+    const auto& v = mesh_.vertices(e);
+    return failed >= std::max({mesh_.changed_at(v[0]), mesh_.changed_at(v[1]), mesh_.changed_at(v[2]),
+                               mesh_.changed_at(v[3]), std::uint32_t{1}});
+  }
+  void settle(local_id e) {
+    if (static_cast<std::size_t>(e) >= failed_at_.size())
+      failed_at_.resize(static_cast<std::size_t>(mesh_.element_slots()), 0);
+    failed_at_[static_cast<std::size_t>(e)] = mesh_.now();
+  }
   /// Lists the poor elements; the result is the sum of what they lack.
   double collect_poor() {
     double deficit = 0;
     poor_.clear();
-    for (local_id e = 0; e < mesh_.element_slots(); ++e)
-      if (is_poor(e)) {
-        poor_.push_back(e);
-        deficit += static_cast<double>(limits_.target - mesh_.value(e));
+    const auto values = mesh_.values();
+    for (std::size_t e = 0; e < values.size(); ++e)
+      if (values[e] < limits_.target) {
+        poor_.push_back(static_cast<local_id>(e));
+        deficit += static_cast<double>(limits_.target - values[e]);
       }
     return deficit;
   }
   /// Sweeps over the poor elements until two sweeps in a row did not pay.
   template <class Mend>
   void sweep_until_settled(int passes, const Mend& mend_one) {
+    failed_at_.clear();
     double deficit = collect_poor();
     for (int pass = 0, idle = 0; pass < passes && idle < 2 && !poor_.empty(); ++pass) {
       for (const local_id e : poor_)
-        if (is_poor(e))
-          mend_one(e);
+        if (is_poor(e) && !is_settled(e) && !mend_one(e))
+          settle(e);
       ++passes_;
       const double before = std::exchange(deficit, collect_poor());
       idle = before - deficit < limits_.least_gain * before ? idle + 1 : 0;
     }
   }
 
-  /// Tries to replace or move element `e`; returns when it is no longer poor or nothing helps.
-  void mend(local_id e) {
-    if (flip(e) && !is_poor(e))
-      return;
+  /// Tries to replace element `e` or to move its vertices; false when nothing helps.
+  bool mend(local_id e) {
+    bool helped = flip(e);
     if (is_poor(e))
-      smooth(e);
+      helped = smooth(e) || helped;
+    return helped;
   }
 
   /// Also inserts and removes vertices.
-  void mend_hard(local_id e) {
-    mend(e);
-    if (is_poor(e) && !contract(e))
-      insert(e);
+  bool mend_hard(local_id e) {
+    bool helped = mend(e);
+    if (is_poor(e))
+      helped = contract(e) || insert(e) || helped;
+    return helped;
   }
   bool contract(local_id e) {
     const auto corners = mesh_.vertices(e);
@@ -134,13 +151,17 @@ private:
                   {ids.data(), static_cast<std::size_t>(change.fresh.size)});
   }
 
-  void smooth(local_id e) {
+  bool smooth(local_id e) {
     const auto corners = mesh_.vertices(e);
     auto search = limits_.search;
     search.enough = limits_.target;
+    bool helped = false;
     for (const local_id v : corners)
       if (mesh_.is_free(v) && is_poor(e))
-        log_.record(operation::smoothing, [&] { return smoothing_.improve(mesh_, v, search, limits_.band); });
+        helped = log_.record(operation::smoothing, [&] {
+          return smoothing_.improve(mesh_, v, search, limits_.band);
+        }) || helped;
+    return helped;
   }
 
   tet_complex& mesh_;
@@ -155,6 +176,7 @@ private:
   vertex_insertion<Measure> insertion_;
   edge_contraction<Measure> contraction_;
   std::vector<local_id> poor_;
+  std::vector<std::uint32_t> failed_at_; ///< per element; 0: never
 };
 
 } // namespace dovetail::improvement

@@ -42,21 +42,30 @@ inline bool find_outline(tet_complex& mesh, star_cavity& cavity, local_id apex) 
   return true;
 }
 
-/// No fixed vertex would lose its last element, and the numbers of those that do may be given up.
-inline bool keeps_fixed_vertices(const tet_complex& mesh, const star_cavity& cavity, local_id apex) {
-  if (!mesh.can_release())
-    return false;
+/// The vertices of the cavity that are not on its outline: they would be removed. `apex` stays anyway.
+inline void find_inside(const tet_complex& mesh, const star_cavity& cavity, local_id apex,
+                        bounded_list<local_id, 4 * max_cavity>& inside) {
+  bounded_list<local_id, 3 * max_star> outer;
+  for (const auto& side : cavity.outline)
+    for (const local_id v : side)
+      outer.push(v);
+  std::sort(outer.begin(), outer.end());
+  inside.size = 0;
   for (const local_id e : cavity.elements)
-    for (const local_id v : mesh.vertices(e)) {
-      if (mesh.is_free(v) || v == apex)
-        continue;
-      const bool is_on_outline =
-          std::any_of(cavity.outline.begin(), cavity.outline.end(),
-                      [v](const auto& side) { return side[0] == v || side[1] == v || side[2] == v; });
-      if (!is_on_outline)
-        return false;
-    }
-  return true;
+    for (const local_id v : mesh.vertices(e))
+      if (v != apex && !std::binary_search(outer.begin(), outer.end(), v))
+        inside.push(v);
+  std::sort(inside.begin(), inside.end());
+  inside.size = static_cast<int>(std::unique(inside.begin(), inside.end()) - inside.begin());
+}
+
+/// No fixed vertex would lose its last element, and the numbers of the free ones that do can be given up,
+/// when `added` vertices are added at the same time.
+inline bool may_lose_inside(const tet_complex& mesh, const star_cavity& cavity, local_id apex, int added) {
+  bounded_list<local_id, 4 * max_cavity> inside;
+  find_inside(mesh, cavity, apex, inside);
+  return inside.size <= mesh.releasable() + added &&
+         std::all_of(inside.begin(), inside.end(), [&mesh](local_id v) { return mesh.is_free(v); });
 }
 
 /// Joins the outline to `apex`, whose place is set, if all values beat `bar` and the edges stay in the
@@ -77,15 +86,12 @@ bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, floa
   if (change.fresh.size == 0 || !is_sound(mesh, change) || !band.admits(mesh, change))
     return false;
   bounded_list<local_id, 4 * max_cavity> inside;
-  for (const local_id e : cavity.elements)
-    for (const local_id v : mesh.vertices(e))
-      inside.push(v);
+  find_inside(mesh, cavity, apex, inside);
   std::array<local_id, static_cast<std::size_t>(max_cavity)> ids;
   mesh.replace(change.old.view(), change.fresh.view(), change.values.view(),
                {ids.data(), static_cast<std::size_t>(change.fresh.size)});
   for (const local_id v : inside)
-    if (mesh.is_free(v) && !mesh.is_used(v))
-      mesh.release_vertex(v);
+    mesh.release_vertex(v);
   return true;
 }
 

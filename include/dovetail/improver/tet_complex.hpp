@@ -25,15 +25,15 @@ enum class vertex_kind : std::uint8_t {
 
 /// Flat arrays, 32-bit ids. A *fixed* side is never removed: it has no element across it, or it is frozen, or
 /// it parts two tags. Invariants: `across` is an involution; `element_at(v)` names an element that has v, for
-/// every vertex in use; a dead element has `no_id` as its first vertex.
+/// every vertex in use; a dead element has `no_id` as its first vertex and the value 2.
 class tet_complex {
 public:
   tet_complex(std::vector<vec3> points, std::vector<simplex<3>> elements, std::vector<local_id> tags)
       : points_(std::move(points)), elements_(std::move(elements)), tags_(std::move(tags)),
         across_(match_sides(elements_, points_.size())), values_(elements_.size(), 0.0F),
         fixed_sides_(elements_.size(), 0), element_marks_(elements_.size(), 0),
-        element_at_(points_.size(), no_id), kinds_(points_.size(), vertex_kind::unused),
-        alive_(elements_.size()) {
+        changed_at_(points_.size(), 0), element_at_(points_.size(), no_id),
+        kinds_(points_.size(), vertex_kind::unused), alive_(elements_.size()) {
     for (local_id e = 0; e < element_slots(); ++e)
       for (const local_id v : elements_[index(e)]) {
         element_at_[index(v)] = e;
@@ -60,6 +60,7 @@ public:
   bool has_tags() const { return !tags_.empty(); }
   local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
   float value(local_id e) const { return values_[index(e)]; }
+  std::span<const float> values() const { return values_; }
 
   /// The corner of `e` at which `v` lies; `v` must be one of its vertices.
   int corner_of(local_id e, local_id v) const {
@@ -72,8 +73,8 @@ public:
     const local_id e = element_at(v);
     return e != no_id && is_alive(e) && vertex(e, corner_of(e, v)) == v;
   }
-  /// One more vertex can be removed without leaving a gap in the numbers under the last fixed one.
-  bool can_release() const { return free_above_ > gaps_below_; }
+  /// So many vertices can be removed without leaving a gap in the numbers under the last fixed one.
+  local_id releasable() const { return free_above_ - gaps_below_; }
 
   // -- marks: a set of elements that is emptied in O(1) ----------------------------------------------------
   void clear_marks() {
@@ -90,6 +91,14 @@ public:
   /// orientation does not prove that a new side is new; changes are checked for that.
   bool is_tangled() const { return is_tangled_; }
   void set_tangled(bool tangled) { is_tangled_ = tangled; }
+
+  // -- when things changed ---------------------------------------------------------------------------------
+  /// Counts changes; starts at 1.
+  std::uint32_t now() const { return now_; }
+  /// When an element at `v` was last replaced or moved.
+  std::uint32_t changed_at(local_id v) const { return changed_at_[index(v)]; }
+  void start_change() { ++now_; }
+  void touch(local_id v) { changed_at_[index(v)] = now_; }
 
   // -- changes ---------------------------------------------------------------------------------------------
   void set_value(local_id e, float value) { values_[index(e)] = value; }
@@ -119,6 +128,7 @@ public:
     }
     points_.push_back(p);
     element_at_.push_back(no_id);
+    changed_at_.push_back(now_);
     kinds_.push_back(vertex_kind::free);
     count_vertex(vertex_slots() - 1, 1);
     return vertex_slots() - 1;
@@ -137,6 +147,7 @@ public:
   /// without an element; the caller releases them.
   void replace(std::span<const local_id> old, std::span<const simplex<3>> fresh,
                std::span<const float> values, std::span<local_id> ids) {
+    start_change();
     clear_marks();
     for (const local_id e : old)
       mark(e);
@@ -160,8 +171,10 @@ public:
       fixed_sides_[index(e)] = 0;
       if (has_tags())
         tags_[index(e)] = tag_of_cavity;
-      for (const local_id v : fresh[i])
+      for (const local_id v : fresh[i]) {
         element_at_[index(v)] = e;
+        touch(v);
+      }
       for (int side = 0; side < 4; ++side) {
         const auto key = sorted_side(fresh[i], side);
         if (const auto match = matcher_.take(key))
@@ -232,6 +245,7 @@ private:
   }
   void kill(local_id e) {
     elements_[index(e)][0] = no_id;
+    values_[index(e)] = 2;
     dead_elements_.push_back(e);
   }
 
@@ -243,6 +257,8 @@ private:
   std::vector<std::uint8_t> fixed_sides_;
   std::vector<std::uint32_t> element_marks_;
   std::uint32_t current_mark_ = 0;
+  std::vector<std::uint32_t> changed_at_;
+  std::uint32_t now_ = 1;
   std::vector<local_id> element_at_;
   std::vector<vertex_kind> kinds_;
   std::vector<local_id> dead_elements_, free_vertices_;

@@ -28,36 +28,48 @@ public:
     for (const local_id e : seed)
       if (!cavity_.elements.push(e))
         return false;
-    float best_gain = 1e-4F;
+    float best_gain = least_gain, promise = -3;
+    int idle = 0;
     best_.clear();
-    for (int step = 0; step <= limits.growth; ++step) {
+    auto rough = limits.search;
+    rough.iterations = rough_iterations;
+    for (int step = 0; step <= limits.growth && idle < patience; ++step) {
       if (!find_outline(mesh, cavity_, no_id))
         break;
       const float bar = worst_value(mesh, cavity_.elements.view());
-      const float reached = settle(mesh, place, limits.search);
-      if (std::min(reached, limits.search.enough) - bar > best_gain &&
-          keeps_fixed_vertices(mesh, cavity_, no_id)) {
-        best_gain = std::min(reached, limits.search.enough) - bar;
+      const float gain = std::min(settle(mesh, cavity_, place, rough), rough.enough) - bar;
+      idle = gain > promise ? 0 : idle + 1;
+      promise = std::max(promise, gain);
+      if (gain > best_gain && may_lose_inside(mesh, cavity_, no_id, 1)) {
+        best_gain = gain;
         best_ = cavity_;
         best_place_ = place;
         best_bar_ = bar;
-        if (reached > limits.search.enough)
+        if (gain + bar >= rough.enough)
           break;
       }
       if (!grow(mesh, place))
         break;
     }
-    return best_.elements.size > 0 && commit(mesh, limits.band);
+    if (best_.elements.size == 0)
+      return false;
+    settle(mesh, best_, best_place_, limits.search);
+    return commit(mesh, limits.band);
   }
 
 private:
+  static constexpr float least_gain = 1e-4F;
+  static constexpr int rough_iterations = 2; ///< linearisations while the cavity grows
+  static constexpr int patience = 5;         ///< growths without progress before giving up
+
   /// Moves `place` to where the worst new element is best; returns its value.
-  float settle(const tet_complex& mesh, vec3& place, const apex_search_limits& limits) {
+  float settle(const tet_complex& mesh, const star_cavity& cavity, vec3& place,
+               const apex_search_limits& limits) {
     double length = 0;
-    for (const auto& side : cavity_.outline)
+    for (const auto& side : cavity.outline)
       length = std::max(length, norm_squared(mesh.point(side[0]) - place));
     batch_.start(place, std::sqrt(length));
-    for (const auto& side : cavity_.outline)
+    for (const auto& side : cavity.outline)
       batch_.add(mesh.point(side[0]), mesh.point(side[1]), mesh.point(side[2]));
     batch_.finish();
     triple<float> p{0, 0, 0};
@@ -112,7 +124,7 @@ public:
     cavity_.clear();
     for (const local_id e : star_)
       cavity_.elements.push(e);
-    return find_outline(mesh, cavity_, to) && keeps_fixed_vertices(mesh, cavity_, to) &&
+    return find_outline(mesh, cavity_, to) && may_lose_inside(mesh, cavity_, to, 0) &&
            fill_from<Measure>(mesh, cavity_, to, worst_value(mesh, star_.view()), band, change_);
   }
 

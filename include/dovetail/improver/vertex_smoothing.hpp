@@ -66,8 +66,12 @@ private:
         return false;
       }
     }
-    for (int i = 0; i < star_.size; ++i)
+    mesh.start_change();
+    for (int i = 0; i < star_.size; ++i) {
       mesh.set_value(star_[i], new_values_[i]);
+      for (const local_id other : mesh.vertices(star_[i]))
+        mesh.touch(other);
+    }
     return true;
   }
 
