@@ -381,7 +381,8 @@ private:
     for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
       if (const local_id s = table().constraint[at(c)]; s != no_id) {
         const std::int32_t w = winding[at(corner_table::triangle_of(c))];
-        if (w != 0 && w != 1)
+        const std::int32_t across = winding[at(corner_table::triangle_of(table().twin[at(c)]))];
+        if ((w != 0 && w != 1) || (w == 0 && across == 0)) // the latter: a slit outside
           result_.misplaced.push_back(s);
       }
     std::sort(result_.misplaced.begin(), result_.misplaced.end());
