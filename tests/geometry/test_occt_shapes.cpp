@@ -1,6 +1,7 @@
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/geometry/occt_triangulation.hpp"
 #include "geometry/model_checks.hpp"
+#include "geometry/triangulation_checks.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -10,8 +11,6 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <doctest/doctest.h>
 
-#include <array>
-#include <map>
 #include <numbers>
 
 using namespace dovetail;
@@ -19,54 +18,19 @@ using std::numbers::pi;
 
 namespace {
 
-std::string text_of(const std::vector<std::string>& faults) {
-  std::string all;
-  for (const auto& fault : faults)
-    all += fault + "\n";
-  return all;
-}
-
-/// Signed volume of each solid, enclosed by a triangulation.
-std::vector<double> enclosed_volumes(const occt_model& model, const surface_mesh& surface) {
-  std::vector<double> volumes(model.topology().solids.size(), 0.0);
-  for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
-    const auto& e = surface.mesh.elements[t];
-    const auto corner = [&](std::size_t k) { return surface.mesh.points[static_cast<std::size_t>(e[k])]; };
-    const double volume = signed_volume({0, 0, 0}, corner(0), corner(1), corner(2));
-    const auto& face = model.topology().faces[static_cast<std::size_t>(surface.mesh.tags[t])];
-    volumes[static_cast<std::size_t>(face.solids[0])] += volume;
-    if (face.solids[1] != no_id)
-      volumes[static_cast<std::size_t>(face.solids[1])] -= volume;
-  }
-  return volumes;
-}
-
-/// Triangle edges passed more often in one direction than in the other.
-int open_edges(const surface_mesh& surface) {
-  std::map<std::array<local_id, 2>, int> balance;
-  for (const auto& e : surface.mesh.elements)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const local_id a = e[k], b = e[(k + 1) % 3];
-      balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-    }
-  int open = 0;
-  for (const auto& [edge, sum] : balance)
-    open += sum != 0 ? 1 : 0;
-  return open;
-}
-
 void check_solid(const TopoDS_Shape& shape, double volume, double area) {
   const occt_read_result result = occt_shape_from(shape);
   const occt_model& model = result.model;
-  CHECK(text_of(testing::faults_of(model)) == "");
+  CHECK(testing::joined(testing::faults_of(model)) == "");
   CHECK(occt_solid_volumes(model).front() == doctest::Approx(volume).epsilon(1e-6));
   double sum = 0;
   for (const double a : occt_face_areas(model))
     sum += a;
   CHECK(sum == doctest::Approx(area).epsilon(1e-6));
   const surface_mesh surface = occt_triangulation(model);
-  CHECK(open_edges(surface) == 0);
-  CHECK(enclosed_volumes(model, surface).front() == doctest::Approx(volume).epsilon(0.02));
+  CHECK(testing::open_edges(model.topology(), surface) == 0);
+  CHECK(testing::enclosed_volumes(model.topology(), surface).front() ==
+        doctest::Approx(volume).epsilon(0.02));
 }
 
 } // namespace
@@ -119,14 +83,14 @@ TEST_CASE("solids that touch get a common face") {
   builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 2, 2)).Shape());
   builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0.5, 0.5, 2), gp_Pnt(1.5, 1.5, 3)).Shape());
   const occt_model model = occt_shape_from(both).model;
-  CHECK(text_of(testing::faults_of(model)) == "");
+  CHECK(testing::joined(testing::faults_of(model)) == "");
   CHECK(model.topology().solids.size() == 2);
   CHECK(model.topology().faces.size() == 12); // 6 + 6 - 1 common + 1 for the hole around it
   int common = 0;
   for (const auto& face : model.topology().faces)
     common += face.solids[1] != no_id ? 1 : 0;
   CHECK(common == 1);
-  const std::vector<double> volumes = enclosed_volumes(model, occt_triangulation(model));
+  const std::vector<double> volumes = testing::enclosed_volumes(model.topology(), occt_triangulation(model));
   CHECK(volumes[0] == doctest::Approx(8));
   CHECK(volumes[1] == doctest::Approx(1));
 }

@@ -43,11 +43,11 @@ inline builtin_model_result builtin_model(std::string_view name) {
     return builtin_model_result{std::move(result.model), size, std::move(sources), std::move(result.report)};
   };
   if (name == "aircraft")
-    return made(builtin::aircraft_shape(), 4.0, builtin::aircraft_sources(0.05));
+    return made(builtin::aircraft_shape(), 3.0, builtin::aircraft_sources(0.09));
   if (name == "combustor")
     return made(builtin::combustor_shape(), 2.0, {});
   if (name == "orbiter")
-    return made(builtin::orbiter_shape(), 10.0, builtin::orbiter_sources(0.15));
+    return made(builtin::orbiter_shape(), 7.0, builtin::orbiter_sources(0.18));
   std::string known;
   for (const auto& info : builtin_models())
     known += (known.empty() ? "" : ", ") + std::string(info.name);

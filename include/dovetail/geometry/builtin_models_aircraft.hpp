@@ -83,38 +83,41 @@ inline occt::attributed_shape aircraft_shape() {
   return difference({box({-30, -30, -30}, {45, 30, 30}), "farfield"}, parts);
 }
 
-/// Grid sources around edges of wing and tail, the nose and the stores, for `spacing` at the wing's leading
-/// edge.
+/// Grid sources around edges of wing and tail, the nose and the stores, for `spacing` at the edges. A wide
+/// source around the whole aircraft keeps the growth towards the ambient size gentle.
 inline std::vector<grid_source> aircraft_sources(double spacing) {
   using namespace aircraft;
   std::vector<grid_source> sources;
+  const double h = spacing;
+  const double band = 45 * h; ///< over which a source grows to the ambient size
   const auto add = [&](grid_source source, const char* name) {
     source.name = name;
     sources.push_back(source);
   };
   const auto trailing = [](const wing_section& s) { return s.leading_edge + vec3{s.chord, 0, 0}; };
-  const auto lifting = [&](const planform& p, double h, const char* name) {
+  const auto lifting = [&](const planform& p, const char* name) {
     const vec3 a = p.root.leading_edge, b = p.tip.leading_edge;
     const vec3 c = trailing(p.tip), d = trailing(p.root);
-    add(line_source(a, b, 2 * h, 40 * h, h), name);
-    add(line_source(d, c, 2 * h, 40 * h, h), name);
-    add(line_source(b, c, 2 * h, 40 * h, h), name);
-    add(triangle_source(a, b, c, 5 * h, 60 * h, 2.5 * h), name);
-    add(triangle_source(a, c, d, 5 * h, 60 * h, 2.5 * h), name);
+    add(line_source(a, b, 2 * h, 2 * h + band, h), name);
+    add(line_source(d, c, 2 * h, 2 * h + band, h), name);
+    add(line_source(b, c, 2 * h, 2 * h + band, h), name);
+    add(triangle_source(a, b, c, 3 * h, 3 * h + band, 2.5 * h), name);
+    add(triangle_source(a, c, d, 3 * h, 3 * h + band, 2.5 * h), name);
   };
-  lifting(wing, spacing, "wing");
-  lifting(wing.mirrored(), spacing, "wing");
-  lifting(tail, spacing, "tail");
-  lifting(tail.mirrored(), spacing, "tail");
-  lifting(fin, spacing, "tail");
+  lifting(wing, "wing");
+  lifting(wing.mirrored(), "wing");
+  lifting(tail, "tail");
+  lifting(tail.mirrored(), "tail");
+  lifting(fin, "tail");
   for (const double side : {1.0, -1.0}) {
     for (const store& s : {tank, missile}) {
       const vec3 nose{s.nose.x, side * s.nose.y, s.nose.z}, end = nose + vec3{s.length, 0, 0};
-      add(line_source(nose, end, 2 * s.radius, 2 * s.radius + 40 * spacing, 1.5 * spacing), "store");
+      add(line_source(nose, end, 1.3 * s.radius, 1.3 * s.radius + band, 1.5 * h), "store");
     }
   }
-  add(point_source({0, 0, 0}, 3 * spacing, 60 * spacing, 1.2 * spacing), "fuselage");
-  add(line_source({1, 0, 0}, {15, 0, 0}, 1.2, 1.2 + 60 * spacing, 3.5 * spacing), "fuselage");
+  add(point_source({0, 0, 0}, 3 * h, 3 * h + band, 1.2 * h), "nose");
+  add(line_source({1, 0, 0}, {15, 0, 0}, 1.0, 1.0 + band, 3 * h), "fuselage");
+  add(line_source({0, 0, 0}, {18, 0, 0}, 5, 26, 10 * h), "near field");
   return sources;
 }
 

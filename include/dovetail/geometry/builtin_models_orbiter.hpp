@@ -57,25 +57,27 @@ inline occt::attributed_shape orbiter_shape() {
   return difference({box({-50, -60, -60}, {100, 60, 60}), "farfield"}, parts);
 }
 
-/// Grid sources along leading and trailing edges, at the nose and along body and pods.
+/// Grid sources along the edges of wing and fin, at the nose and along body and pods, for `spacing` at the
+/// edges, and a wide one around the whole orbiter.
 inline std::vector<grid_source> orbiter_sources(double spacing) {
   using namespace orbiter;
   std::vector<grid_source> sources;
+  const double h = spacing;
+  const double band = 45 * h; ///< over which a source grows to the ambient size
   const auto add = [&](grid_source source, const char* name) {
     source.name = name;
     sources.push_back(source);
   };
   const auto trailing = [](const wing_section& s) { return s.leading_edge + vec3{s.chord, 0, 0}; };
   const auto panel = [&](const wing_section& from, const wing_section& to, const char* name) {
-    const double h = spacing;
     const vec3 a = from.leading_edge, b = to.leading_edge, c = trailing(to), d = trailing(from);
-    add(line_source(a, b, 2 * h, 40 * h, h), name);
-    add(line_source(d, c, 2 * h, 40 * h, h), name);
-    add(triangle_source(a, b, c, 5 * h, 60 * h, 2.5 * h), name);
-    add(triangle_source(a, c, d, 5 * h, 60 * h, 2.5 * h), name);
+    add(line_source(a, b, 2 * h, 2 * h + band, h), name);
+    add(line_source(d, c, 2 * h, 2 * h + band, h), name);
+    add(triangle_source(a, b, c, 3 * h, 3 * h + band, 2.5 * h), name);
+    add(triangle_source(a, c, d, 3 * h, 3 * h + band, 2.5 * h), name);
   };
   const auto tip_edge = [&](const wing_section& s, const char* name) {
-    add(line_source(s.leading_edge, trailing(s), 2 * spacing, 40 * spacing, spacing), name);
+    add(line_source(s.leading_edge, trailing(s), 2 * h, 2 * h + band, h), name);
   };
   panel(strake, kink, "wing");
   panel(kink, tip, "wing");
@@ -87,11 +89,12 @@ inline std::vector<grid_source> orbiter_sources(double spacing) {
   tip_edge(fin_tip, "tail");
   for (const double side : {1.0, -1.0}) {
     const vec3 nose{pod_nose.x, side * pod_nose.y, pod_nose.z};
-    add(line_source(nose, nose + vec3{pod_length, 0, 0}, pod_radius, pod_radius + 40 * spacing, 2 * spacing),
+    add(line_source(nose, nose + vec3{pod_length, 0, 0}, 1.1 * pod_radius, 1.1 * pod_radius + band, 2 * h),
         "pods");
   }
-  add(point_source({0, 0, 0}, 10 * spacing, 60 * spacing, 2 * spacing), "fuselage");
-  add(line_source({3, 0, 0}, {length, 0, 0}, radius, radius + 60 * spacing, 3.5 * spacing), "fuselage");
+  add(point_source({0, 0, 0}, 5 * h, 5 * h + band, 1.5 * h), "nose");
+  add(line_source({3, 0, 0}, {length, 0, 0}, 1.1 * radius, 1.1 * radius + band, 3 * h), "fuselage");
+  add(line_source({0, 0, 0}, {40, 0, 0}, 12, 55, 10 * h), "near field");
   return sources;
 }
 

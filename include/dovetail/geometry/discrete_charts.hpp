@@ -107,6 +107,7 @@ public:
   charted_surface run() {
     for (int round = 0; round < largest_rounds; ++round) {
       gather();
+      find_junctions();
       values_.assign(triangles().size(), std::nullopt);
       bool done = true;
       for (std::size_t c = 0; c < members_.size(); ++c)
@@ -273,20 +274,45 @@ private:
     snap_to_vertices(chart);
   }
 
-  /// A contour that passes close to a vertex passes through it.
+  /// Vertices where three charts or more meet.
+  void find_junctions() {
+    std::vector<std::pair<local_id, local_id>> around; // vertex, chart
+    for (std::size_t t = 0; t < triangles().size(); ++t)
+      for (const local_id v : triangles()[t])
+        around.emplace_back(v, s_.chart_of[t]);
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    junctions_.assign(s_.mesh.points.size(), 0);
+    for (std::size_t i = 2; i < around.size(); ++i)
+      if (around[i].first == around[i - 2].first)
+        junctions_[static_cast<std::size_t>(around[i].first)] = 1;
+  }
+  bool is_junction(local_id v) const { return junctions_[static_cast<std::size_t>(v)] != 0; }
+
+  /// A contour that passes close to a vertex passes through it. On the chart's boundary it always does,
+  /// through a junction if it can: contours from both sides would otherwise end side by side, with a tiny
+  /// curve between them.
   void snap_to_vertices(const std::vector<std::size_t>& chart) {
     std::vector<local_id> snapped;
     for (const std::size_t t : chart)
       for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
         const double a = (*values_[t])[i];
-        const double b = (*values_[t])[(i + 1) % 3];
+        const double b = (*values_[t])[j];
         if (a * b >= 0)
           continue;
         const double s = a / (a - b);
-        if (s < snap)
-          snapped.push_back(triangles()[t][i]);
-        else if (s > 1 - snap)
-          snapped.push_back(triangles()[t][(i + 1) % 3]);
+        const local_id from = triangles()[t][i];
+        const local_id to = triangles()[t][j];
+        const bool on_boundary = s_.chart_of[across(t, (i + 2) % 3)] != s_.chart_of[t];
+        if (on_boundary && is_junction(from) != is_junction(to))
+          snapped.push_back(is_junction(from) ? from : to);
+        else if (s < (on_boundary ? 0.5 : snap))
+          snapped.push_back(from);
+        else if (on_boundary || s > 1 - snap)
+          snapped.push_back(to);
+        if (on_boundary)
+          junctions_[static_cast<std::size_t>(snapped.back())] = 1;
       }
     std::sort(snapped.begin(), snapped.end());
     for (const std::size_t t : chart)
@@ -452,6 +478,7 @@ private:
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<std::vector<std::size_t>> members_; ///< per chart: its triangles
   std::vector<chart_frame> frames_;               ///< per chart
+  std::vector<char> junctions_;                   ///< per vertex
   std::vector<std::optional<corner_values>> values_;
 };
 
