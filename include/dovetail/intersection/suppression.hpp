@@ -1,0 +1,103 @@
+/// @file
+/// What to do about crossing triangles of the fine skeleton (paper, section 3.6): a crossing with an
+/// interface face merges the two subdomains at that face; a crossing of two CAD regions asks for a smaller
+/// size there.
+#pragma once
+
+#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <set>
+
+namespace dovetail {
+
+/// A crossing of two triangles that both lie on CAD faces.
+struct surface_crossing {
+  std::array<local_id, 2> cad_faces;
+  vec3 center;
+  double size; ///< mean edge length of the two triangles
+};
+
+/// How the crossings found are to be removed.
+struct suppression_plan {
+  std::vector<std::array<local_id, 2>> merges; ///< pairs of subdomains, smaller first, sorted, each once
+  std::vector<surface_crossing> surface_crossings;
+  std::size_t crossings = 0;
+
+  bool empty() const { return crossings == 0; }
+};
+
+namespace detail {
+
+inline surface_crossing describe_crossing(const fine_skeleton& skeleton, std::size_t i, std::size_t j) {
+  surface_crossing crossing{{skeleton.cad_faces[i], skeleton.cad_faces[j]}, {}, 0};
+  for (const std::size_t t : {i, j})
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec3 a = skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][k])];
+      const vec3 b = skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][(k + 1) % 3])];
+      crossing.center += a / 6.0;
+      crossing.size += distance(a, b) / 6.0;
+    }
+  return crossing;
+}
+
+} // namespace detail
+
+/// Finds the crossings of a fine skeleton. Two triangles of planar interface faces are not tested: those
+/// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing
+/// interface faces the one with the smaller pair of subdomains goes.
+template <executor Executor>
+suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
+                                  const Executor& run, const crossing_parameters& parameters = {}) {
+  const auto both_planar = [&](local_id i, local_id j) {
+    return planar[static_cast<std::size_t>(i)] && planar[static_cast<std::size_t>(j)];
+  };
+  const auto pairs = crossing_triangles(skeleton.points, skeleton.triangles, both_planar, run, parameters);
+  suppression_plan plan;
+  plan.crossings = pairs.size();
+  std::set<std::array<local_id, 2>> merges;
+  for (const auto& [first, second] : pairs) {
+    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+    const bool inner_i = skeleton.cad_faces[i] == no_id, inner_j = skeleton.cad_faces[j] == no_id;
+    if (!inner_i && !inner_j)
+      plan.surface_crossings.push_back(detail::describe_crossing(skeleton, i, j));
+    else if (inner_i && inner_j)
+      merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
+    else
+      merges.insert(skeleton.subdomains[inner_i ? i : j]);
+  }
+  plan.merges.assign(merges.begin(), merges.end());
+  return plan;
+}
+
+/// Merges subdomains of a decomposition in place and numbers them without gaps, in order of their smallest
+/// member. Returns, per new subdomain, how many old ones it is made of.
+inline std::vector<local_id> merge_subdomains(std::vector<local_id>& subdomain_of_element, local_id count,
+                                              const std::vector<std::array<local_id, 2>>& merges) {
+  std::vector<local_id> root(static_cast<std::size_t>(count));
+  std::iota(root.begin(), root.end(), local_id{0});
+  const auto find = [&](local_id s) {
+    while (root[static_cast<std::size_t>(s)] != s)
+      s = root[static_cast<std::size_t>(s)];
+    return s;
+  };
+  for (const auto& [a, b] : merges) {
+    const local_id ra = find(a), rb = find(b);
+    root[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
+  }
+  std::vector<local_id> number(static_cast<std::size_t>(count), no_id), members;
+  for (local_id s = 0; s < count; ++s) {
+    const auto r = static_cast<std::size_t>(find(s));
+    if (number[r] == no_id) {
+      number[r] = static_cast<local_id>(members.size());
+      members.push_back(0);
+    }
+    number[static_cast<std::size_t>(s)] = number[r];
+    ++members[static_cast<std::size_t>(number[r])];
+  }
+  for (local_id& s : subdomain_of_element)
+    s = number[static_cast<std::size_t>(s)];
+  return members;
+}
+
+} // namespace dovetail

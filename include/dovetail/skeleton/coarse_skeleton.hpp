@@ -1,0 +1,57 @@
+/// @file
+/// The skeleton of a decomposition: lines, regions and interface faces, each once, with the subdomains that
+/// share it (paper, sections 3.4 and 3.5). All are named by coarse vertices, so every subdomain derives the
+/// same keys.
+#pragma once
+
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace dovetail {
+
+/// A coarse edge on subdomain boundaries or on a CAD curve. Its key is `vertices`, in growing order.
+struct skeleton_line {
+  std::array<local_id, 2> vertices{no_id, no_id};
+  host on = {};                 ///< {1, curve}, {2, CAD face} or {3, no_id} for a line inside the domain
+  std::array<double, 2> t = {}; ///< curve parameters of the two vertices, for a line on a curve
+  std::array<vec2, 2> uv = {};  ///< face parameters of the two vertices, for a line on a CAD face
+};
+
+/// Coarse triangles of one CAD face between the same two subdomains, connected across edges that are no
+/// lines.
+struct skeleton_region {
+  local_id cad_face = no_id;
+  std::array<local_id, 2> subdomains{no_id, no_id}; ///< behind the oriented triangles, and in front of them
+  std::vector<local_id> triangles = {};             ///< of the coarse surface mesh, growing
+  std::vector<local_id> fixed_points = {}; ///< coarse vertices inside the region that interfaces touch
+};
+
+/// A coarse face between two subdomains of one material, oriented outwards of `subdomains[0]`, the smaller
+/// one. Its key is the sorted vertices; `vertices` starts with the smallest.
+struct skeleton_face {
+  simplex<2> vertices{no_id, no_id, no_id};
+  std::array<local_id, 2> subdomains{no_id, no_id};
+};
+
+struct coarse_skeleton {
+  std::vector<skeleton_line> lines; ///< sorted by `vertices`
+  std::vector<skeleton_region> regions;
+  std::vector<skeleton_face> faces; ///< sorted by key
+};
+
+/// Index of the line between two coarse vertices, or no_id. O(log lines).
+inline local_id find_line(std::span<const skeleton_line> lines, local_id a, local_id b) {
+  const std::array<local_id, 2> key{std::min(a, b), std::max(a, b)};
+  const auto found =
+      std::lower_bound(lines.begin(), lines.end(), key,
+                       [](const skeleton_line& line, const auto& wanted) { return line.vertices < wanted; });
+  return found != lines.end() && found->vertices == key ? static_cast<local_id>(found - lines.begin())
+                                                        : no_id;
+}
+
+} // namespace dovetail

@@ -1,0 +1,163 @@
+/// @file
+/// Points on skeleton lines, spaced by the sizing field: on the CAD curve, projected to the CAD face, or
+/// straight (paper, section 3.5). A line's points are a function of its key, the model and the field alone.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/remesh/line_spacing.hpp"
+#include "dovetail/skeleton/coarse_skeleton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// The points between the two ends of a line, in key order.
+struct fine_line {
+  std::vector<vec3> points;
+  std::vector<double> t; ///< curve parameters, for a line on a CAD curve
+  std::vector<vec2> uv;  ///< face parameters, for a line on a CAD face
+};
+
+namespace detail {
+
+/// The chord between two points of a CAD face, projected to it; where the projection strays, the straight
+/// line in the parameter plane instead.
+template <geometry_model G>
+class face_line {
+public:
+  face_line(const G& model, const skeleton_line& line, vec3 first, vec3 last)
+      : model_(model), face_(line.on.id), uv_(line.uv), first_(first), chord_(last - first) {
+    constexpr int probes = 8;
+    double before = 0;
+    for (int i = 1; i < probes && projected_; ++i) {
+      const double s = static_cast<double>(i) / probes;
+      const vec3 p = model_.face_point(face_, uv(s));
+      const double along = dot(p - first_, chord_) / norm_squared(chord_);
+      projected_ = distance(p, first_ + s * chord_) < 0.35 * norm(chord_) && along > before && along < 1;
+      before = along;
+    }
+  }
+
+  vec2 uv(double s) const {
+    const vec2 straight = (1 - s) * uv_[0] + s * uv_[1];
+    if (!projected_ || s <= 0 || s >= 1)
+      return straight;
+    return model_.project_to_face(face_, first_ + s * chord_, straight);
+  }
+
+  curve_frame operator()(double s) const {
+    const surface_frame at = model_.face_frame(face_, uv(s));
+    if (!projected_) {
+      const vec2 d = uv_[1] - uv_[0];
+      return {at.point, d.x * at.du + d.y * at.dv};
+    }
+    const vec3 normal = normalized(cross(at.du, at.dv));
+    return {at.point, chord_ - dot(chord_, normal) * normal};
+  }
+
+private:
+  const G& model_;
+  local_id face_;
+  std::array<vec2, 2> uv_;
+  vec3 first_, chord_;
+  bool projected_ = true;
+};
+
+template <geometry_model G>
+fine_line space_on_curve(const G& model, const skeleton_line& line, const any_sizing& size) {
+  const auto curve = [&](double t) { return model.curve_frame(line.on.id, t); };
+  const bool backwards = line.t[0] > line.t[1];
+  auto t =
+      remesh::line_spacing{}(curve, std::min(line.t[0], line.t[1]), std::max(line.t[0], line.t[1]), size);
+  if (backwards)
+    std::reverse(t.begin(), t.end());
+  fine_line fine;
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    fine.t.push_back(t[i]);
+    fine.points.push_back(model.curve_point(line.on.id, t[i]));
+  }
+  return fine;
+}
+
+template <geometry_model G>
+fine_line space_on_face(const G& model, const skeleton_line& line, vec3 first, vec3 last,
+                        const any_sizing& size) {
+  const face_line<G> on_face(model, line, first, last);
+  const auto s = remesh::line_spacing{}(on_face, 0.0, 1.0, size);
+  fine_line fine;
+  for (std::size_t i = 1; i + 1 < s.size(); ++i) {
+    fine.uv.push_back(on_face.uv(s[i]));
+    fine.points.push_back(model.face_point(line.on.id, fine.uv.back()));
+  }
+  return fine;
+}
+
+inline fine_line space_straight(vec3 first, vec3 last, const any_sizing& size) {
+  const auto straight = [&](double s) { return curve_frame{first + s * (last - first), last - first}; };
+  const auto s = remesh::line_spacing{}(straight, 0.0, 1.0, size);
+  fine_line fine;
+  for (std::size_t i = 1; i + 1 < s.size(); ++i)
+    fine.points.push_back(straight(s[i]).point);
+  return fine;
+}
+
+} // namespace detail
+
+/// Points of one line. `coarse_points` are the points of the background mesh.
+template <geometry_model G>
+fine_line remesh_line(const G& model, const skeleton_line& line, std::span<const vec3> coarse_points,
+                      const any_sizing& size) {
+  const vec3 first = coarse_points[static_cast<std::size_t>(line.vertices[0])];
+  const vec3 last = coarse_points[static_cast<std::size_t>(line.vertices[1])];
+  if (line.on.dimension == 1)
+    return detail::space_on_curve(model, line, size);
+  if (line.on.dimension == 2)
+    return detail::space_on_face(model, line, first, last, size);
+  return detail::space_straight(first, last, size);
+}
+
+/// Points of all lines, in tasks of many lines each. Throws `mesher_error` naming what could not be
+/// evaluated.
+template <geometry_model G, executor Executor>
+std::vector<fine_line> remesh_lines(const G& model, std::span<const skeleton_line> lines,
+                                    std::span<const vec3> coarse_points, const any_sizing& size,
+                                    const Executor& run, const progress& on_progress = {}) {
+  constexpr std::size_t lines_per_task = 256;
+  const std::size_t tasks = (lines.size() + lines_per_task - 1) / lines_per_task;
+  const auto outcomes = run.run(
+      tasks,
+      [&](std::size_t task) {
+        byte_writer out;
+        for (std::size_t i = task * lines_per_task; i < std::min(lines.size(), (task + 1) * lines_per_task);
+             ++i) {
+          const fine_line fine = remesh_line(model, lines[i], coarse_points, size);
+          out.array(fine.points);
+          out.array(fine.t);
+          out.array(fine.uv);
+        }
+        return out.take();
+      },
+      run_options{.on_progress = on_progress, .stage = "lines"});
+  std::vector<fine_line> fine;
+  fine.reserve(lines.size());
+  for (std::size_t task = 0; task < tasks; ++task) {
+    if (!outcomes[task].ok)
+      throw mesher_error("remeshing of skeleton lines failed: " + outcomes[task].failure);
+    byte_reader in(outcomes[task].result);
+    while (!in.at_end()) {
+      fine_line line;
+      line.points = in.array<vec3>();
+      line.t = in.array<double>();
+      line.uv = in.array<vec2>();
+      fine.push_back(std::move(line));
+    }
+  }
+  return fine;
+}
+
+} // namespace dovetail
