@@ -87,7 +87,9 @@ TEST_CASE("the compressed file is valid to begin with") {
 TEST_CASE("a file that is cut off anywhere is refused") {
   const testing::scratch_folder folder("truncated");
   io::vtu_writer{}(cubes.distributed(), folder); // the pieces that the PVTU names
-  for (const auto& [name, content] : valid_files()) {
+  for (const auto& file : valid_files()) {
+    const auto& name = file.first;
+    const auto& content = file.second;
     // What may be missing at the end: white space and the last closing tag's end.
     const auto enough = content.find_last_of(name.ends_with("msh") ? "s" : ">");
     const auto step = std::max<std::size_t>(1, content.size() / 400);

@@ -120,14 +120,14 @@ TEST_CASE("a distributed mesh reads back from MSH with the same hash, whole and 
       io::msh_writer{.partitioned = partitioned, .ghosts = true, .binary = binary}(mesh, folder);
       const auto read = io::read_mesh(folder);
       CHECK(io::mesh_hash(read) == io::mesh_hash(mesh));
-      CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 2) == 3 * 6 * 6 * 6);
+      CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
       CHECK(read.subdomains.size() == (partitioned ? read.mesh.elements.size() : 0));
       if (partitioned)
         CHECK(std::count(read.subdomains.begin(), read.subdomains.end(), 7) == 6 * 27);
       // The material interface, and in a partitioned file all interfaces, are among the triangles.
       CHECK(read.triangles.size() == (partitioned ? 8 : 7) * 2U * 36U + (partitioned ? 2U * 36U : 0U));
       REQUIRE(read.region_names.size() == 2);
-      CHECK(read.region_names[0].first == 1);
+      CHECK(read.region_names[0].first == 0);
       CHECK(read.region_names[0].second == "solid '0' <&>");
     }
 }
@@ -138,7 +138,7 @@ TEST_CASE("a mesh in memory reads back from every format that it can be written 
   std::vector<double> sizes;
   for (const auto& p : mesh.points)
     sizes.push_back(1 + p.x);
-  io::write_vtu(mesh, folder / "a.vtu", {{"target <size>", sizes}});
+  io::write_vtu(mesh, folder / "a.vtu", {{"target <size>", sizes}}, {{0, "lower"}, {1, "upper"}});
   const auto vtu = io::read_mesh(folder / "a.vtu");
   CHECK(vtu.mesh.points == mesh.points);
   CHECK(vtu.mesh.elements == mesh.elements);
@@ -146,13 +146,14 @@ TEST_CASE("a mesh in memory reads back from every format that it can be written 
   REQUIRE(vtu.scalars("target <size>") != nullptr);
   CHECK(*vtu.scalars("target <size>") == sizes);
   CHECK(vtu.scalars("other") == nullptr);
+  CHECK(vtu.region_names == io::tag_names{{0, "lower"}, {1, "upper"}});
   for (const bool binary : {false, true}) {
     io::write_msh(mesh, folder / "a.msh", {{0, "lower"}, {1, "upper"}}, binary);
     const auto msh = io::read_mesh(folder / "a.msh");
     CHECK(io::mesh_hash(msh) == io::mesh_hash(mesh));
-    CHECK(std::count(msh.mesh.tags.begin(), msh.mesh.tags.end(), 2) == 3 * 6 * 6 * 6);
+    CHECK(std::count(msh.mesh.tags.begin(), msh.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
     REQUIRE(msh.region_names.size() == 2);
-    CHECK(msh.region_names[1] == std::pair(local_id{2}, std::string("upper")));
+    CHECK(msh.region_names[1] == std::pair(local_id{1}, std::string("upper")));
   }
 }
 
@@ -163,7 +164,7 @@ TEST_CASE("surfaces are written as VTU and MSH too") {
   io::write_vtu(surface, folder / "s.vtu");
   CHECK(io::read_mesh(folder / "s.vtu").triangles == surface.elements);
   io::write_msh(surface, folder / "s.msh");
-  CHECK(io::read_mesh(folder / "s.msh").triangle_tags == std::vector<local_id>{3, 5});
+  CHECK(io::read_mesh(folder / "s.msh").triangle_tags == std::vector<local_id>{2, 4});
   io::write_off(surface, folder / "s.off");
   CHECK(testing::file_content(folder / "s.off") ==
         "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0.1 0.2 1\n3 0 2 1\n3 0 1 3\n");
@@ -177,9 +178,9 @@ TEST_CASE("MSH 2.2: sparse node numbers, names, tags, partitions and node data")
   const auto read = io::read_mesh(folder / "a.msh");
   CHECK(read.mesh.points.size() == 5);
   CHECK(read.mesh.elements == std::vector<simplex<3>>{{0, 1, 2, 3}, {1, 2, 3, 4}});
-  CHECK(read.mesh.tags == std::vector<local_id>{9, 9});
+  CHECK(read.mesh.tags == std::vector<local_id>{8, 8});
   CHECK(read.triangles == std::vector<simplex<2>>{{0, 2, 1}});
-  CHECK(read.triangle_tags == std::vector<local_id>{7});
+  CHECK(read.triangle_tags == std::vector<local_id>{6});
   CHECK(read.node_ids == std::vector<global_id>{9, 19, 29, 39, 49});
   CHECK(read.subdomains == std::vector<local_id>{1, 0});
   REQUIRE(read.scalars("size") != nullptr);

@@ -115,7 +115,8 @@ private:
       if (first == std::string_view::npos || last == first)
         at_.fail("the name of a physical group is not in quotes");
       if (dimension == 3)
-        mesh_.region_names.emplace_back(tag, std::string(text.substr(first + 1, last - first - 1)));
+        mesh_.region_names.emplace_back(region_of(tag),
+                                        std::string(text.substr(first + 1, last - first - 1)));
     }
   }
 
@@ -250,6 +251,9 @@ private:
     return static_cast<std::uint64_t>(value);
   }
 
+  /// Groups and entities count from 1 in MSH files, tags from 0.
+  static local_id region_of(local_id number) { return number > 0 ? number - 1 : 0; }
+
   [[noreturn]] void refuse(int type) {
     at_.fail("there are elements of type " + std::to_string(type) +
              "; only points, lines, linear triangles and linear tetrahedra are read");
@@ -257,10 +261,10 @@ private:
   void add_element(int type, const std::array<std::uint64_t, 4>& vertices, local_id tag, local_id partition) {
     if (type == static_cast<int>(msh_type::triangle)) {
       triangles_.push_back({vertices[0], vertices[1], vertices[2]});
-      mesh_.triangle_tags.push_back(tag);
+      mesh_.triangle_tags.push_back(region_of(tag));
     } else if (type == static_cast<int>(msh_type::tetrahedron)) {
       tetrahedra_.push_back(vertices);
-      mesh_.mesh.tags.push_back(tag);
+      mesh_.mesh.tags.push_back(region_of(tag));
       partitions_.push_back(partition);
     }
   }
@@ -345,8 +349,8 @@ private:
 } // namespace detail
 
 /// Reads MSH 2.2 and 4.1 files: tetrahedra, triangles, and node data of one component. A tag is the first
-/// physical group of an element's entity, or the entity's number where it has none; `subdomains` is the
-/// partition less one; `node_ids` is the node number less one.
+/// physical group of an element's entity, or the entity's number where it has none, less one, as MSH counts
+/// from 1; likewise `subdomains` is the partition and `node_ids` the node number, less one.
 struct msh_reader {
   loaded_mesh operator()(const std::filesystem::path& file) const {
     const auto content = read_file(file);

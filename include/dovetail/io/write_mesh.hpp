@@ -24,11 +24,31 @@ namespace dovetail::io {
 static_assert(std::endian::native == std::endian::little,
               "binary files are written as on little-endian machines");
 
-/// Writes a VTU file with cell data `region` (the tags, where there are any) and the given point arrays, of
-/// one value per point. Throws `io_error` naming the path.
+/// Names of tags.
+using tag_names = std::vector<std::pair<local_id, std::string>>;
+
+namespace detail {
+
+/// VTK's list of names, the tag being the index; tags without a name get an empty one. Tags beyond any
+/// sensible count are left out.
+inline std::vector<std::string> names_by_tag(const tag_names& names) {
+  constexpr local_id most = 1 << 16;
+  std::vector<std::string> list;
+  for (const auto& [tag, name] : names)
+    if (tag >= 0 && tag < most) {
+      list.resize(std::max(list.size(), static_cast<std::size_t>(tag) + 1));
+      list[static_cast<std::size_t>(tag)] = name;
+    }
+  return list;
+}
+
+} // namespace detail
+
+/// Writes a VTU file with cell data `region` (the tags, where there are any), their names as field data
+/// `region_names`, and the given point arrays, of one value per point. Throws `io_error` naming the path.
 template <int D>
 void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path,
-               const std::vector<point_array>& arrays = {}) {
+               const std::vector<point_array>& arrays = {}, const tag_names& names = {}) {
   constexpr auto cell_type = std::array<std::uint8_t, 4>{1, 3, 5, 10}[D];
   const auto points = mesh.points.size();
   const auto cells = mesh.elements.size();
@@ -37,7 +57,8 @@ void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path
   output_file file(path);
   appended_layout layout(file);
   file.text(vtk_xml_opening("UnstructuredGrid"));
-  file.text("<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
+  file.text("<UnstructuredGrid>\n" + vtk_field_data({{"region_names", detail::names_by_tag(names)}}));
+  file.text("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
             std::to_string(cells) + "\">\n<Points>\n");
   layout.array<double>("Points", points, 3);
   file.text("</Points>\n<PointData>\n");
@@ -179,8 +200,8 @@ private:
 /// `names` are names of tags. Points are filed under the first tag that uses them. Throws `io_error` naming
 /// the path, `mesh_error` when the tags are not one per element or negative.
 template <int D>
-void write_msh(const simplicial_mesh<D>& mesh, const std::filesystem::path& path,
-               const std::vector<std::pair<local_id, std::string>>& names = {}, bool binary = true) {
+void write_msh(const simplicial_mesh<D>& mesh, const std::filesystem::path& path, const tag_names& names = {},
+               bool binary = true) {
   const auto parts = detail::parts_by_tag(mesh);
   output_file file(path);
   msh_encoder out(file, binary);
