@@ -148,6 +148,29 @@ TEST_CASE("the place and the cause of a violation are named") {
         doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
+TEST_CASE("the summary has the counters of the driver's report and names the worst place") {
+  fine_skeleton skeleton; // a flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface
+  skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};
+  skeleton.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  skeleton.subdomains = {{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
+  skeleton.cad_faces = {no_id, 5, 5, 5};
+  const std::vector<std::uint8_t> refused{1, 0, 0, 0};
+  for (const bool known : {false, true}) {
+    const auto origins = triangle_origins(skeleton, known ? std::span<const std::uint8_t>(refused)
+                                                          : std::span<const std::uint8_t>());
+    const auto contract =
+        check_interface_contract({skeleton.points, skeleton.triangles, skeleton.subdomains, origins});
+    const report summary = summarize(contract, "interfaces");
+    CHECK(summary.get("faces") == 1);
+    CHECK(summary.get("min_face_angle_deg") == doctest::Approx(45));
+    CHECK(summary.get("min_wedge_deg") == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
+    CHECK(summary.get(known ? "refused" : "remeshing") == 3);
+    CHECK(summary.get(known ? "remeshing" : "refused") == 0);
+    REQUIRE(summary.warnings.size() == 1);
+    CHECK(summary.warnings[0].find("at edge (0, 1)") != std::string::npos);
+  }
+}
+
 TEST_CASE("spans of different length are refused") {
   const std::vector<vec3> points{{0, 0, 0}};
   const std::vector<simplex<2>> triangles{{0, 0, 0}};

@@ -213,7 +213,8 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
       continue;
     double weight = 1;
     if (const auto found = refusals.find(static_cast<local_id>(s)); found != refusals.end()) {
-      weight += parameters.refusal_penalty * (1 - found->second.angle_deg / found->second.threshold_deg);
+      weight += parameters.refusal_price +
+                parameters.refusal_penalty * (1 - found->second.angle_deg / found->second.threshold_deg);
       CHECK(weight > 1);
     }
     expected[{std::min(a, b), std::max(a, b)}] += weight;

@@ -41,10 +41,27 @@ point_elements elements_around_points(const simplicial_mesh<D>& mesh) {
   return table;
 }
 
+/// How far a boundary is from a manifold.
+struct defect_count {
+  int edges = 0;  ///< D = 3: pairs of sides too many at an edge, counted at each of its two ends
+  int points = 0; ///< fans of sides too many at a point
+
+  bool any() const { return edges != 0 || points != 0; }
+  friend bool operator==(const defect_count&, const defect_count&) = default;
+  defect_count& operator+=(const defect_count& other) {
+    edges += other.edges;
+    points += other.points;
+    return *this;
+  }
+  friend defect_count operator-(const defect_count& a, const defect_count& b) {
+    return {a.edges - b.edges, a.points - b.points};
+  }
+};
+
 /// Counts how far the boundaries of the parts are from manifolds at single points.
 ///
 /// At a manifold point the boundary of a part is one fan of sides: for D = 3 one cycle of triangles with two
-/// at each edge, for D = 2 two edges. A defect is one fan, or one pair of sides at an edge, too many.
+/// at each edge, for D = 2 two edges.
 template <int D>
 class boundary_defects {
 public:
@@ -55,9 +72,9 @@ public:
 
   /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
   template <class PartOf>
-  int count_at(local_id point, const PartOf& part_of) {
+  defect_count count_at(local_id point, const PartOf& part_of) {
     collect_boundary(point, part_of);
-    int defects = 0;
+    defect_count defects;
     for (std::size_t first = 0; first < sides_here_.size();) {
       std::size_t last = first;
       while (last < sides_here_.size() && sides_here_[last].part == sides_here_[first].part)
@@ -103,25 +120,26 @@ private:
               [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
   }
 
-  int count_in_link(std::span<const link_side> link) {
+  defect_count count_in_link(std::span<const link_side> link) {
     if constexpr (D == 2)
-      return std::max(0, (static_cast<int>(link.size()) + 1) / 2 - 1);
+      return {0, std::max(0, (static_cast<int>(link.size()) + 1) / 2 - 1)};
     ends_.clear();
     for (const link_side& side : link) {
       ends_.push_back(side.a);
       ends_.push_back(side.b);
     }
     std::sort(ends_.begin(), ends_.end());
-    int defects = 0;
+    defect_count defects;
     for (std::size_t first = 0; first < ends_.size();) {
       std::size_t last = first;
       while (last < ends_.size() && ends_[last] == ends_[first])
         ++last;
-      defects += std::max(0, (static_cast<int>(last - first) + 1) / 2 - 1);
+      defects.edges += std::max(0, (static_cast<int>(last - first) + 1) / 2 - 1);
       first = last;
     }
     ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
-    return defects + components(link) - 1;
+    defects.points = components(link) - 1;
+    return defects;
   }
 
   /// Connected components of the graph whose edges are the link's sides and whose nodes are `ends_`.

@@ -2,12 +2,12 @@
 /// Balance and cut of a decomposition, improved without losing what it already has.
 #pragma once
 
+#include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <queue>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -15,27 +15,25 @@
 
 namespace dovetail {
 
-/// Moves single super-elements between neighbouring parts. A move is made when it evens out an overweight
-/// part, or, within the limits, when it shrinks the cut, which sheds refused sides because these are dear;
-/// and only when the part it leaves stays connected and no boundary defect is added. Each kind of move lowers
-/// a quantity (the sum of squared weights, the cut), and the number of rounds is capped, so this terminates.
+/// Moves super-elements between neighbouring parts: out of overweight parts, and wherever the cut shrinks,
+/// which sheds refused sides because these are dear. What a move would spoil is mended at once, by moving
+/// along what it cuts off, repairing the boundaries and relieving the other part; if all of that together is
+/// no gain, it is taken back. Parts stay connected. Every step that is kept improves the partition's standing
+/// (defects, then excess weight, then cut), so this terminates.
 template <int D>
 class connected_refinement {
 public:
-  /// `limits[p]`: the weight that part p should not exceed.
-  connected_refinement(reassignable_parts<D>& parts, std::vector<double> limits)
-      : parts_(parts), limits_(std::move(limits)), connection_(limits_.size(), 0.0) {}
+  explicit connected_refinement(reassignable_parts<D>& parts)
+      : parts_(parts), repair_(parts), connection_(parts.part_count(), 0.0) {}
 
-  /// Returns the number of moves.
-  std::size_t run(int max_rounds = 10) {
-    std::size_t moves = 0;
+  void run(int max_rounds = 10) {
     for (int round = 0; round < max_rounds; ++round) {
-      const std::size_t made = balance() + shrink_cut();
-      if (made == 0)
+      const std::size_t before = parts_.assignments();
+      balance();
+      shrink_cut();
+      if (parts_.assignments() == before)
         break;
-      moves += made;
     }
-    return moves;
   }
 
 private:
@@ -44,13 +42,13 @@ private:
     local_id super = no_id;
     local_id to = no_id;
   };
+  static constexpr double rounding = 1e-9;
 
   template <class Id>
   static std::size_t index(Id id) {
     return static_cast<std::size_t>(id);
   }
   double weight_of(local_id super) const { return parts_.graph().node_weights[index(super)]; }
-  bool is_over(local_id part) const { return parts_.weight_of_part(part) > limits_[index(part)]; }
 
   /// Calls `consider(part, gain)` for every other part beside a super-element.
   template <class Consider>
@@ -78,35 +76,33 @@ private:
     }
   }
 
-  bool is_allowed(const move& m) {
+  bool is_harmless(const move& m) {
     const std::array<local_id, 1> supers{m.super};
-    return parts_.keeps_connected(supers) &&
-           parts_.defects_removed_by(supers, m.to, parts_.points_of(supers)) >= 0;
+    if (!parts_.keeps_connected(supers))
+      return false;
+    const defect_count removed = parts_.defects_removed_by(supers, m.to, parts_.points_of(supers));
+    return removed.edges >= 0 && removed.points >= 0;
   }
 
   /// Relieves overweight parts, the heaviest first.
-  std::size_t balance() {
-    std::vector<bool> stuck(limits_.size(), false);
-    std::size_t moves = 0;
-    while (moves < index(parts_.super_count())) {
+  void balance() {
+    std::vector<bool> stuck(parts_.part_count(), false);
+    for (local_id moves = 0; moves < parts_.super_count(); ++moves) {
       local_id heaviest = no_id;
-      for (std::size_t p = 0; p < limits_.size(); ++p) {
+      for (std::size_t p = 0; p < stuck.size(); ++p) {
         const auto part = static_cast<local_id>(p);
-        if (!stuck[p] && is_over(part) &&
+        if (!stuck[p] && parts_.is_over_limit(part) &&
             (heaviest == no_id || parts_.weight_of_part(part) > parts_.weight_of_part(heaviest)))
           heaviest = part;
       }
       if (heaviest == no_id)
         break;
-      if (relieve(heaviest))
-        ++moves;
-      else
+      if (!relieve(heaviest))
         stuck[index(heaviest)] = true;
     }
-    return moves;
   }
 
-  /// Makes the move out of a part that costs least cut per weight; false when none is allowed.
+  /// Makes the harmless move out of a part that costs least cut per weight; false when there is none.
   bool relieve(local_id heavy) {
     std::vector<move> moves;
     for (local_id s = 0; s < parts_.super_count(); ++s) {
@@ -121,33 +117,49 @@ private:
       return std::tuple(-a.gain, a.super, a.to) < std::tuple(-b.gain, b.super, b.to);
     });
     for (const move& m : moves)
-      if (is_allowed(m)) {
+      if (is_harmless(m)) {
         parts_.assign(std::array{m.super}, m.to);
         return true;
       }
     return false;
   }
 
-  /// One sweep of moves that shrink the cut and keep the limits.
-  std::size_t shrink_cut() {
-    std::size_t moves = 0;
+  /// One sweep of moves that shrink the cut.
+  void shrink_cut() {
     for (local_id s = 0; s < parts_.super_count(); ++s) {
-      move best;
+      move best{rounding, no_id, no_id};
       for_each_target(s, [&](local_id p, double gain) {
-        const bool fits = parts_.weight_of_part(p) + weight_of(s) <= limits_[index(p)];
-        if (fits && gain > best.gain + 1e-9)
+        if (gain > best.gain)
           best = {gain, s, p};
       });
-      if (best.to != no_id && is_allowed(best)) {
-        parts_.assign(std::array{s}, best.to);
-        ++moves;
-      }
+      if (best.to != no_id)
+        attempt(best);
     }
-    return moves;
+  }
+
+  /// Makes a move with all it entails, if that is a gain.
+  void attempt(const move& m) {
+    constexpr int most_reliefs = 30;
+    const auto before = parts_.standing();
+    const auto place = parts_.mark();
+    std::vector<local_id> moved{m.super};
+    if (!parts_.keeps_connected(moved)) {
+      const std::vector<local_id> cut_off = parts_.pieces_cut_off_by(moved);
+      moved.insert(moved.end(), cut_off.begin(), cut_off.end());
+      if (!parts_.keeps_connected(moved)) // it was all of its part
+        return;
+    }
+    parts_.assign(moved, m.to);
+    if (parts_.standing().defects != before.defects)
+      repair_.repair(parts_.points_of(moved));
+    for (int k = 0; k < most_reliefs && parts_.is_over_limit(m.to) && relieve(m.to); ++k) {
+    }
+    if (!parts_.standing().is_better_than(before))
+      parts_.go_back_to(place);
   }
 
   reassignable_parts<D>& parts_;
-  std::vector<double> limits_;
+  manifold_repair<D> repair_;
   std::vector<double> connection_; ///< scratch: weight of the edges from one super-element to each part
   std::vector<local_id> touched_;
 };

@@ -45,6 +45,7 @@ struct decomposition {
   std::vector<local_id> part_of_super;
   /// Points where the boundary of some part is not manifold and could not be made so; empty if all are.
   std::vector<local_id> defective_points;
+  int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these
   report summary;
 };
 
@@ -131,14 +132,15 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   const double cut = edge_cut(graph, result.part_of_super);
   const std::size_t joined = join_stray_components(graph, result.part_of_super, result.parts);
   reassignable_parts<D> reassignable(mesh, sides, super_of_element, graph, result.part_of_super,
-                                     result.parts);
+                                     detail::part_limits(weights, parts_of_component, imbalance));
   manifold_repair<D> repair(reassignable);
-  const std::size_t repaired = repair.run();
-  const std::size_t refined =
-      connected_refinement<D>(reassignable, detail::part_limits(weights, parts_of_component, imbalance))
-          .run();
-  const std::size_t repaired_later = repair.run();
+  repair.run();
+  const std::size_t repaired = reassignable.assignments();
+  connected_refinement<D>(reassignable).run();
+  repair.run();
+  const std::size_t refined = reassignable.assignments() - repaired;
   result.defective_points = repair.defective_points();
+  result.non_manifold_edges = repair.total_defects().edges / 2;
 
   result.part_of_element.resize(mesh.elements.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
@@ -156,9 +158,10 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   summary.set("cut_of_partitioner", cut);
   summary.set("cut", edge_cut(graph, result.part_of_super));
   summary.set("joined_strays", static_cast<double>(joined));
-  summary.set("repaired_super_elements", static_cast<double>(repaired + repaired_later));
+  summary.set("repaired_super_elements", static_cast<double>(repaired));
   summary.set("refined_super_elements", static_cast<double>(refined));
-  summary.set("defective_points", static_cast<double>(result.defective_points.size()));
+  summary.set("non_manifold_edges", result.non_manifold_edges);
+  summary.set("non_manifold_points", static_cast<double>(result.defective_points.size()));
   if (!result.defective_points.empty())
     summary.warnings.push_back("subdomain boundaries are not manifold at " +
                                std::to_string(result.defective_points.size()) +

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
@@ -213,10 +215,50 @@ inline std::vector<triangle_origin> triangle_origins(const subdomain_boundary_si
   return origins;
 }
 
+/// The origins of the triangles of a fine skeleton; `from_refused` marks those on coarse sides that ought to
+/// have been removed (one entry per triangle, or empty when that is not known).
+inline std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
+                                                     std::span<const std::uint8_t> from_refused = {}) {
+  std::vector<triangle_origin> origins(skeleton.triangles.size(), triangle_origin::cad);
+  for (std::size_t t = 0; t < origins.size(); ++t)
+    if (skeleton.cad_faces[t] == no_id)
+      origins[t] =
+          !from_refused.empty() && from_refused[t] != 0 ? triangle_origin::refused : triangle_origin::kept;
+  return origins;
+}
+
 /// Measures the contract. About linear in the number of triangles. Throws `usage_error` when the spans do not
 /// match.
 inline interface_contract check_interface_contract(const contract_input& input, double threshold_deg = 30) {
   return detail::contract_checker(input, threshold_deg).run();
+}
+
+/// The contract as counters of a report, and one warning with the worst place of each cause.
+inline report summarize(const interface_contract& contract, const std::string& name) {
+  report summary;
+  summary.name = name;
+  summary.set("faces", static_cast<double>(contract.interface_faces));
+  summary.set("min_face_angle_deg", contract.face_angle.angle_deg);
+  summary.set("min_wedge_deg", contract.min_wedge_deg());
+  summary.set("min_interface_wedge_deg", contract.interface_wedge.angle_deg);
+  summary.set("min_surface_wedge_deg", contract.surface_wedge.angle_deg);
+  constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
+  for (std::size_t c = 0; c < causes.size(); ++c) {
+    const auto cause = static_cast<contract_cause>(c);
+    summary.set(causes[c], static_cast<double>(contract.count(cause)));
+    const auto worst = std::find_if(contract.violations.begin(), contract.violations.end(),
+                                    [&](const contract_violation& v) { return v.cause == cause; });
+    if (worst == contract.violations.end())
+      continue;
+    summary.warnings.push_back(
+        std::to_string(contract.count(cause)) + " angles below the threshold (" + causes[c] +
+        "), the smallest " + std::to_string(worst->angle_deg) + " degrees " +
+        (worst->is_wedge() ? "between triangles " + std::to_string(worst->triangles[0]) + " and " +
+                                 std::to_string(worst->triangles[1]) + " at edge (" +
+                                 std::to_string(worst->edge[0]) + ", " + std::to_string(worst->edge[1]) + ")"
+                           : "in triangle " + std::to_string(worst->triangles[0])));
+  }
+  return summary;
 }
 
 } // namespace dovetail

@@ -2,6 +2,7 @@
 /// Makes the boundaries of parts manifold by reassigning whole super-elements.
 #pragma once
 
+#include "dovetail/decomposition/gap_filling.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
 #include <algorithm>
@@ -15,52 +16,64 @@
 namespace dovetail {
 
 /// Repairs defects one by one: tries to give groups of super-elements at the defect to another part there,
-/// and keeps the change that removes most defects, then moves least weight. A change is made only when the
-/// total number of defects shrinks, both parts stay connected and no part is emptied; so this terminates.
+/// and keeps the change that removes most defects at edges, then pays best for those at points (refused sides
+/// are dear). A change is made only when both parts stay connected and no part is emptied; every change
+/// lowers the number of defects at edges or, at the same number, the cost, so this terminates. Where nothing
+/// else helps an edge, its gaps are filled (gap_filling.hpp).
 template <int D>
 class manifold_repair {
 public:
-  explicit manifold_repair(reassignable_parts<D>& parts) : parts_(parts) {}
+  explicit manifold_repair(reassignable_parts<D>& parts) : parts_(parts), gaps_(parts) {}
 
-  /// Repairs what can be repaired; returns the number of super-elements that changed their part.
-  std::size_t run() {
-    const std::vector<local_id> defective = defective_points();
-    std::set<local_id> open(defective.begin(), defective.end());
-    std::size_t moved = 0;
+  /// Repairs what can be repaired.
+  void run() { repair(defective_points()); }
+
+  /// Repairs what can be repaired at some points, and what comes up beside them meanwhile.
+  void repair(const std::vector<local_id>& points) {
+    std::set<local_id> open(points.begin(), points.end());
     while (!open.empty()) {
       const local_id v = *open.begin();
       open.erase(open.begin());
-      if (parts_.defects_at(v) == 0)
+      if (!parts_.defects_at(v).any())
         continue;
       const change best = best_change(v);
-      if (best.supers.empty())
-        continue;
-      moved += best.supers.size();
-      parts_.assign(best.supers, best.to);
-      for (const local_id w : parts_.points_of(best.supers)) // v itself among them, if still open
-        if (parts_.defects_at(w) > 0)
+      std::vector<local_id> changed = best.supers;
+      if (!changed.empty())
+        parts_.assign(changed, best.to);
+      else if (parts_.defects_at(v).edges > 0)
+        changed = gaps_.fill_best_at(v);
+      for (const local_id w : parts_.points_of(changed)) // v itself among them, if still open
+        if (parts_.defects_at(w).any())
           open.insert(w);
     }
-    return moved;
   }
 
   /// Points that have defects, growing.
   std::vector<local_id> defective_points() {
     std::vector<local_id> points;
     for (std::size_t v = 0; v < parts_.point_count(); ++v)
-      if (parts_.defects_at(static_cast<local_id>(v)) > 0)
+      if (parts_.defects_at(static_cast<local_id>(v)).any())
         points.push_back(static_cast<local_id>(v));
     return points;
+  }
+
+  /// All defects that there are.
+  defect_count total_defects() {
+    defect_count total;
+    for (std::size_t v = 0; v < parts_.point_count(); ++v)
+      total += parts_.defects_at(static_cast<local_id>(v));
+    return total;
   }
 
 private:
   struct change {
     std::vector<local_id> supers;
     local_id to = no_id;
-    int removed = 0; ///< defects
+    int edges = 0;   ///< by how much the number of defects at edges grows
+    double cost = 0; ///< by how much the price of defects at points and the cut grow together
     double weight = 0;
 
-    auto key() const { return std::tuple(-removed, weight, to, supers); }
+    auto key() const { return std::tuple(edges, cost, weight, to, supers); }
   };
 
   /// Groups to try: every single super-element at the point, and every cluster of those of one part that
@@ -96,21 +109,41 @@ private:
 
   change best_change(local_id point) {
     std::vector<change> changes;
-    for (const auto& group : groups_at(point)) {
-      const std::vector<local_id> points = parts_.points_of(group);
+    for (const auto& group : groups_at(point))
       for (const local_id to : parts_.parts_beside(group))
-        if (const int removed = parts_.defects_removed_by(group, to, points); removed > 0)
-          changes.push_back({group, to, removed, parts_.weight_of(group)});
-    }
+        add_if_gain(changes, group, to);
     std::sort(changes.begin(), changes.end(),
               [](const change& a, const change& b) { return a.key() < b.key(); });
-    for (change& candidate : changes)
+    std::vector<change> enlarged; // by what they cut off
+    for (change& candidate : changes) {
+      if (parts_.keeps_connected(candidate.supers))
+        return std::move(candidate);
+      std::vector<local_id> all = parts_.pieces_cut_off_by(candidate.supers);
+      if (!parts_.is_light(parts_.weight_of(all), candidate.to))
+        continue;
+      all.insert(all.end(), candidate.supers.begin(), candidate.supers.end());
+      std::sort(all.begin(), all.end());
+      add_if_gain(enlarged, all, candidate.to);
+    }
+    std::sort(enlarged.begin(), enlarged.end(),
+              [](const change& a, const change& b) { return a.key() < b.key(); });
+    for (change& candidate : enlarged)
       if (parts_.keeps_connected(candidate.supers))
         return std::move(candidate);
     return {};
   }
 
+  void add_if_gain(std::vector<change>& changes, const std::vector<local_id>& group, local_id to) {
+    const defect_count removed = parts_.defects_removed_by(group, to, parts_.points_of(group));
+    if (removed.edges < 0 || !(removed.edges > 0 || removed.points > 0))
+      return;
+    const double cost = parts_.cut_added_by(group, to) - partition_standing::price_of_point * removed.points;
+    if (removed.edges > 0 || cost < 0)
+      changes.push_back({group, to, -removed.edges, cost, parts_.weight_of(group)});
+  }
+
   reassignable_parts<D>& parts_;
+  gap_filler<D> gaps_;
 };
 
 } // namespace dovetail

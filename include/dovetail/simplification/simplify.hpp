@@ -41,8 +41,9 @@ struct simplify_parameters {
   double bound_fraction = 0.1;
   /// ... but so many average elements are always allowed. Infinity switches the bound off.
   double always_allowed_elements = 8;
-  /// Graph edge weight of a refused side: 1 for one at its threshold, growing linearly with the missing angle
-  /// up to 1 + this.
+  /// Graph edge weight of a refused side: 1 + refusal_price at its threshold, growing linearly with the
+  /// missing angle by up to refusal_penalty.
+  double refusal_price = 10;
   double refusal_penalty = 200;
 };
 
@@ -306,7 +307,8 @@ private:
     const refused_side& refusal = refusals_[side];
     if (refusal.side == no_id)
       return 1;
-    return 1 + parameters_.refusal_penalty * std::max(0.0, 1 - refusal.angle_deg / refusal.threshold_deg);
+    return 1 + parameters_.refusal_price +
+           parameters_.refusal_penalty * std::max(0.0, 1 - refusal.angle_deg / refusal.threshold_deg);
   }
 
   csr_graph contracted_graph(const simplification<D>& out) {
