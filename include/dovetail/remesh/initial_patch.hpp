@@ -5,6 +5,9 @@
 
 #include "dovetail/remesh/edge_operations.hpp"
 
+#include <limits>
+#include <numeric>
+
 namespace dovetail::detail {
 
 /// Factors that make lengths in the parameter plane resemble those in 3-space on average.
@@ -39,6 +42,34 @@ void set_boundary_sizes(patch_state<S>& s, const patch_boundary& boundary) {
     s.size[v] = count[v] > 0 && length_sum[v] > 0 ? length_sum[v] / count[v] : s.sizing(s.point[v]);
 }
 
+/// Makes vertices of one label that are (nearly) at the same parameters exactly so: loops that touch in a
+/// vertex, and slits, differ there by rounding. The passages of a seam are far apart and stay so.
+inline void join_touching_vertices(const patch_boundary& boundary, std::vector<vec2>& scaled) {
+  constexpr double near = 1e-5; // relative to the shortest segment at either vertex
+  std::vector<double> reach(scaled.size(), std::numeric_limits<double>::infinity());
+  for (const auto& [a, b] : boundary.segments) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const double length = norm(scaled[j] - scaled[i]);
+    reach[i] = std::min(reach[i], near * length);
+    reach[j] = std::min(reach[j], near * length);
+  }
+  std::vector<std::size_t> order(scaled.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return boundary.labels[a] < boundary.labels[b]; });
+  for (std::size_t first = 0, last; first < order.size(); first = last) {
+    last = first + 1;
+    while (last < order.size() && boundary.labels[order[last]] == boundary.labels[order[first]])
+      ++last;
+    for (std::size_t k = first + 1; k < last; ++k)
+      for (std::size_t m = first; m < k; ++m)
+        if (norm(scaled[order[k]] - scaled[order[m]]) <= std::min(reach[order[k]], reach[order[m]])) {
+          scaled[order[k]] = scaled[order[m]];
+          break;
+        }
+  }
+}
+
 /// Fills the state from the loops; the crossings and misplaced segments of `mesh` tell why it could not.
 template <class S>
 bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& mesh) {
@@ -51,6 +82,7 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
   for (std::size_t i = 0; i < count; ++i)
     scaled[i] = {boundary.uv[i].x * s.scale.x, boundary.uv[i].y * s.scale.y};
 
+  join_touching_vertices(boundary, scaled);
   loop_triangulation loops = triangulate_loops(scaled, boundary.segments);
   mesh.crossings = loops.crossings;
   mesh.misplaced = loops.misplaced;
@@ -66,6 +98,10 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
     s.label[i] = boundary.labels[i];
   }
   s.frozen = static_cast<local_id>(count);
+  box3 box;
+  for (const vec3 p : boundary.points)
+    box.include(p);
+  s.extent = box.diagonal();
   for (const auto& [a, b] : boundary.segments)
     if (boundary.labels[s.at(a)] == boundary.labels[s.at(b)])
       s.pole[s.at(a)] = s.pole[s.at(b)] = 1;

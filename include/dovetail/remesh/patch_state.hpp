@@ -60,6 +60,7 @@ public:
   std::vector<local_id> label;    ///< of boundary vertices; no_id for inner ones
   std::vector<std::uint8_t> pole; ///< 1 at a vertex of a pole
   std::vector<double> misfit;     ///< of boundary vertices: distance from the surface at their parameters
+  double extent = 0;              ///< diagonal of the boundary's bounding box
   local_id frozen = 0;
 
   patch_state(const S& s, const any_sizing& h) : surface(s), sizing(h) {}
@@ -125,11 +126,13 @@ public:
     return quality(table.vertex[at(3 * t)], table.vertex[at(3 * t + 1)], table.vertex[at(3 * t + 2)]);
   }
 
-  /// True for a triangle with a boundary edge shorter than the accuracy of its ends: its normal is noise.
+  /// True for a triangle with a boundary edge that is shorter than the accuracy of its ends, or next to
+  /// nothing beside the whole patch: its normal is noise.
   bool within_misfit(local_id t) const {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
       const local_id a = table.tail(c), b = table.head(c);
-      if (a < frozen && b < frozen && length(a, b) <= 2 * (misfit[at(a)] + misfit[at(b)]))
+      if (a < frozen && b < frozen &&
+          length(a, b) <= std::max(2 * (misfit[at(a)] + misfit[at(b)]), 1e-6 * extent))
         return true;
     }
     return false;
