@@ -1,0 +1,167 @@
+/// @file
+/// The first step of the pipeline: how large the mesh will be, and the coarse surface and volume mesh that is
+/// decomposed (paper, section 3.2).
+#pragma once
+
+#include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/background/coarse_volume.hpp"
+#include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/pipeline/parameters.hpp"
+#include "dovetail/sizing/coarse.hpp"
+#include "dovetail/sizing/volume_prediction.hpp"
+
+#include <cmath>
+
+namespace dovetail {
+
+/// What is known before the background mesh: sizes of the mesh and of its decomposition.
+struct mesh_plan {
+  double predicted_elements = 0;
+  double relative_error = 0; ///< of the integral, estimated
+  int subdomains = 1;
+  double coarse_scale = 1; ///< factor between coarse and final size
+};
+
+namespace detail {
+
+/// A size is refused where it makes no sense: not positive, or larger than the model.
+template <geometry_model G, sizing_field H>
+void require_usable_size(const G& model, const H& size) {
+  const box3 box = model.bounds();
+  const double h = size(box.center());
+  if (!std::isfinite(h) || h <= 0)
+    throw sizing_error("the size at the model's center is " + std::to_string(h) + "; give a positive size");
+  if (h > box.diagonal())
+    throw sizing_error("the size " + std::to_string(h) + " is larger than the model, whose diagonal is " +
+                       std::to_string(box.diagonal()) + "; give a smaller size");
+}
+
+inline int default_subdomains(double elements, const generate_options& options) {
+  const double plain = elements / options.elements_per_subdomain;
+  const double excess = std::max(1.0, elements / options.many_elements);
+  return std::max(1, static_cast<int>(std::lround(plain / std::sqrt(excess))));
+}
+
+/// Whether a pair of coarse triangles crosses, as places to refine: a ball around both at half their size.
+inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pair& pair,
+                                  std::vector<background::size_ball>& balls) {
+  for (const local_id t : {pair.first, pair.second}) {
+    const auto& triangle = surface.mesh.elements[static_cast<std::size_t>(t)];
+    vec3 center{};
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec3 a = surface.mesh.points[static_cast<std::size_t>(triangle[k])];
+      const vec3 b = surface.mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      center += a / 3.0;
+      longest = std::max(longest, distance(a, b));
+    }
+    balls.push_back({center, longest, 0.4 * longest});
+  }
+}
+
+[[noreturn]] inline void throw_crossing_faces(const geometry_topology& topology, local_id first,
+                                              local_id second) {
+  const auto name = [&](local_id f) {
+    const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
+    return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
+  };
+  throw intersection_error("the surfaces of " + name(first) + " and " + name(second) +
+                           " cross, also when refined; repair the model there or give a smaller size");
+}
+
+} // namespace detail
+
+/// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
+/// `intersection_error` naming the two CAD faces when that does not help.
+template <geometry_model G, executor Executor>
+background::coarse_surface_result surface_without_crossings(const G& model, const any_sizing& size,
+                                                            const Executor& run,
+                                                            const generate_options& options) {
+  background::coarse_surface_parameters parameters;
+  parameters.remesher = options.surface_remesher;
+  for (int round = 0;; ++round) {
+    auto result = background::coarse_surface(model, size, parameters, run);
+    const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
+    result.summary.set("refinement_rounds", round);
+    if (pairs.empty())
+      return result;
+    if (round == options.refinement_rounds) {
+      const auto& tags = result.surface.mesh.tags;
+      detail::throw_crossing_faces(model.topology(), tags[static_cast<std::size_t>(pairs.front().first)],
+                                   tags[static_cast<std::size_t>(pairs.front().second)]);
+    }
+    for (const triangle_pair& pair : pairs)
+      detail::add_balls_at_crossing(result.surface, pair, parameters.refinement);
+  }
+}
+
+/// Predicts the size of the mesh inside a surface and chooses the decomposition. `surface` may be as coarse
+/// as the sizing field's features allow. `elements_per_unit_size` are the elements a mesher makes per
+/// integral of h^-3.
+template <sizing_field H>
+mesh_plan plan_mesh(const simplicial_mesh<2>& surface, const H& size, const generate_options& options,
+                    double elements_per_unit_size) {
+  const auto predicted = predict_volume_elements(surface, size, {.density = elements_per_unit_size});
+  mesh_plan plan;
+  plan.predicted_elements = predicted.elements;
+  plan.relative_error = predicted.relative_error;
+  plan.subdomains =
+      options.subdomains > 0 ? options.subdomains : detail::default_subdomains(predicted.elements, options);
+  const double per_coarse_element =
+      predicted.elements / (plan.subdomains * options.background_elements_per_subdomain);
+  plan.coarse_scale =
+      options.coarse_scale > 0 ? options.coarse_scale : std::max(1.5, std::cbrt(per_coarse_element));
+  return plan;
+}
+
+/// The elements a mesher makes per integral of h^-3; regular elements when it does not say.
+template <class Mesher>
+constexpr double elements_per_inverse_cubed_size() {
+  if constexpr (requires { Mesher::elements_per_inverse_cubed_size; })
+    return Mesher::elements_per_inverse_cubed_size;
+  else
+    return 0;
+}
+
+struct background_result {
+  background_mesh mesh;
+  mesh_plan plan;
+  report summary;
+};
+
+/// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
+/// concerned.
+template <geometry_model G, sizing_field H, class Parameters>
+background_result make_background(const G& model, const H& size, const Parameters& given) {
+  const stopwatch clock;
+  detail::require_usable_size(model, size);
+  const generate_options& options = given.options;
+  background_result result;
+  result.summary.name = "background";
+
+  // A first surface, as coarse as sources and curvature allow, is enough to see how much there is to fill.
+  constexpr double as_coarse_as_possible = 1e6;
+  options.on_progress("planning", 0, 0);
+  const auto first = surface_without_crossings(
+      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
+  result.plan = plan_mesh(first.surface.mesh, size, options,
+                          elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
+
+  options.on_progress("background surface", 0, 0);
+  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
+  auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
+  options.on_progress("background volume", 0, 0);
+  auto volume = background::coarse_volume(
+      surface.surface, model.topology(), coarse, given.mesh_it, improvement::native::hard(), given.run_tasks,
+      {.failure_folder = options.failure_folder, .limit_seconds = options.limit_seconds});
+  result.mesh = {std::move(surface.surface), std::move(volume.mesh)};
+  result.summary.set("predicted_elements", result.plan.predicted_elements);
+  result.summary.set("coarse_scale", result.plan.coarse_scale);
+  result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
+  result.summary.children = {std::move(surface.summary), std::move(volume.summary)};
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+} // namespace dovetail

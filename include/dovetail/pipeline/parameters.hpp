@@ -1,0 +1,75 @@
+/// @file
+/// The parameters of `generate`, composed of policies: `parameters<>{}.with_mesher(mesher::tetgen{})`.
+#pragma once
+
+#include "dovetail/background/surface_size.hpp"
+#include "dovetail/core/progress.hpp"
+#include "dovetail/improver/native.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/spool.hpp"
+#include "dovetail/partition/greedy.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace dovetail {
+
+/// Stands for the mesher that has to be chosen: all meshers are adapters of other libraries.
+struct no_mesher {};
+
+/// Everything about `generate` that is not a policy. Lengths are in the model's unit.
+struct generate_options {
+  int subdomains = 0; ///< 0: from the predicted number of elements
+  /// Predicted elements per subdomain when `subdomains` is 0; beyond `many_elements` subdomains grow larger,
+  /// as the square root of their number.
+  double elements_per_subdomain = 31250;
+  double many_elements = 1e6;
+  double background_elements_per_subdomain = 2000; ///< decides how far the sizes are scaled up
+  double coarse_scale = 0;         ///< factor between coarse and final size; 0: from the above
+  double interface_angle_deg = 30; ///< threshold of faces and wedges (paper: 30)
+  double surface_angle_deg = 50;   ///< threshold on the surface (paper: 50)
+  bool simplify = true;            ///< false: plain partition of the background mesh, for comparison
+  double largest_merged_fraction =
+      0.05;                   ///< more subdomains merged than this is a failure (at least 2 are allowed)
+  int refinement_rounds = 6;  ///< rounds of local refinement where two CAD regions cross
+  double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
+  std::optional<spool> store = std::nullopt; ///< where finished subdomains go; none: they stay in memory
+  std::filesystem::path failure_folder =
+      {}; ///< where facets of failed subdomains are written; empty: nowhere
+  remesh::patch_remesher surface_remesher = {};
+  progress on_progress = {};
+};
+
+/// Policies and options. Each `with_...` returns parameters with one policy replaced.
+template <class Mesher = no_mesher, class Partitioner = partition::greedy,
+          class Improver = improvement::native, class Executor = parallel::serial>
+struct parameters {
+  Mesher mesh_it{};
+  Partitioner partition_it{};
+  Improver improve_it{};
+  Executor run_tasks{};
+  generate_options options{};
+
+  template <boundary_keeping_mesher<3> M>
+  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
+    return {std::move(mesher), partition_it, improve_it, run_tasks, options};
+  }
+  template <graph_partitioner P>
+  parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
+    return {mesh_it, std::move(partitioner), improve_it, run_tasks, options};
+  }
+  template <class I>
+    requires improver<I, 3> parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
+  const { return {mesh_it, partition_it, std::move(improver), run_tasks, options}; }
+  template <executor E>
+  parameters<Mesher, Partitioner, Improver, E> with_executor(E executor) const {
+    return {mesh_it, partition_it, improve_it, std::move(executor), options};
+  }
+  parameters with_options(generate_options changed) const {
+    return {mesh_it, partition_it, improve_it, run_tasks, std::move(changed)};
+  }
+};
+
+} // namespace dovetail
