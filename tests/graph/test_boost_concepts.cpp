@@ -1,6 +1,7 @@
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/csr_boost.hpp"
 #include "dovetail/graph/dual.hpp"
+#include "dovetail/graph/traversal.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <boost/graph/adjacency_list.hpp>
@@ -142,6 +143,11 @@ TEST_CASE("Boost's breadth-first search counts rings of elements") {
         }
   }
   CHECK(ring == expected);
+
+  const auto order = breadth_first_order(dual, local_id{0});
+  REQUIRE(order.size() == mesh.elements.size());
+  for (std::size_t k = 1; k < order.size(); ++k)
+    CHECK(ring[static_cast<std::size_t>(order[k - 1])] <= ring[static_cast<std::size_t>(order[k])]);
 }
 
 TEST_CASE("Boost's Dijkstra gives the same distances on the view and on the csr graph") {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "dovetail/graph/contraction.hpp"
+#include "dovetail/graph/csr_boost.hpp"
+#include "dovetail/graph/traversal.hpp"
 #include "dovetail/partition/refinement.hpp"
 
 #include <cstddef>
@@ -17,16 +19,7 @@ namespace detail {
 
 /// The node that a breadth-first search from `start` reaches last.
 inline local_id farthest_node(const csr_graph& graph, local_id start) {
-  std::vector<bool> seen(static_cast<std::size_t>(graph.node_count()), false);
-  std::vector<local_id> queue{start};
-  seen[static_cast<std::size_t>(start)] = true;
-  for (std::size_t k = 0; k < queue.size(); ++k)
-    for (const local_id w : graph.row(queue[k]))
-      if (!seen[static_cast<std::size_t>(w)]) {
-        seen[static_cast<std::size_t>(w)] = true;
-        queue.push_back(w);
-      }
-  return queue.back();
+  return breadth_first_order(graph, start).back();
 }
 
 /// Grows part 0 from `start`, always by the node whose move costs the cut least, to the weight `target`; all

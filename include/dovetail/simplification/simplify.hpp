@@ -14,6 +14,7 @@
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/simplification/side_shape.hpp"
+#include "dovetail/simplification/types.hpp"
 #include "dovetail/simplification/wedge_runs.hpp"
 
 #include <algorithm>
@@ -30,63 +31,6 @@
 #include <vector>
 
 namespace dovetail {
-
-/// Thresholds and bound; the defaults are those of the paper.
-template <int D>
-struct simplify_parameters {
-  double wedge_threshold_deg = D == 2 ? 50 : 30; ///< smaller wedges are removed
-  double shape_threshold_deg = D == 2 ? 0 : 30;  ///< sides with a smaller own angle are removed; 0: none
-  double subdomains = 1;                         ///< how many parts the partition will have
-  /// A super-element weighs at most this fraction of the average subdomain ...
-  double bound_fraction = 0.1;
-  /// ... but so many average elements are always allowed. Infinity switches the bound off.
-  double always_allowed_elements = 8;
-  /// Graph edge weight of a refused side: 1 + refusal_price at its threshold, growing linearly with the
-  /// missing angle by up to refusal_penalty.
-  double refusal_price = 10;
-  double refusal_penalty = 200;
-};
-
-/// A ridge whose sides must go, or are to be avoided, because of what was decided one dimension below.
-template <int D>
-struct coupled_ridge {
-  simplex<D - 2> vertices{};
-  double angle_deg = 0;     ///< the angle that made it so; the smallest are treated first
-  double threshold_deg = 0; ///< the angle that would have been good enough
-  bool refused = false;     ///< true: it stayed below, so its sides are only penalised
-};
-
-/// What is given beside the mesh. All may be empty.
-template <int D>
-struct simplify_constraints {
-  std::span<const simplex<D - 1>> fixed_sides = {};      ///< in any order of vertices
-  std::span<const coupled_ridge<D>> coupled_ridges = {}; ///< all interior sides there are removed
-  std::span<const double> element_weights = {};          ///< predicted final elements; empty: 1 each
-};
-
-/// A side that the bound refused.
-struct refused_side {
-  local_id side = no_id;
-  double angle_deg = 0;     ///< the angle under the threshold: its own, or that of a wedge it bounds
-  double threshold_deg = 0; ///< the threshold it missed
-};
-
-/// A wedge under the threshold between two fixed sides: nothing can be done about it.
-struct forced_wedge {
-  std::array<local_id, 2> sides{};
-  double angle_deg = 0;
-};
-
-template <int D>
-struct simplification {
-  std::vector<side_state> side_states;
-  std::vector<local_id> super_of_element;
-  local_id super_count = 0;
-  csr_graph graph; ///< contracted element-dual graph: node = super-element, weights as in the parameters
-  std::vector<refused_side> refused; ///< sides in state `refused`, growing
-  std::vector<forced_wedge> forced;  ///< by growing angle; boundary against boundary included
-  report summary;
-};
 
 namespace detail {
 
@@ -379,30 +323,6 @@ simplification<D> simplify(const simplicial_mesh<D>& mesh, const side_table<D>& 
   simplification<D> out = run.result();
   out.summary.seconds = time.seconds();
   return out;
-}
-
-/// The coupling from a surface (D = 2) to the volume it bounds (D = 3): removed and refused surface edges.
-/// `volume_point` gives the volume's number of each surface point; empty when they are the same.
-inline std::vector<coupled_ridge<3>> coupling(const simplicial_mesh<2>& surface, const side_table<2>& edges,
-                                              const simplification<2>& simplified,
-                                              const simplify_parameters<2>& parameters,
-                                              std::span<const local_id> volume_point = {}) {
-  const std::vector<double> shapes = side_shapes(surface, edges);
-  std::vector<coupled_ridge<3>> ridges;
-  auto refused = simplified.refused.begin();
-  for (std::size_t s = 0; s < edges.size(); ++s) {
-    const bool is_refused = simplified.side_states[s] == side_state::refused;
-    if (!is_refused && simplified.side_states[s] != side_state::removed)
-      continue;
-    coupled_ridge<3> ridge{edges.vertices[s], shapes[s], parameters.wedge_threshold_deg, is_refused};
-    if (is_refused)
-      ridge.angle_deg = (refused++)->angle_deg;
-    if (!volume_point.empty())
-      for (local_id& v : ridge.vertices)
-        v = volume_point[static_cast<std::size_t>(v)];
-    ridges.push_back(ridge);
-  }
-  return ridges;
 }
 
 } // namespace dovetail

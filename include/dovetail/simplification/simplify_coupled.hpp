@@ -10,6 +10,30 @@
 
 namespace dovetail {
 
+/// The coupling from a surface (D = 2) to the volume it bounds (D = 3): removed and refused surface edges.
+/// `volume_point` gives the volume's number of each surface point; empty when they are the same.
+inline std::vector<coupled_ridge<3>> coupling(const simplicial_mesh<2>& surface, const side_table<2>& edges,
+                                              const simplification<2>& simplified,
+                                              const simplify_parameters<2>& parameters,
+                                              std::span<const local_id> volume_point = {}) {
+  const std::vector<double> shapes = side_shapes(surface, edges);
+  std::vector<coupled_ridge<3>> ridges;
+  auto refused = simplified.refused.begin();
+  for (std::size_t s = 0; s < edges.size(); ++s) {
+    const bool is_refused = simplified.side_states[s] == side_state::refused;
+    if (!is_refused && simplified.side_states[s] != side_state::removed)
+      continue;
+    coupled_ridge<3> ridge{edges.vertices[s], shapes[s], parameters.wedge_threshold_deg, is_refused};
+    if (is_refused)
+      ridge.angle_deg = (refused++)->angle_deg;
+    if (!volume_point.empty())
+      for (local_id& v : ridge.vertices)
+        v = volume_point[static_cast<std::size_t>(v)];
+    ridges.push_back(ridge);
+  }
+  return ridges;
+}
+
 /// Both simplifications; the volume's is what the partition is made from.
 struct coupled_simplification {
   simplification<2> surface;
