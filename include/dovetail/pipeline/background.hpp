@@ -12,8 +12,28 @@
 #include "dovetail/sizing/volume_prediction.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 namespace dovetail {
+
+/// The sizes ask for more elements than `generate_options::largest_prediction` allows.
+class too_many_elements : public sizing_error {
+public:
+  too_many_elements(double predicted_elements, double limit)
+      : sizing_error("the sizes predict about " + rounded(predicted_elements) +
+                     " elements, more than the limit of " + rounded(limit) +
+                     "; give larger sizes or raise the limit"),
+        predicted(predicted_elements) {}
+  double predicted;
+
+private:
+  static std::string rounded(double count) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", count);
+    return text;
+  }
+};
 
 /// What is known before the background mesh: sizes of the mesh and of its decomposition.
 struct mesh_plan {
@@ -147,6 +167,8 @@ background_result make_background(const G& model, const H& size, const Parameter
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
   result.plan = plan_mesh(first.surface.mesh, size, options,
                           elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
+  if (options.largest_prediction > 0 && result.plan.predicted_elements > options.largest_prediction)
+    throw too_many_elements(result.plan.predicted_elements, options.largest_prediction);
 
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());

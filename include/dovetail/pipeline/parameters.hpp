@@ -30,6 +30,7 @@ struct generate_options {
   double coarse_scale = 0;         ///< factor between coarse and final size; 0: from the above
   double interface_angle_deg = 30; ///< threshold of faces and wedges (paper: 30)
   double surface_angle_deg = 50;   ///< threshold on the surface (paper: 50)
+  double largest_prediction = 0;   ///< more predicted elements are refused (`too_many_elements`); 0: no limit
   bool simplify = true;            ///< false: plain partition of the background mesh, for comparison
   double largest_merged_fraction =
       0.05;                   ///< more subdomains merged than this is a failure (at least 2 are allowed)
