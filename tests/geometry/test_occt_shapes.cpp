@@ -9,6 +9,7 @@
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepPrimAPI_MakeWedge.hxx>
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -166,6 +167,22 @@ TEST_CASE("faces turned the wrong way round are repaired") {
     builder.Add(shell, count++ % 3 == 0 ? face.Current().Reversed() : face.Current());
   builder.Add(solid, shell);
   check_solid(solid, 6, 22);
+}
+
+TEST_CASE("edges of no length collapse: a pyramid cut off a hair below its apex gets the apex") {
+  const double hair = 5e-7;
+  const TopoDS_Shape shape =
+      BRepPrimAPI_MakeWedge(1, 1, 1, 0.5, 0.5, 0.5 + hair, 0.5 + hair).Shape(); // base at y = 0
+  CHECK(occt::sub_shapes(shape, TopAbs_FACE).Extent() == 6);
+  const occt_model model = occt_shape_from(shape).model;
+  CHECK(model.topology().faces.size() == 5);
+  CHECK(model.topology().curves.size() == 8);
+  CHECK(model.topology().vertices.size() == 5);
+  CHECK(testing::joined(testing::faults_of(model)) == "");
+  const surface_mesh surface = occt_triangulation(model);
+  CHECK(surface.mesh.points.size() == 5);
+  CHECK(testing::open_edges(model.topology(), surface) == 0);
+  CHECK(testing::enclosed_volumes(model.topology(), surface).front() == doctest::Approx(1.0 / 3));
 }
 
 TEST_CASE("a shape without faces is refused") {

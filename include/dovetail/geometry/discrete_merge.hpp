@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/discrete_charts.hpp"
+#include "dovetail/geometry/discrete_tidy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -142,8 +143,10 @@ private:
 
 /// Feature edges by angle and by named patches, and charts. About O(n log n) per round of cuts and of merges.
 inline charted_surface charted(const closed_surfaces& surfaces, const chart_options& options = {}) {
-  return discrete::chart_merger(discrete::chart_cutter(surfaces, options).run(), options.merge_angle_deg)
-      .run();
+  auto cut = discrete::chart_cutter(surfaces, options).run();
+  auto merged = discrete::chart_merger(std::move(cut), options.merge_angle_deg).run();
+  auto relabeled = discrete::corner_relabeler(std::move(merged)).run();
+  return discrete::border_collapser(std::move(relabeled)).run();
 }
 
 } // namespace dovetail

@@ -46,18 +46,6 @@ inline std::array<std::array<double, 2>, 2> box_of_loops(const face_loops& face,
   return box;
 }
 
-/// Moves the ends of consecutive coedges together, to their middle.
-inline void close_gaps(face_loops& face, const face_surface& surface) {
-  for (auto& loop : face.loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      coedge_curve& next = loop[(i + 1) % loop.size()].curve;
-      const vec2 jump = next.start(surface) - loop[i].curve.end(surface);
-      loop[i].curve.shift_end(0.5 * jump);
-      next.shift_start(-0.5 * jump);
-    }
-  }
-}
-
 /// Orders and closes the loops of one face.
 class loop_builder {
 public:
@@ -103,6 +91,9 @@ private:
         result_.faults.emplace_back("has an edge without a curve in its parameter plane");
         return;
       }
+      if (BRep_Tool::Degenerated(edge) &&
+          gap(made.curve.start(surface_), made.curve.end(surface_)) <= same_parameter)
+        continue; // a pole without extent
       if (with_projection_)
         improve(made);
       left.push_back(std::move(made));
@@ -169,7 +160,8 @@ private:
     return true;
   }
 
-  /// A gap is harmless when it is small in the plane and, in space, within a few tolerances.
+  /// A gap is harmless when it is within a few tolerances in space and, so that no pole's edge is
+  /// missing, clearly less than the face's width in the plane.
   bool is_closable(const TopoDS_Edge& edge, vec2 a, vec2 b) const {
     const double g = gap(a, b);
     if (g <= same_parameter)
@@ -177,7 +169,7 @@ private:
     const TopoDS_Vertex vertex = TopExp::LastVertex(edge, true);
     const double tolerance =
         std::max(vertex.IsNull() ? 0.0 : BRep_Tool::Tolerance(vertex), BRep_Tool::Tolerance(edge));
-    return g <= 0.05 && distance(surface_.point(a), surface_.point(b)) <= 4 * tolerance + 1e-9;
+    return g <= 0.4 && distance(surface_.point(a), surface_.point(b)) <= 4 * tolerance + 1e-9;
   }
 
   vec2 whole_periods(vec2 jump) const {

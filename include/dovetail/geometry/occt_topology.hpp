@@ -3,11 +3,11 @@
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/geometry/occt_brep.hpp"
 #include "dovetail/geometry/occt_loops.hpp"
+#include "dovetail/geometry/occt_small_edges.hpp"
 
-#include <GeomAdaptor_Curve.hxx>
 #include <Geom_Curve.hxx>
-#include <TopoDS_Solid.hxx>
 
 #include <array>
 #include <map>
@@ -15,20 +15,6 @@
 #include <vector>
 
 namespace dovetail::occt {
-
-/// Everything an `occt_model` holds.
-struct brep {
-  TopoDS_Shape shape;
-  geometry_topology topology;
-  std::vector<GeomAdaptor_Curve> curves;          ///< empty for degenerate ones
-  std::vector<face_surface> surfaces;             ///< per face
-  std::vector<std::vector<coedge_curve>> coedges; ///< per face, as `topology.faces[f].coedges`
-  std::vector<TopoDS_Edge> edges;                 ///< per curve
-  std::vector<TopoDS_Face> faces;                 ///< per face, oriented FORWARD
-  std::vector<TopoDS_Solid> solids;
-  std::vector<std::string> faults;   ///< what keeps the shape from being meshed, one sentence per entity
-  std::vector<std::string> warnings; ///< oddities that do not
-};
 
 /// Builds a `brep` from all solids of a shape. The order of entities is that of OCCT's explorer.
 class brep_builder {
@@ -43,6 +29,8 @@ public:
       add_solid(TopoDS::Solid(solids(s)));
     for (std::size_t f = 0; f < result_.faces.size(); ++f)
       add_loops(static_cast<local_id>(f));
+    if (result_.faults.empty())
+      small_edge_collapse(result_, 1e-6 * size_).run();
     for (std::size_t s = 0; s < result_.solids.size(); ++s)
       check_closed(static_cast<local_id>(s));
     measure_tolerances();
@@ -100,25 +88,25 @@ private:
 
   void add_loops(local_id f) {
     const auto index = static_cast<std::size_t>(f);
-    result_.surfaces.emplace_back(result_.faces[index]);
-    face_loops made = loop_builder(result_.faces[index], result_.surfaces.back(), size_).build();
-    if (made.faults.empty()) {
-      result_.surfaces.back().set_box(box_of_loops(made, result_.surfaces.back()));
-      close_gaps(made, result_.surfaces.back()); // projections are confined to the box
-    }
+    face_surface& surface = result_.surfaces.emplace_back(result_.faces[index]);
+    const face_loops made = loop_builder(result_.faces[index], surface, size_).build();
     for (const auto& fault : made.faults)
       result_.faults.push_back(face_text(f) + " " + fault);
+    if (made.faults.empty())
+      surface.set_box(box_of_loops(made, surface));
     auto& item = result_.topology.faces[index];
     auto& curves = result_.coedges.emplace_back();
     for (const auto& loop : made.loops) {
       auto& ids = item.loops.emplace_back();
+      std::vector<coedge_curve> loop_curves;
       for (const auto& passage : loop) {
-        const geometry_topology::coedge coedge{curve_id(passage.edge, passage.curve),
-                                               passage.curve.reversed()};
-        ids.push_back(coedge);
-        item.coedges.push_back(coedge);
-        curves.push_back(passage.curve);
+        ids.push_back({curve_id(passage.edge, passage.curve), passage.curve.reversed()});
+        loop_curves.push_back(passage.curve);
       }
+      if (made.faults.empty())
+        close_gaps(loop_curves, surface);
+      item.coedges.insert(item.coedges.end(), ids.begin(), ids.end());
+      curves.insert(curves.end(), loop_curves.begin(), loop_curves.end());
     }
   }
 

@@ -10,6 +10,7 @@
 #include <Poly_Triangulation.hxx>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -26,8 +27,10 @@ public:
     curve_points_.resize(topology.curves.size());
   }
 
-  /// `faces` and `edges` are the model's, meshed.
-  surface_mesh join(const std::vector<TopoDS_Face>& faces, const std::vector<TopoDS_Edge>& edges) {
+  /// `faces`, `edges` and `collapsed` are the model's, meshed.
+  surface_mesh join(const std::vector<TopoDS_Face>& faces, const std::vector<TopoDS_Edge>& edges,
+                    const std::vector<std::pair<TopoDS_Edge, local_id>>& collapsed) {
+    collapsed_ = &collapsed;
     for (std::size_t f = 0; f < faces.size(); ++f)
       add_face(static_cast<local_id>(f), faces[f], edges);
     return std::move(result_);
@@ -58,6 +61,7 @@ private:
         throw geometry_error(text + ": edge " + std::to_string(c) + " was not triangulated");
       name_curve_nodes(coedge.curve, *polygon, ids);
     }
+    name_collapsed_nodes(mesh, location, ids);
     for (std::size_t i = 0; i < ids.size(); ++i)
       if (ids[i] == no_id)
         ids[i] = add_point(
@@ -90,6 +94,18 @@ private:
           curve.degenerate ? curve.vertices[0] : points[static_cast<std::size_t>(i)];
   }
 
+  void name_collapsed_nodes(const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location,
+                            std::vector<local_id>& ids) const {
+    for (const auto& [edge, vertex] : *collapsed_) {
+      for (const TopAbs_Orientation side : {TopAbs_FORWARD, TopAbs_REVERSED}) {
+        const Handle(Poly_PolygonOnTriangulation) polygon =
+            BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Oriented(side)), mesh, location);
+        for (int i = 1; !polygon.IsNull() && i <= polygon->NbNodes(); ++i)
+          ids[static_cast<std::size_t>(polygon->Node(i) - 1)] = vertex;
+      }
+    }
+  }
+
   void add_triangles(local_id f, const Poly_Triangulation& mesh, const std::vector<local_id>& ids) {
     const bool reversed = model_.topology().faces[static_cast<std::size_t>(f)].reversed;
     for (int i = 1; i <= mesh.NbTriangles(); ++i) {
@@ -114,6 +130,7 @@ private:
   const occt_model& model_;
   surface_mesh result_;
   std::vector<std::vector<local_id>> curve_points_;
+  const std::vector<std::pair<TopoDS_Edge, local_id>>* collapsed_ = nullptr; ///< set while joining
 };
 
 } // namespace occt
@@ -140,7 +157,10 @@ inline surface_mesh occt_triangulation(const occt_model& model, triangulation_pa
     std::vector<TopoDS_Edge> edges;
     for (const auto& edge : model.data().edges)
       edges.push_back(TopoDS::Edge(copy.ModifiedShape(edge)));
-    return occt::triangulation_joiner(model).join(faces, edges);
+    std::vector<std::pair<TopoDS_Edge, local_id>> collapsed;
+    for (const auto& [edge, vertex] : model.data().collapsed)
+      collapsed.emplace_back(TopoDS::Edge(copy.ModifiedShape(edge)), vertex);
+    return occt::triangulation_joiner(model).join(faces, edges, collapsed);
   });
 }
 
