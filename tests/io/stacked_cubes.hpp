@@ -3,12 +3,11 @@
 /// equal boxes. Every cell of the grid is six tetrahedra around its diagonal, so the mesh conforms.
 #pragma once
 
-#include "dovetail/mesh/distributed_mesh.hpp"
+#include "io/distribute.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,6 +55,8 @@ struct stacked_cubes {
   simplicial_mesh<3> whole() const;
   /// The whole mesh cut into cuts^3 subdomains; the pieces are held by the result's `load`.
   distributed_mesh distributed() const;
+  /// The whole mesh with the given subdomain of each element; no subdomain may have two materials.
+  distributed_mesh distributed(const std::vector<local_id>& parts) const;
 
   grid_place place_of(local_id v) const {
     const int side = cells + 1;
@@ -115,100 +116,14 @@ inline simplicial_mesh<3> stacked_cubes::whole() const {
 
 inline distributed_mesh stacked_cubes::distributed() const {
   const auto mesh = whole();
-  struct owned_side {
-    simplex<2> key;  ///< ascending
-    simplex<2> side; ///< outwards of its element
-    local_id subdomain;
-  };
-  std::vector<owned_side> sides;
+  std::vector<local_id> parts;
   for (const auto& element : mesh.elements)
-    for (const auto& local : numbering::sides<3>) {
-      simplex<2> side;
-      for (std::size_t k = 0; k < 3; ++k)
-        side[k] = element[static_cast<std::size_t>(local[k])];
-      auto key = side;
-      std::sort(key.begin(), key.end());
-      sides.push_back({key, side, subdomain_of(element)});
-    }
-  std::sort(sides.begin(), sides.end(), [](const owned_side& a, const owned_side& b) {
-    return std::tie(a.key, a.subdomain) < std::tie(b.key, b.subdomain);
-  });
+    parts.push_back(subdomain_of(element));
+  return distributed(parts);
+}
 
-  distributed_mesh result;
-  auto& skeleton = result.skeleton;
-  std::vector<local_id> skeleton_point(mesh.points.size(), no_id);
-  std::vector<simplex<1>> edges;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool paired = i + 1 < sides.size() && sides[i + 1].key == sides[i].key;
-    const auto& first = sides[i];
-    const auto other = paired ? sides[++i].subdomain : no_id;
-    if (first.subdomain == other)
-      continue;
-    simplex<2> triangle;
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto& s = skeleton_point[static_cast<std::size_t>(first.side[k])];
-      if (s == no_id) {
-        s = static_cast<local_id>(skeleton.points.size());
-        skeleton.points.push_back(mesh.points[static_cast<std::size_t>(first.side[k])]);
-        skeleton.point_hosts.push_back(host_of(place_of(first.side[k])));
-      }
-      triangle[k] = s;
-      edges.push_back({first.key[k == 2 ? 1 : 0], first.key[k == 0 ? 1 : 2]});
-    }
-    skeleton.triangles.push_back(triangle);
-    skeleton.subdomains.push_back({first.subdomain, other});
-    const auto on = host_of(centroid(first.side));
-    skeleton.cad_faces.push_back(on.dimension == 2 ? on.id : no_id);
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const auto& edge : edges)
-    if (const auto on = host_of(centroid(edge)); on.dimension == 1) {
-      skeleton.curve_edges.push_back({skeleton_point[static_cast<std::size_t>(edge[0])],
-                                      skeleton_point[static_cast<std::size_t>(edge[1])]});
-      skeleton.curves.push_back(on.id);
-    }
-
-  const auto subdomains = static_cast<local_id>(cuts * cuts * cuts);
-  auto pieces = std::make_shared<std::vector<mesh_piece>>(static_cast<std::size_t>(subdomains));
-  std::vector<std::vector<simplex<3>>> elements(pieces->size());
-  std::vector<local_id> materials(pieces->size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto s = static_cast<std::size_t>(subdomain_of(mesh.elements[e]));
-    elements[s].push_back(mesh.elements[e]);
-    materials[s] = mesh.tags[e];
-  }
-  for (std::size_t p = 0; p < pieces->size(); ++p) {
-    auto& piece = (*pieces)[p];
-    piece.subdomain = static_cast<local_id>(p);
-    piece.material = materials[p];
-    std::vector<local_id> vertices;
-    for (const auto& element : elements[p])
-      vertices.insert(vertices.end(), element.begin(), element.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::stable_partition(vertices.begin(), vertices.end(),
-                          [&](local_id v) { return skeleton_point[static_cast<std::size_t>(v)] != no_id; });
-    std::vector<local_id> place(mesh.points.size(), no_id);
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const auto v = static_cast<std::size_t>(vertices[i]);
-      place[v] = static_cast<local_id>(i);
-      piece.mesh.points.push_back(mesh.points[v]);
-      if (skeleton_point[v] != no_id)
-        piece.skeleton_points.push_back(skeleton_point[v]);
-    }
-    for (auto element : elements[p]) {
-      for (auto& v : element)
-        v = place[static_cast<std::size_t>(v)];
-      piece.mesh.elements.push_back(element);
-      piece.mesh.tags.push_back(piece.material);
-    }
-    result.counts.push_back({piece.material,
-                             static_cast<global_id>(vertices.size() - piece.skeleton_points.size()),
-                             static_cast<global_id>(piece.mesh.elements.size())});
-  }
-  result.load = [pieces](local_id p) { return (*pieces)[static_cast<std::size_t>(p)]; };
-
+inline distributed_mesh stacked_cubes::distributed(const std::vector<local_id>& parts) const {
+  auto result = distribute(whole(), parts, [this](const auto& entity) { return host_of(centroid(entity)); });
   for (int m = 0; m < solids; ++m)
     result.material_names.push_back("solid \"" + std::to_string(m) + "\" <&>");
   const int faces = solids + 1 + 4 * solids;

@@ -1,4 +1,5 @@
 // Gmsh itself rereads what the MSH writer writes, and the MSH reader reads what Gmsh writes.
+#include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <gmsh.h>
 #include <map>
+#include <random>
 #include <set>
 
 using namespace dovetail;
@@ -97,6 +99,18 @@ std::set<std::size_t> element_nodes(int dimension, int tag) {
   for (const auto& of_type : nodes)
     all.insert(of_type.begin(), of_type.end());
   return all;
+}
+
+/// A node is filed under the lowest-dimensional entity it lies on: an entity's elements use all of its own
+/// nodes, and besides those of its boundary. (A face may also touch other entities in a vertex.)
+bool nodes_are_filed_right(int dimension, int tag) {
+  const auto own = own_nodes(dimension, tag);
+  const auto used = element_nodes(dimension, tag);
+  auto closure = closure_nodes(dimension, tag);
+  for (const auto& vertex : entities(0))
+    closure.merge(own_nodes(0, vertex.second));
+  return std::includes(closure.begin(), closure.end(), used.begin(), used.end()) &&
+         std::includes(used.begin(), used.end(), own.begin(), own.end());
 }
 
 const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.2};
@@ -193,11 +207,7 @@ TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal coun
           gmsh::model::getParent(d, tag, parent_dimension, parent);
           CHECK(parent_dimension >= dimension);
           CHECK(parent > 0);
-          // A node is filed under the lowest-dimensional entity it lies on, which is in the closure.
-          const auto used = element_nodes(d, tag);
-          const auto closure = closure_nodes(d, tag);
-          CHECK(std::includes(closure.begin(), closure.end(), used.begin(), used.end()));
-          CHECK(std::includes(used.begin(), used.end(), own.begin(), own.end()));
+          CHECK(nodes_are_filed_right(d, tag));
         }
       // 3 levels in each direction: a grid of 3^3 points.
       const bool right_counts = partitioned == std::array<std::size_t, 4>{27, 54, 36, 8};
@@ -374,4 +384,36 @@ TEST_CASE("a single subdomain, and subdomains without inner points") {
           nodes.merge(own_nodes(d, tag));
       CHECK(nodes.size() == io::number_globally(mesh).points());
     }
+}
+
+TEST_CASE("partitions of any shape: elements dealt out at random, interfaces that touch themselves") {
+  const testing::scratch_folder folder("msh_random");
+  std::mt19937 random(5);
+  for (const local_id subdomains : {2, 3, 6}) {
+    const testing::stacked_cubes cut{.cells = 4, .cuts = 1, .solids = 2};
+    const auto whole = cut.whole();
+    std::vector<local_id> parts;
+    for (const auto tag : whole.tags) // an even number for one material, an odd one for the other
+      parts.push_back(2 * static_cast<local_id>(random() % static_cast<unsigned>(subdomains)) + tag);
+    const auto mesh = cut.distributed(parts);
+    REQUIRE(io::check_distributed(mesh).valid());
+    io::msh_writer{.partitioned = true, .ghosts = true}(mesh, folder);
+    CHECK(io::mesh_hash(io::read_mesh(folder / "mesh.msh")) == io::mesh_hash(mesh));
+    const gmsh_session session(folder / "mesh.msh");
+    CHECK(session.complaints() == std::string());
+    std::map<int, std::size_t> elements;
+    std::size_t misfiled = 0;
+    for (int dimension = 0; dimension <= 3; ++dimension)
+      for (const auto& [d, tag] : entities(dimension)) {
+        const auto partitions = partitions_of(d, tag);
+        if (partitions.empty() || is_ghost(d, tag))
+          continue;
+        misfiled += nodes_are_filed_right(d, tag) ? 0 : 1;
+        if (dimension == 3)
+          elements[partitions.front()] += element_count(d, tag);
+      }
+    CHECK(misfiled == 0);
+    for (std::size_t s = 0; s < mesh.counts.size(); ++s)
+      CHECK(elements[static_cast<int>(s) + 1] == static_cast<std::size_t>(mesh.counts[s].elements));
+  }
 }

@@ -6,8 +6,10 @@
 #include "dovetail/io/skeleton_entities.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct point_neighbourhood {
   local_id face = no_id; ///< a face at the point
   local_id line = no_id; ///< a line at the point
   int line_edges = 0;
+  int faces = 0;          ///< distinct faces at the point
+  int faces_at_lines = 0; ///< those of them that have a line edge at the point
   bool several_lines = false;
 
   void meet_line(local_id at) {
@@ -27,9 +31,18 @@ struct point_neighbourhood {
     line = at;
     ++line_edges;
   }
-  /// A line passes through; no other line is there.
-  bool inside_line() const { return line_edges == 2 && !several_lines; }
+  /// In the interior of its only face.
+  bool inside_face() const { return line == no_id && faces == 1; }
+  /// One line passes through, and no face touches it in this point alone.
+  bool inside_line() const { return line_edges == 2 && !several_lines && faces == faces_at_lines; }
 };
+
+using point_faces = std::vector<std::array<local_id, 2>>; ///< (point, face) pairs
+
+inline void keep_distinct(point_faces& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
 
 /// The faces: triangles with the same CAD face (or none) and the same subdomains at their sides.
 inline void classify_triangles(skeleton_entities& entities, const distributed_mesh& mesh) {
@@ -69,8 +82,10 @@ private:
   std::vector<entry> edges_;
 };
 
-/// The lines: edges on a CAD curve, and edges where different faces meet.
-inline void classify_edges(skeleton_entities& entities, const distributed_mesh& mesh) {
+/// The lines: edges on a CAD curve, and edges where different faces meet. Returns the faces that have a line
+/// edge at a point.
+inline point_faces classify_edges(skeleton_entities& entities, const distributed_mesh& mesh) {
+  point_faces at_lines;
   const auto& skeleton = mesh.skeleton;
   const curve_lookup curves(skeleton);
   entity_numbering lines(entities.of_dimension[1]);
@@ -94,32 +109,52 @@ inline void classify_edges(skeleton_entities& entities, const distributed_mesh& 
           const auto& face = entities.of_dimension[2][static_cast<std::size_t>(face_of(h))];
           sharers.insert(face.sharers.begin(), face.sharers.end());
           on = on.id == no_id ? face.on : std::min(on, face.on);
+          for (const auto v : key)
+            at_lines.push_back({v, face_of(h)});
         }
         if (on_curve != nullptr)
           on = {1, on_curve->curve};
         entities.edges.push_back(
             {on_curve != nullptr ? on_curve->directed : key, lines(on, {sharers.begin(), sharers.end()})});
       });
+  keep_distinct(at_lines);
+  return at_lines;
 }
 
-/// Vertices where lines end, branch or turn into another line, and at CAD vertices; other points are on their
-/// line or face.
-inline void classify_points(skeleton_entities& entities, const distributed_mesh& mesh,
-                            const point_sharers& sharers) {
-  const auto& skeleton = mesh.skeleton;
+inline std::vector<point_neighbourhood> look_around_points(const skeleton_entities& entities,
+                                                           const fine_skeleton& skeleton,
+                                                           const point_faces& at_lines) {
   std::vector<point_neighbourhood> around(skeleton.points.size());
+  const auto at = [&](local_id v) -> point_neighbourhood& { return around[static_cast<std::size_t>(v)]; };
+  point_faces all;
   for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
     for (const auto v : skeleton.triangles[t])
-      around[static_cast<std::size_t>(v)].face = entities.of_triangle[t];
+      all.push_back({v, entities.of_triangle[t]});
+  keep_distinct(all);
+  for (const auto& [v, face] : all) {
+    at(v).face = face;
+    ++at(v).faces;
+  }
+  for (const auto& [v, face] : at_lines)
+    ++at(v).faces_at_lines;
   for (const auto& edge : entities.edges)
     for (const auto v : edge.vertices)
-      around[static_cast<std::size_t>(v)].meet_line(edge.line);
+      at(v).meet_line(edge.line);
+  return around;
+}
+
+/// Vertices where lines end, branch or turn into another line, where faces touch in a point, and at CAD
+/// vertices; other points are on their line or face.
+inline void classify_points(skeleton_entities& entities, const distributed_mesh& mesh,
+                            const point_sharers& sharers, const point_faces& at_lines) {
+  const auto& skeleton = mesh.skeleton;
+  const auto around = look_around_points(entities, skeleton, at_lines);
   for (std::size_t v = 0; v < around.size(); ++v) {
     const auto& at = around[v];
     const auto on = skeleton.point_hosts[v];
     if (at.face == no_id)
       entities.of_point.push_back({3, no_id});
-    else if (on.dimension != 0 && at.line == no_id)
+    else if (on.dimension != 0 && at.inside_face())
       entities.of_point.push_back({2, at.face});
     else if (on.dimension != 0 && at.inside_line())
       entities.of_point.push_back({1, at.line});
@@ -188,8 +223,8 @@ inline skeleton_entities partition_entities(const distributed_mesh& mesh, const 
   skeleton_entities result;
   result.triangles = detail::turn_to_lower(mesh);
   detail::classify_triangles(result, mesh);
-  detail::classify_edges(result, mesh);
-  detail::classify_points(result, mesh, sharers);
+  const auto at_lines = detail::classify_edges(result, mesh);
+  detail::classify_points(result, mesh, sharers, at_lines);
   detail::direct_lines(result);
   for (local_id s = 0; s < static_cast<local_id>(mesh.counts.size()); ++s)
     result.of_dimension[3].push_back({{3, detail::material_of(mesh, s)}, {s}, {}});
