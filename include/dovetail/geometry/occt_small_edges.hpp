@@ -100,12 +100,16 @@ private:
     for (const auto& loop : face.loops) {
       std::vector<geometry_topology::coedge> kept;
       std::vector<coedge_curve> kept_curves;
+      const bool is_point = std::all_of(loop.begin(), loop.end(), [&](const auto& coedge) {
+        return short_[static_cast<std::size_t>(coedge.curve)] ||
+               data_.topology.curves[static_cast<std::size_t>(coedge.curve)].degenerate;
+      });
       for (const auto& coedge : loop) {
         const coedge_curve& curve = data_.coedges[f][k++];
         const vec2 extent = curve.end(surface) - curve.start(surface);
         const bool spans = std::abs(extent.x) > no_extent * (box[0][1] - box[0][0]) ||
                            std::abs(extent.y) > no_extent * (box[1][1] - box[1][0]);
-        const bool drop = short_[static_cast<std::size_t>(coedge.curve)] && !spans;
+        const bool drop = is_point || (short_[static_cast<std::size_t>(coedge.curve)] && !spans);
         changed = changed || drop;
         if (drop)
           continue;
