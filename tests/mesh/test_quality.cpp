@@ -50,6 +50,8 @@ TEST_CASE("angles of a triangle sum to 180 degrees") {
   for (const auto& element : mesh.elements) {
     const auto angles = wedge_angles(corners(std::span(mesh.points), element));
     CHECK(std::accumulate(angles.begin(), angles.end(), 0.0) == doctest::Approx(180));
+    CHECK(smallest_corner_angle(corners(std::span(mesh.points), element)) ==
+          doctest::Approx(*std::min_element(angles.begin(), angles.end())));
   }
 }
 

@@ -39,6 +39,20 @@ inline std::array<double, 3> wedge_angles(const std::array<vec3, 3>& p) {
   return {angle(ca, ab), angle(ab, bc), angle(bc, ca)};
 }
 
+/// The smallest corner angle of a triangle, in degrees: the one opposite the shortest edge.
+inline double smallest_corner_angle(const std::array<vec3, 3>& p) {
+  std::array<vec3, 3> edges; // edge k is opposite corner k, from corner k + 1 to corner k + 2
+  std::size_t shortest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    edges[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
+    if (norm_squared(edges[k]) < norm_squared(edges[shortest]))
+      shortest = k;
+  }
+  const vec3 in = edges[(shortest + 1) % 3];
+  const vec3 out = edges[(shortest + 2) % 3];
+  return degrees_per_radian * std::atan2(norm(cross(in, out)), -dot(in, out));
+}
+
 /// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`.
 ///
 /// The sine comes from the volume (|n1 x n2| = 6 V |edge|), which stays accurate for slivers. An inverted

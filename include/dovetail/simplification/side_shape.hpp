@@ -15,10 +15,8 @@ namespace dovetail {
 /// D = 3: the smallest corner angle of each side, in degrees.
 inline std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const side_table<3>& sides) {
   std::vector<double> shapes(sides.size());
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const auto angles = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
-    shapes[s] = *std::min_element(angles.begin(), angles.end());
-  }
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    shapes[s] = smallest_corner_angle(corners(std::span(mesh.points), sides.vertices[s]));
   return shapes;
 }
 
