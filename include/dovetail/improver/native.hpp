@@ -7,7 +7,9 @@
 #include "dovetail/improver/schedule.hpp"
 #include "dovetail/improver/surface_limits.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace dovetail {
 
@@ -21,7 +23,9 @@ enum class objective { minimum_dihedral, radius_ratio, mean_ratio };
 /// `native::fine()` (the same as `native{}`), `native::finest()`, `native::hard()` for small coarse meshes.
 struct native {
   /// Elements with a dihedral angle under this, in degrees, are worked on.
-  double target_angle = 25;
+  double target_angle = 29;
+  /// Elements that are still under this get a last try with larger cavities.
+  double stubborn_angle = 25;
   /// Sweeps over the poor elements at most.
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
@@ -48,15 +52,17 @@ struct native {
   static native fine() { return {}; }
   static native finest() {
     native preset;
-    preset.target_angle = 28;
+    preset.target_angle = 35;
     preset.passes = 40;
+    preset.hard_passes = 12;
     preset.least_gain = 0.002;
     preset.search_iterations = 12;
     return preset;
   }
   static native hard() {
     native preset = finest();
-    preset.target_angle = 40;
+    preset.target_angle = 38;
+    preset.stubborn_angle = 30;
     return preset;
   }
 
@@ -123,6 +129,12 @@ private:
     schedule_limits limits = limits_for(size);
     limits.target = static_cast<float>(Measure::from_angle(target_angle));
     schedule<Measure> plan(complex, limits);
+    plan.run();
+    // The few elements that are still really poor: wider cavities, more patience.
+    limits.target = std::min(limits.target, static_cast<float>(Measure::from_angle(stubborn_angle)));
+    limits.search.iterations *= 2;
+    limits.insertion = {.growth = 30, .patience = 12};
+    plan.set_limits(limits);
     plan.run();
     plan.log().write_to(result);
     result.set("passes", plan.passes());

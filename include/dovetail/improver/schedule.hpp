@@ -18,6 +18,7 @@ struct schedule_limits {
   int passes = 8;           ///< sweeps over the poor elements
   double least_gain = 0.02; ///< two sweeps in a row that mend a smaller part of what is lacking are the last
   int hard_passes = 8;      ///< sweeps in which vertices are inserted and removed as well
+  insertion_limits insertion = {};
   apex_search_limits search = {};
   size_band band = {};
 };
@@ -27,6 +28,8 @@ class schedule {
 public:
   schedule(tet_complex& mesh, const schedule_limits& limits) : mesh_(mesh), limits_(limits) {}
 
+  /// Changes the limits of later runs.
+  void set_limits(const schedule_limits& limits) { limits_ = limits; }
   void run() {
     sweep_until_settled(limits_.passes, [this](local_id e) { return mend(e); });
     sweep_until_settled(limits_.hard_passes, [this](local_id e) { return mend_hard(e); });
@@ -103,7 +106,7 @@ private:
     return false;
   }
   bool insert(local_id e) {
-    insertion_limits limits;
+    insertion_limits limits = limits_.insertion;
     limits.search = limits_.search;
     limits.band = limits_.band;
     limits.search.enough = limits_.target;

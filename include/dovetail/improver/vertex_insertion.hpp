@@ -12,7 +12,8 @@
 namespace dovetail::improvement {
 
 struct insertion_limits {
-  int growth = 12; ///< elements added to the first cavity at most
+  int growth = 12;  ///< elements added to the first cavity at most
+  int patience = 5; ///< growths without progress before giving up
   apex_search_limits search = {};
   size_band band = {};
 };
@@ -33,7 +34,7 @@ public:
     best_.clear();
     auto rough = limits.search;
     rough.iterations = rough_iterations;
-    for (int step = 0; step <= limits.growth && idle < patience; ++step) {
+    for (int step = 0; step <= limits.growth && idle < limits.patience; ++step) {
       if (!find_outline(mesh, cavity_, no_id))
         break;
       const float bar = worst_value(mesh, cavity_.elements.view());
@@ -60,7 +61,6 @@ public:
 private:
   static constexpr float least_gain = 1e-4F;
   static constexpr int rough_iterations = 2; ///< linearisations while the cavity grows
-  static constexpr int patience = 5;         ///< growths without progress before giving up
 
   /// Moves `place` to where the worst new element is best; returns its value.
   float settle(const tet_complex& mesh, const star_cavity& cavity, vec3& place,
