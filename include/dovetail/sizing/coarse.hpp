@@ -10,7 +10,7 @@
 
 namespace dovetail {
 
-/// min(scale * h, half the radius of the sources in reach, box diagonal / 10), but never below h itself.
+/// min(scale * h, the radius of the sources in reach, box diagonal / 10), but never below h itself.
 /// Blind scaling would make coarse elements that step over a source and so never see it. (The bound by
 /// surface curvature is the coarse surface mesher's.) Throws `sizing_error` for a scale below 1 and for an
 /// empty box.
@@ -27,7 +27,7 @@ public:
 
   double operator()(vec3 p) const {
     const double fine = fine_(p);
-    return std::max(fine, std::min({scale_ * fine, dovetail::feature_size(fine_, p), largest_}));
+    return std::max(fine, std::min({scale_ * fine, 2 * dovetail::feature_size(fine_, p), largest_}));
   }
   double smallest_size_in(const box3& box) const { return dovetail::smallest_size_in(fine_, box); }
 
