@@ -6,6 +6,7 @@
 
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
 
@@ -37,23 +38,36 @@ class any_mesher {
 public:
   /// What every mesher the driver offers promises; `actual_traits` are the held one's.
   static constexpr mesher_traits traits{.keeps_boundary = true, .may_crash = true};
+  /// Meshers are calibrated to the same mean edge length, so one figure serves all of them for predictions.
+  static constexpr double elements_per_inverse_cubed_size = 11.6;
 
   template <boundary_keeping_mesher<3> M>
-  any_mesher(std::string name, M policy)
-      : name_(std::move(name)), actual_traits_(M::traits), call_(std::move(policy)) {}
+  any_mesher(std::string name, M policy) : name_(std::move(name)), actual_traits_(M::traits), call_(policy) {
+    const std::vector<M> ladder = ladder_of(policy);
+    for (std::size_t rung = 1; rung < ladder.size(); ++rung)
+      fallbacks_.push_back(any_mesher(name_, ladder[rung], no_fallbacks{}));
+  }
 
   const std::string& name() const { return name_; }
   const mesher_traits& actual_traits() const { return actual_traits_; }
+  std::vector<any_mesher> fallbacks() const { return fallbacks_; }
   mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
     return call_(input, size);
   }
 
 private:
+  struct no_fallbacks {};
+
+  template <boundary_keeping_mesher<3> M>
+  any_mesher(std::string name, M policy, no_fallbacks)
+      : name_(std::move(name)), actual_traits_(M::traits), call_(std::move(policy)) {}
+
   std::string name_;
   mesher_traits actual_traits_;
   std::function<mesher_result<3>(const mesher_input<3>&, const any_sizing&)> call_;
+  std::vector<any_mesher> fallbacks_;
 };
-static_assert(boundary_keeping_mesher<any_mesher, 3>);
+static_assert(boundary_keeping_mesher<any_mesher, 3> && has_fallbacks<any_mesher>);
 
 /// Holds any improver of tetrahedra.
 class any_improver {

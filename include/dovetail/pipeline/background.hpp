@@ -150,25 +150,34 @@ struct background_result {
   report summary;
 };
 
+/// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
+/// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
+/// cannot be used, and what the surface mesher throws.
+template <geometry_model G, sizing_field H, class Parameters>
+mesh_plan plan_background(const G& model, const H& size, const Parameters& given) {
+  detail::require_usable_size(model, size);
+  const generate_options& options = given.options;
+  constexpr double as_coarse_as_possible = 1e6;
+  options.on_progress("planning", 0, 0);
+  const auto first = surface_without_crossings(
+      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
+  const mesh_plan plan =
+      plan_mesh(first.surface.mesh, size, options,
+                elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
+  if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
+    throw too_many_elements(plan.predicted_elements, options.largest_prediction);
+  return plan;
+}
+
 /// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
 /// concerned.
 template <geometry_model G, sizing_field H, class Parameters>
 background_result make_background(const G& model, const H& size, const Parameters& given) {
   const stopwatch clock;
-  detail::require_usable_size(model, size);
   const generate_options& options = given.options;
   background_result result;
   result.summary.name = "background";
-
-  // A first surface, as coarse as sources and curvature allow, is enough to see how much there is to fill.
-  constexpr double as_coarse_as_possible = 1e6;
-  options.on_progress("planning", 0, 0);
-  const auto first = surface_without_crossings(
-      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
-  result.plan = plan_mesh(first.surface.mesh, size, options,
-                          elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
-  if (options.largest_prediction > 0 && result.plan.predicted_elements > options.largest_prediction)
-    throw too_many_elements(result.plan.predicted_elements, options.largest_prediction);
+  result.plan = plan_background(model, size, given);
 
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());

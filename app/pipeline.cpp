@@ -1,0 +1,23 @@
+#include "pipeline.hpp"
+
+namespace dovetail::app {
+namespace {
+
+auto composed(const chosen_policies& policies, const generate_options& options) {
+  return parameters<any_mesher, any_partitioner, any_improver, any_executor>{
+      policies.mesher, policies.partitioner, policies.improver, policies.executor, options};
+}
+
+} // namespace
+
+generate_result generate_mesh(const any_geometry& geometry, const any_sizing& size,
+                              const chosen_policies& policies, const generate_options& options) {
+  return generate<3>(geometry, size, composed(policies, options));
+}
+
+mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
+                          const chosen_policies& policies, const generate_options& options) {
+  return plan_background(geometry, size, composed(policies, options));
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,28 @@
+/// @file
+/// The library's pipeline with policies chosen at run time: instantiated here, once.
+#pragma once
+
+#include "any_geometry.hpp"
+#include "any_policies.hpp"
+
+#include "dovetail/pipeline/generate.hpp"
+
+namespace dovetail::app {
+
+/// The four policies of a run.
+struct chosen_policies {
+  any_mesher mesher;
+  any_partitioner partitioner;
+  any_improver improver;
+  any_executor executor;
+};
+
+/// `generate<3>` with these policies.
+generate_result generate_mesh(const any_geometry& geometry, const any_sizing& size,
+                              const chosen_policies& policies, const generate_options& options);
+
+/// What `generate_mesh` would plan, without making anything but a first surface.
+mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
+                          const chosen_policies& policies, const generate_options& options);
+
+} // namespace dovetail::app
