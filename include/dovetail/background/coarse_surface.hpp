@@ -40,8 +40,11 @@ public:
   coarse_surface_maker(const G& model, const any_sizing& sizing, const coarse_surface_parameters& parameters,
                        const E& run_tasks)
       : model_(model), parameters_(parameters), run_tasks_(run_tasks), topology_(model.topology()),
-        balls_(all_balls(model, sizing, parameters), parameters.growth),
-        size_([this, &sizing](vec3 p) { return balls_(p, sizing(p)); }) {}
+        given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
+          return std::min(sizing(p), largest);
+        }),
+        balls_(all_balls(model, given_, parameters), parameters.growth),
+        size_([this](vec3 p) { return balls_(p, given_(p)); }) {}
 
   coarse_surface_result run() {
     const stopwatch clock;
@@ -87,13 +90,22 @@ private:
       meshes_[at(batch[i].face)] = std::move(results[i]);
   }
 
+  /// True when refinement multiplies the folds of a face: then its surface is folded, not its mesh.
+  bool gets_worse(local_id f) {
+    std::size_t& before = folds_before_[f];
+    const std::size_t now = meshes_[at(f)].mesh.folded.size();
+    const bool worse = before > 0 && now > 3 * before + 20;
+    before = now;
+    return worse;
+  }
+
   /// Refines where faces failed and returns the faces to do again. Throws on the last round.
   std::set<local_id> repair(const std::set<local_id>& meshed, bool last_round) {
     std::vector<std::array<local_id, 2>> intervals;
     std::set<local_id> again;
     for (const local_id f : meshed)
       if (!meshes_[at(f)].failure.empty() || !meshes_[at(f)].mesh.ok()) {
-        if (last_round)
+        if (last_round || gets_worse(f))
           fail(f);
         refine_face(f, intervals);
         again.insert(f);
@@ -307,18 +319,20 @@ private:
   const coarse_surface_parameters& parameters_;
   const E& run_tasks_;
   const geometry_topology& topology_;
+  any_sizing given_; ///< the caller's field, never above a quarter of the model's diagonal
   graded_balls balls_;
   any_sizing size_;
   curve_points curves_;
   std::vector<face_request> requests_;
   std::vector<face_result> meshes_;
+  std::map<local_id, std::size_t> folds_before_;
 };
 
 } // namespace detail
 
-/// Meshes the surface of `model` with edges of about min(`sizing`, curvature bound). Triangles are oriented
-/// as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run through the
-/// executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed.
+/// Meshes the surface of `model` with edges of about min(`sizing`, curvature bound, diagonal / 4). Triangles
+/// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
+/// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed.
 template <geometry_model G, executor E>
 coarse_surface_result coarse_surface(const G& model, const any_sizing& sizing,
                                      const coarse_surface_parameters& parameters, const E& run_tasks) {

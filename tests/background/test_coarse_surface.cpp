@@ -1,0 +1,123 @@
+#include "analytic_models.hpp"
+#include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "surface_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace dovetail;
+using namespace dovetail::test;
+
+namespace {
+
+const auto uniform = [](double h) { return [h](vec3) { return h; }; };
+
+template <class G>
+background::coarse_surface_result mesh(const G& model, double size,
+                                       const background::coarse_surface_parameters& parameters = {}) {
+  return background::coarse_surface(model, uniform(size), parameters, parallel::serial{});
+}
+
+/// Closed, every edge in two triangles, parameters and hosts right.
+template <class G>
+void check_surface(const G& model, const surface_mesh& surface) {
+  CHECK(open_edges(surface, model.topology()) == 0);
+  CHECK(crowded_edges(surface) == 0);
+  CHECK(parameter_error(surface, model) < 1e-12);
+  REQUIRE(surface.vertex_hosts.size() == surface.mesh.points.size());
+  for (const auto& edge : surface.curve_edges) {
+    CHECK(edge.t[0] < edge.t[1]);
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK(distance(model.curve_point(edge.curve, edge.t[i]),
+                     surface.mesh.points[static_cast<std::size_t>(edge.vertices[i])]) < 1e-12);
+  }
+}
+
+} // namespace
+
+TEST_CASE("a capped cylinder is closed, outward and near its volume, coarse and fine") {
+  const capped_cylinder model(3);
+  for (const double size : {5.0, 0.5, 0.1}) {
+    const auto result = mesh(model, size);
+    check_surface(model, result.surface);
+    const double volume = volume_of(result.surface);
+    CHECK(volume < 3 * pi);
+    CHECK(volume > 3 * pi * (size > 0.4 ? 0.85 : 0.99));
+    CHECK(result.summary.get("min_angle_deg") >= 30);
+  }
+}
+
+TEST_CASE("curvature bounds the edges of a ball whatever the size") {
+  const ball model;
+  const auto result = mesh(model, 100);
+  check_surface(model, result.surface);
+  CHECK(volume_of(result.surface) > 0.75 * 4 * pi / 3);
+  for (const auto& t : result.surface.mesh.elements)
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(distance(result.surface.mesh.points[static_cast<std::size_t>(t[i])],
+                     result.surface.mesh.points[static_cast<std::size_t>(t[(i + 1) % 3])]) < 1.6);
+}
+
+TEST_CASE("a thin disc stays a surface: two faces never share an edge that is on no curve") {
+  for (const double gap : {0.5, 0.05, 0.001}) {
+    const thin_disc model(gap);
+    const auto result = mesh(model, 10);
+    check_surface(model, result.surface);
+    CHECK(volume_of(result.surface) > 0.85 * pi * gap);
+  }
+}
+
+TEST_CASE("every vertex has the host of lowest dimension, every triangle its face") {
+  const capped_cylinder model(2);
+  const auto surface = mesh(model, 0.4).surface;
+  std::set<local_id> faces(surface.mesh.tags.begin(), surface.mesh.tags.end());
+  CHECK(faces == std::set<local_id>{0, 1, 2});
+  for (std::size_t v = 0; v < surface.mesh.points.size(); ++v) {
+    const vec3 p = surface.mesh.points[v];
+    const bool on_rim = (p.z == 0 || p.z == 2) && std::abs(p.x * p.x + p.y * p.y - 1) < 1e-12;
+    const bool on_seam = p.x == 1 && p.y == 0;
+    CHECK(surface.vertex_hosts[v].dimension == (on_rim && on_seam ? 0 : on_rim || on_seam ? 1 : 2));
+  }
+}
+
+TEST_CASE("refinement balls make edges small where they are") {
+  const capped_cylinder model(4);
+  background::coarse_surface_parameters parameters;
+  parameters.refinement = {{{0, 0, 4}, 0.2, 0.05}};
+  const auto refined = mesh(model, 0.7, parameters);
+  check_surface(model, refined.surface);
+  double shortest = 1e300;
+  for (const auto& t : refined.surface.mesh.elements)
+    shortest = std::min(shortest, distance(refined.surface.mesh.points[static_cast<std::size_t>(t[0])],
+                                           refined.surface.mesh.points[static_cast<std::size_t>(t[1])]));
+  CHECK(shortest < 0.08);
+}
+
+TEST_CASE("executors give the same mesh") {
+  const capped_cylinder model(3);
+  const auto one = background::coarse_surface(model, uniform(0.3), {}, parallel::serial{});
+  const auto many = background::coarse_surface(model, uniform(0.3), {}, parallel::threads{2});
+  CHECK(one.surface.mesh.points == many.surface.mesh.points);
+  CHECK(one.surface.mesh.elements == many.surface.mesh.elements);
+}
+
+TEST_CASE("a face whose boundary crosses itself is named in the error") {
+  struct twisted : capped_cylinder {
+    using capped_cylinder::capped_cylinder;
+    vec2 curve_uv(local_id f, int k, double t) const {
+      return f == 2 ? vec2{std::sin(t), std::sin(2 * t)} : capped_cylinder::curve_uv(f, k, t);
+    }
+  };
+  const twisted model(1);
+  try {
+    background::coarse_surface_parameters parameters;
+    parameters.rounds = 3;
+    mesh(model, 0.5, parameters);
+    FAIL("no error");
+  } catch (const geometry_error& error) {
+    CHECK(std::string(error.what()).find("face 2 (above)") != std::string::npos);
+  }
+}
