@@ -98,6 +98,17 @@ inline void check_volume(const simplicial_mesh<2>& boundary, const simplicial_me
 
 } // namespace detail
 
+/// Throws `mesher_error` for a boundary that is empty or refers to points that do not exist.
+inline void require_meshable(const simplicial_mesh<2>& boundary) {
+  if (boundary.elements.empty())
+    throw mesher_error("a boundary without triangles encloses nothing");
+  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+    for (const local_id v : boundary.elements[t])
+      if (v < 0 || static_cast<std::size_t>(v) >= boundary.points.size())
+        throw mesher_error("boundary triangle " + std::to_string(t) + " refers to point " +
+                           std::to_string(v) + ", which does not exist");
+}
+
 /// Checks a mesher's result against its input; throws `mesher_error` that says what is wrong. Linear time,
 /// about 0.1 us per element.
 inline void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {

@@ -215,23 +215,13 @@ inline simplicial_mesh<3> from_tetgen(const tetgenio& out) {
   return mesh;
 }
 
-inline void require_meshable(const simplicial_mesh<2>& boundary) {
-  if (boundary.elements.empty())
-    throw mesher_error("a boundary without triangles encloses nothing");
-  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
-    for (const local_id v : boundary.elements[t])
-      if (v < 0 || static_cast<std::size_t>(v) >= boundary.points.size())
-        throw mesher_error("boundary triangle " + std::to_string(t) + " refers to point " +
-                           std::to_string(v) + ", which does not exist");
-}
-
 } // namespace dovetail::detail
 
 namespace dovetail::mesher {
 
 inline mesher_result<3> tetgen::operator()(const mesher_input<3>& input, const any_sizing& size) const {
   const stopwatch clock;
-  detail::require_meshable(input.boundary);
+  require_meshable(input.boundary);
   const double elements = elements_per_inverse_cubed_size / (size_scale * size_scale * size_scale);
   detail::tetgen_sizing sizing(size, size_scale,
                                sizing_call_budget(input.boundary, size, elements, call_budget_factor));

@@ -5,50 +5,18 @@
 /// the checks after meshing find a wrong one.
 #pragma once
 
-#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
+#include "dovetail/mesher/shells.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <numeric>
-#include <span>
 #include <vector>
 
 namespace dovetail {
 
 namespace detail {
-
-/// Groups of triangles connected across edges, by lowest triangle; every triangle in exactly one.
-inline std::vector<std::vector<simplex<2>>> edge_connected_shells(const std::vector<simplex<2>>& triangles,
-                                                                  std::size_t point_count) {
-  std::vector<std::size_t> root(triangles.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t t) {
-    while (root[t] != t)
-      t = root[t] = root[root[t]];
-    return t;
-  };
-  const auto edges = build_sides<2>(triangles, point_count);
-  for (std::size_t s = 0; s < edges.size(); ++s) {
-    const auto members = edges.all_elements(static_cast<local_id>(s));
-    for (const local_id t : members) {
-      const std::size_t a = find(static_cast<std::size_t>(members[0]));
-      const std::size_t b = find(static_cast<std::size_t>(t));
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  std::vector<std::vector<simplex<2>>> shells;
-  std::vector<std::size_t> shell_of(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (find(t) == t) {
-      shell_of[t] = shells.size();
-      shells.emplace_back();
-    }
-    shells[shell_of[find(t)]].push_back(triangles[t]);
-  }
-  return shells;
-}
 
 /// Distance along the ray to a triangle, or infinity. Hits within 1e-9 outside the triangle count, so that a
 /// ray through an edge hits.
@@ -80,7 +48,7 @@ inline std::vector<vec3> points_in_voids(const simplicial_mesh<2>& boundary) {
   }
   const auto at = [&](local_id v) { return boundary.points[static_cast<std::size_t>(v)]; };
   std::vector<vec3> points;
-  for (const auto& shell : detail::edge_connected_shells(to_outside, boundary.points.size())) {
+  for (const auto& shell : edge_connected_shells(to_outside, boundary.points.size())) {
     if (!(enclosed_volume(boundary.points, shell) < 0))
       continue;
     simplex<2> largest{};
