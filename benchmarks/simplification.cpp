@@ -15,8 +15,8 @@ void measure(const dovetail::simplicial_mesh<D>& mesh) {
   parameters.subdomains = 32;
   const auto result = dovetail::simplify(mesh, sides, {}, parameters);
   const auto n = static_cast<double>(mesh.elements.size());
-  std::printf("D = %d: %.0f elements -> %d super-elements, %.3f s, %.0f elements/s\n", D, n, result.super_count,
-              result.summary.seconds, n / result.summary.seconds);
+  std::printf("D = %d: %.0f elements -> %d super-elements, %.3f s, %.0f elements/s\n", D, n,
+              result.super_count, result.summary.seconds, n / result.summary.seconds);
   for (const auto& [key, value] : result.summary.counters)
     std::printf("  %-24s %.6g\n", key.c_str(), value);
 }
