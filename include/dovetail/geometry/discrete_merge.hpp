@@ -145,8 +145,11 @@ private:
 inline charted_surface charted(const closed_surfaces& surfaces, const chart_options& options = {}) {
   auto cut = discrete::chart_cutter(surfaces, options).run();
   auto merged = discrete::chart_merger(std::move(cut), options.merge_angle_deg).run();
-  auto relabeled = discrete::corner_relabeler(std::move(merged)).run();
-  return discrete::border_collapser(std::move(relabeled)).run();
+  auto relabeled = discrete::corner_relabeler(merged).run();
+  if (!discrete::charts_can_be_projected(relabeled))
+    relabeled = std::move(merged);
+  auto collapsed = discrete::border_collapser(relabeled).run();
+  return discrete::charts_can_be_projected(collapsed) ? collapsed : relabeled;
 }
 
 } // namespace dovetail
