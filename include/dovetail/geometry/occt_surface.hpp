@@ -47,6 +47,8 @@ public:
       if (period_[k] == 0)
         search_[k] = {std::max(search_[k][0], natural_[k][0]), std::min(search_[k][1], natural_[k][1])};
     }
+    const surface_frame middle = frame({0.5 * (box_[0][0] + box_[0][1]), 0.5 * (box_[1][0] + box_[1][1])});
+    typical_ = {norm_squared(middle.du), norm_squared(middle.dv)};
   }
   const std::array<std::array<double, 2>, 2>& box() const { return box_; }
   const std::array<double, 2>& period() const { return period_; }
@@ -115,21 +117,13 @@ private:
                  g = dot(d.first.dv, d.first.dv);
     const vec3 normal = cross(d.first.du, d.first.dv);
     const double area_squared = norm_squared(normal);
-    if (!(area_squared > 1e-16 * e * g) || !(e > 1e-12 * extent_squared(0)) ||
-        !(g > 1e-12 * extent_squared(1)))
+    if (!(area_squared > 1e-16 * e * g) || !(e > 1e-12 * typical_[0]) || !(g > 1e-12 * typical_[1]))
       return std::nullopt;
     const vec3 n = normal / std::sqrt(area_squared);
     const double l = dot(d.duu, n), m = dot(d.duv, n), k = dot(d.dvv, n);
     const double gauss = (l * k - m * m) / area_squared;
     const double mean = (e * k - 2 * f * m + g * l) / (2 * area_squared);
     return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
-  }
-
-  /// Squared derivative length at the middle of the face's rectangle, the scale for "nearly singular".
-  double extent_squared(int direction) const {
-    const vec2 middle{0.5 * (box_[0][0] + box_[0][1]), 0.5 * (box_[1][0] + box_[1][1])};
-    const surface_frame f = frame(middle);
-    return direction == 0 ? norm_squared(f.du) : norm_squared(f.dv);
   }
 
   vec2 clamped(vec2 uv) const {
@@ -264,7 +258,8 @@ private:
   std::array<std::array<double, 2>, 2> box_{};     ///< of the face's boundary in the parameter plane
   std::array<std::array<double, 2>, 2> search_{};  ///< the rectangle projections stay in
   std::array<std::array<double, 2>, 2> natural_{}; ///< the surface's own parameter rectangle
-  std::array<double, 2> period_{0, 0};             ///< zero where not periodic
+  std::array<double, 2> typical_{};    ///< squared derivative lengths in the middle, the scale for singular
+  std::array<double, 2> period_{0, 0}; ///< zero where not periodic
 };
 
 } // namespace dovetail::occt
