@@ -90,6 +90,22 @@ inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pa
                            " cross, also when refined; repair the model there or give a smaller size");
 }
 
+/// The triangles with a solid on one side only, oriented outwards: they enclose all solids together.
+inline simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_topology& topology) {
+  simplicial_mesh<2> outer;
+  outer.points = surface.mesh.points;
+  for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
+    const auto& [behind, in_front] = topology.faces[static_cast<std::size_t>(surface.mesh.tags[t])].solids;
+    if ((behind == no_id) == (in_front == no_id))
+      continue;
+    simplex<2> triangle = surface.mesh.elements[t];
+    if (behind == no_id)
+      std::swap(triangle[1], triangle[2]);
+    outer.elements.push_back(triangle);
+  }
+  return outer;
+}
+
 } // namespace detail
 
 /// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
@@ -162,7 +178,7 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
   const auto first = surface_without_crossings(
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
   const mesh_plan plan =
-      plan_mesh(first.surface.mesh, size, options,
+      plan_mesh(detail::outer_surface(first.surface, model.topology()), size, options,
                 elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
   if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
     throw too_many_elements(plan.predicted_elements, options.largest_prediction);

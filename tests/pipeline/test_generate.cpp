@@ -1,0 +1,172 @@
+#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/partition/metis.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+using namespace dovetail;
+
+namespace {
+
+TopoDS_Shape drilled_block() {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 1.5, 1)).Shape();
+  const TopoDS_Shape drill =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0.8, 0.7, -1), gp_Dir(0, 0, 1)), 0.35, 3).Shape();
+  return BRepAlgoAPI_Cut(block, drill).Shape();
+}
+
+/// A ball with a spherical void: two shells.
+TopoDS_Shape hollow_ball() {
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(1.0).Shape();
+  return BRepAlgoAPI_Cut(ball, BRepPrimAPI_MakeSphere(0.4).Shape()).Shape();
+}
+
+/// Two boxes that touch: two materials with a shared face.
+TopoDS_Shape two_boxes() {
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(1, 0.2, 0.1), gp_Pnt(2, 0.8, 0.9)).Shape());
+  return both;
+}
+
+generate_options in_parts(int subdomains) {
+  generate_options options;
+  options.subdomains = subdomains;
+  return options;
+}
+
+/// The whole pipeline with the serial executor unless another is given.
+template <executor E = parallel::serial>
+generate_result mesh_shape(const TopoDS_Shape& shape, double size, generate_options options, E run = {}) {
+  return generate<3>(occt_shape_from(shape).model, uniform_size(size),
+                     parameters<>{}
+                         .with_mesher(mesher::tetgen{})
+                         .with_partitioner(partition::metis{})
+                         .with_executor(run)
+                         .with_options(std::move(options)));
+}
+
+double volume_of(const distributed_mesh& mesh) {
+  double sum = 0;
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+    const mesh_piece piece = mesh.load(static_cast<local_id>(p));
+    const auto at = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
+    for (const auto& [a, b, c, d] : piece.mesh.elements)
+      sum += signed_volume(at(a), at(b), at(c), at(d));
+  }
+  return sum;
+}
+
+void require_valid(const generate_result& result) {
+  REQUIRE(result.failures.empty());
+  const auto validity = io::check_distributed(result.mesh);
+  CHECK(validity.valid());
+  CHECK(result.quality.elements > 0);
+}
+
+} // namespace
+
+TEST_CASE("a drilled block is meshed whole, in pieces, with the right volume and clean interfaces") {
+  const auto result = mesh_shape(drilled_block(), 0.12, in_parts(5));
+  require_valid(result);
+  CHECK(result.mesh.counts.size() + static_cast<std::size_t>(result.summary.children[4].get("merges")) == 5);
+  CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
+  CHECK(result.coarse_contract.count(contract_cause::remeshing) == 0);
+  CHECK(result.coarse_contract.min_wedge_deg() > 20);
+  CHECK(result.plan.predicted_elements ==
+        doctest::Approx(static_cast<double>(result.quality.elements)).epsilon(0.35));
+}
+
+TEST_CASE("poles, seams and a void: a hollow ball") {
+  const auto result = mesh_shape(hollow_ball(), 0.15, in_parts(4));
+  require_valid(result);
+  CHECK(volume_of(result.mesh) == doctest::Approx(4.0 / 3 * std::numbers::pi * (1 - 0.064)).epsilon(0.02));
+}
+
+TEST_CASE("a torus, whose face has no natural boundary") {
+  const auto result = mesh_shape(BRepPrimAPI_MakeTorus(1.0, 0.4).Shape(), 0.15, in_parts(4));
+  require_valid(result);
+  CHECK(volume_of(result.mesh) ==
+        doctest::Approx(2 * std::numbers::pi * std::numbers::pi * 0.16).epsilon(0.03));
+}
+
+TEST_CASE("two materials share the triangles of their common face, and no subdomain has both") {
+  const auto result = mesh_shape(two_boxes(), 0.12, in_parts(4));
+  require_valid(result);
+  CHECK(volume_of(result.mesh) == doctest::Approx(1 + 0.48).epsilon(1e-9));
+  double between_materials = 0;
+  const fine_skeleton& skeleton = result.mesh.skeleton;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+    const auto [a, b] = skeleton.subdomains[t];
+    if (b == no_id || result.mesh.counts[static_cast<std::size_t>(a)].material ==
+                          result.mesh.counts[static_cast<std::size_t>(b)].material)
+      continue;
+    CHECK(skeleton.cad_faces[t] != no_id);
+    const auto at = [&](std::size_t i) {
+      return skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][i])];
+    };
+    between_materials += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+  }
+  CHECK(between_materials == doctest::Approx(0.48).epsilon(1e-9));
+}
+
+TEST_CASE("the mesh is the same for every executor and number of workers") {
+  const auto hash_with = [](const auto& run) {
+    return io::mesh_hash(mesh_shape(drilled_block(), 0.15, in_parts(6), run).mesh);
+  };
+  const auto expected = hash_with(parallel::serial{});
+  for (const int workers : {1, 2, 4})
+    CHECK(hash_with(parallel::processes{.worker_count = workers}) == expected);
+}
+
+TEST_CASE("points lie on the CAD entities that they are said to lie on") {
+  const auto model = occt_shape_from(drilled_block()).model;
+  const auto result = generate<3>(model, uniform_size(0.15),
+                                  parameters<>{}.with_mesher(mesher::tetgen{}).with_options(in_parts(5)));
+  REQUIRE(result.failures.empty());
+  const fine_skeleton& skeleton = result.mesh.skeleton;
+  const double tolerance = 1e-9 * model.bounds().diagonal();
+  int on_cylinder = 0;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+    if (skeleton.cad_faces[t] == no_id)
+      continue;
+    for (const local_id v : skeleton.triangles[t]) {
+      const vec3 p = skeleton.points[static_cast<std::size_t>(v)];
+      const double from_axis = std::hypot(p.x - 0.8, p.y - 0.7);
+      const bool on_box = std::abs(p.x) < tolerance || std::abs(p.x - 2) < tolerance ||
+                          std::abs(p.y) < tolerance || std::abs(p.y - 1.5) < tolerance ||
+                          std::abs(p.z) < tolerance || std::abs(p.z - 1) < tolerance;
+      const bool on_drill = std::abs(from_axis - 0.35) < tolerance;
+      on_cylinder += on_drill;
+      REQUIRE((on_box || on_drill));
+    }
+  }
+  CHECK(on_cylinder > 50);
+}
+
+TEST_CASE("sizes that make no sense are refused") {
+  CHECK_THROWS_AS(mesh_shape(drilled_block(), 50, in_parts(2)), sizing_error);
+}
+
+TEST_CASE("without simplification the same model is meshed, for comparison") {
+  generate_options options = in_parts(5);
+  options.simplify = false;
+  const auto result = mesh_shape(drilled_block(), 0.15, options);
+  require_valid(result);
+}

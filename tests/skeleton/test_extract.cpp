@@ -1,0 +1,156 @@
+#include "dovetail/skeleton/extract.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace dovetail;
+
+namespace {
+
+/// The unit cube as 6 n^3 tetrahedra; its surface is six CAD faces, its edges twelve CAD curves.
+background_mesh cube(int n) {
+  background_mesh mesh;
+  const auto id = [&](int i, int j, int k) { return static_cast<local_id>((k * (n + 1) + j) * (n + 1) + i); };
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        mesh.volume.points.push_back({1.0 * i / n, 1.0 * j / n, 1.0 * k / n});
+  constexpr std::array<std::array<int, 3>, 6> axis_orders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        for (std::size_t order = 0; order < 6; ++order) {
+          std::array<int, 3> at{i, j, k};
+          simplex<3> element{id(i, j, k), 0, 0, 0};
+          for (std::size_t step = 0; step < 3; ++step) {
+            ++at[static_cast<std::size_t>(axis_orders[order][step])];
+            element[step + 1] = id(at[0], at[1], at[2]);
+          }
+          if (order >= 3) // odd permutations of the axes are mirrored
+            std::swap(element[2], element[3]);
+          mesh.volume.elements.push_back(element);
+          mesh.volume.tags.push_back(0);
+        }
+  const auto sides = build_sides(mesh.volume);
+  surface_mesh& surface = mesh.surface;
+  surface.mesh.points = mesh.volume.points;
+  surface.vertex_hosts.resize(surface.mesh.points.size());
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (sides.is_boundary(static_cast<local_id>(s))) {
+      const auto& t = sides.vertices[s];
+      const auto at = [&](std::size_t corner) {
+        return surface.mesh.points[static_cast<std::size_t>(t[corner])];
+      };
+      local_id face = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double wall : {0.0, 1.0})
+          if (at(0)[axis] == wall && at(1)[axis] == wall && at(2)[axis] == wall)
+            face = static_cast<local_id>(2 * axis + (wall > 0 ? 1 : 0));
+      surface.mesh.elements.push_back(t);
+      surface.mesh.tags.push_back(face);
+      surface.corner_uv.emplace_back();
+    }
+  const auto edges = build_sides(surface.mesh);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = edges.elements[e];
+    if (surface.mesh.tags[static_cast<std::size_t>(a)] != surface.mesh.tags[static_cast<std::size_t>(b)])
+      surface.curve_edges.push_back({edges.vertices[e], 0, {0, 1}});
+  }
+  return mesh;
+}
+
+std::vector<local_id> split_by_x(const background_mesh& mesh, double x) {
+  std::vector<local_id> part;
+  for (const auto& element : mesh.volume.elements) {
+    double mean = 0;
+    for (const local_id v : element)
+      mean += mesh.volume.points[static_cast<std::size_t>(v)].x / 4;
+    part.push_back(mean < x ? 0 : 1);
+  }
+  return part;
+}
+
+} // namespace
+
+TEST_CASE("two halves of a cube share the faces of the cut, once, oriented outwards of the first") {
+  const background_mesh mesh = cube(4);
+  const auto sides = build_sides(mesh.volume);
+  const auto skeleton = extract_skeleton(mesh, sides, split_by_x(mesh, 0.5));
+  REQUIRE(skeleton.faces.size() == 2 * 16);
+  for (const skeleton_face& face : skeleton.faces) {
+    CHECK(face.subdomains == std::array<local_id, 2>{0, 1});
+    CHECK(face.vertices[0] == *std::min_element(face.vertices.begin(), face.vertices.end()));
+    const auto at = [&](std::size_t i) {
+      return mesh.volume.points[static_cast<std::size_t>(face.vertices[i])];
+    };
+    const vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+    CHECK(at(0).x == 0.5);
+    CHECK(normal.x > 0); // subdomain 0 is at smaller x
+  }
+}
+
+TEST_CASE("regions are the cube's faces cut in two where the interface ends on them") {
+  const background_mesh mesh = cube(4);
+  const auto skeleton = extract_skeleton(mesh, build_sides(mesh.volume), split_by_x(mesh, 0.5));
+  CHECK(skeleton.regions.size() == 2 + 4 * 2); // two faces whole, four halved
+  std::size_t triangles = 0;
+  std::set<std::pair<local_id, local_id>> keys;
+  for (const skeleton_region& region : skeleton.regions) {
+    triangles += region.triangles.size();
+    CHECK(region.subdomains[1] == no_id);
+    CHECK(region.fixed_points.empty());
+    keys.emplace(region.cad_face, region.subdomains[0]);
+  }
+  CHECK(triangles == mesh.surface.mesh.elements.size());
+  CHECK(keys.size() == skeleton.regions.size());
+}
+
+TEST_CASE("every edge of an interface face and every curve edge is a line with the host it lies on") {
+  const background_mesh mesh = cube(4);
+  const auto skeleton = extract_skeleton(mesh, build_sides(mesh.volume), split_by_x(mesh, 0.5));
+  std::array<int, 4> of_dimension{};
+  for (const skeleton_line& line : skeleton.lines)
+    ++of_dimension[static_cast<std::size_t>(line.on.dimension)];
+  CHECK(of_dimension[1] == 12 * 4);              // the cube's edges
+  CHECK(of_dimension[2] == 4 * 4);               // the outline of the cut on four faces
+  CHECK(of_dimension[3] == 3 * 16 + 2 * 4 - 16); // the cut's edges but its outline
+  for (const skeleton_face& face : skeleton.faces)
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(find_line(skeleton.lines, face.vertices[i], face.vertices[(i + 1) % 3]) != no_id);
+  CHECK(find_line(skeleton.lines, 0, 124) == no_id);
+}
+
+TEST_CASE("a subdomain that touches the surface in a point only keeps that point in the region") {
+  const background_mesh mesh = cube(4);
+  std::vector<local_id> part(mesh.volume.elements.size(), 0);
+  // The tetrahedra inside the cube at one inner point, without any that has a triangle on the surface.
+  const auto sides = build_sides(mesh.volume);
+  const local_id on_wall = 2 * 5 + 2; // the middle of the face z = 0
+  for (std::size_t e = 0; e < part.size(); ++e) {
+    const auto& element = mesh.volume.elements[e];
+    int at_wall = 0;
+    for (const local_id v : element)
+      at_wall += mesh.volume.points[static_cast<std::size_t>(v)].z == 0;
+    if (at_wall == 1 && std::find(element.begin(), element.end(), on_wall) != element.end())
+      part[e] = 1;
+  }
+  const auto skeleton = extract_skeleton(mesh, sides, part);
+  REQUIRE(!skeleton.faces.empty());
+  std::size_t fixed = 0;
+  for (const skeleton_region& region : skeleton.regions)
+    for (const local_id v : region.fixed_points) {
+      CHECK(v == on_wall);
+      ++fixed;
+    }
+  CHECK(fixed == 1);
+}
+
+TEST_CASE("a surface triangle that is no side of the volume is an error") {
+  background_mesh mesh = cube(2);
+  mesh.surface.mesh.elements.front() = {0, 13, 26}; // through the middle
+  CHECK_THROWS_AS(
+      induced_pieces(mesh, build_sides(mesh.volume), std::vector<local_id>(mesh.volume.elements.size(), 0)),
+      mesh_error);
+}
