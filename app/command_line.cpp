@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
+#include "stop_request.hpp"
 
 #include "dovetail/core/version.hpp"
 
@@ -157,6 +158,7 @@ int run_command_line(int argc, char** argv) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
   }
+  catch_stop_signals();
   return run_guarded(line.chosen);
 }
 

@@ -1,13 +1,13 @@
 #include "output.hpp"
 
 #include "failure.hpp"
-#include "terminal_progress.hpp"
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -73,19 +73,18 @@ void check_can_create(const std::filesystem::path& file) {
   const output_file probe(file); // removes itself, since it is never committed
 }
 
-void check_space(double predicted_elements, const std::vector<output_format>& formats,
-                 const std::filesystem::path& folder) {
+double bytes_per_element(const std::vector<output_format>& formats) {
   double bytes = spool_bytes_per_element;
   for (const auto& format : formats)
     bytes += format.bytes_per_element;
-  bytes *= predicted_elements;
+  return bytes;
+}
+
+double elements_with_room(const std::vector<output_format>& formats, const std::filesystem::path& folder) {
   std::error_code failure;
   const auto space = std::filesystem::space(folder, failure);
-  if (!failure && bytes > static_cast<double>(space.available))
-    throw io_error(folder.string() + ": about " + count_text(predicted_elements) + " elements, which need " +
-                   count_text(bytes) + "B of disk, and there are " +
-                   count_text(static_cast<double>(space.available)) +
-                   "B free; give a larger size, or --force to try");
+  return failure ? std::numeric_limits<double>::infinity()
+                 : static_cast<double>(space.available) / bytes_per_element(formats);
 }
 
 } // namespace dovetail::app

@@ -44,9 +44,10 @@ private:
 /// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
 void check_can_create(const std::filesystem::path& file);
 
-/// Throws `io_error` naming --force when a mesh of so many elements does not fit on the disk of the folder,
-/// with its spool and in all the formats.
-void check_space(double predicted_elements, const std::vector<output_format>& formats,
-                 const std::filesystem::path& folder);
+/// Disk that a mesh takes per element, about, with its spool and in all the formats.
+double bytes_per_element(const std::vector<output_format>& formats);
+
+/// The number of elements that there is room for on the disk of the folder.
+double elements_with_room(const std::vector<output_format>& formats, const std::filesystem::path& folder);
 
 } // namespace dovetail::app

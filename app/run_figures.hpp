@@ -31,8 +31,9 @@ struct interface_figures {
   double min_face_angle_deg = 180;
   double min_wedge_deg = 180;
   std::int64_t faces = 0;
-  std::int64_t forced = 0;  ///< below the threshold because of the CAD
-  std::int64_t refused = 0; ///< below the threshold because of the bound on super-elements
+  std::int64_t forced = 0;    ///< below the threshold because of the CAD
+  std::int64_t refused = 0;   ///< below the threshold because of the bound on super-elements
+  std::int64_t remeshing = 0; ///< below the threshold since the final size: by curving or refining
 };
 
 struct run_figures {
@@ -58,6 +59,23 @@ struct run_figures {
   std::string out; ///< folder with the mesh
   report details;  ///< the library's own report, all of it
 };
+
+/// What `plan` predicts.
+struct plan_figures {
+  std::string model;
+  double elements = 0;
+  double relative_error = 0;
+  int subdomains = 1;
+  double coarsening = 1;
+  int workers = 1;
+  double seconds = 0;
+  double worker_bytes = 0;
+  double parent_bytes = 0;
+  double disk_bytes = 0;
+};
+
+std::string plan_text(const plan_figures& figures);
+void write_plan(const plan_figures& figures, const std::filesystem::path& file);
 
 /// The summary, laid out as the tables of the method's paper.
 std::string summary_text(const run_figures& figures);

@@ -47,7 +47,8 @@ json interfaces_json(const interface_figures& interfaces) {
           {"min_wedge_deg", interfaces.min_wedge_deg},
           {"faces", interfaces.faces},
           {"forced", interfaces.forced},
-          {"refused", interfaces.refused}};
+          {"refused", interfaces.refused},
+          {"remeshing", interfaces.remeshing}};
 }
 
 json details_json(const report& details) {
@@ -114,6 +115,21 @@ void write_quality_report(const quality_statistics& quality, std::int64_t vertic
               {"vertices", vertices},
               {"quality", quality_json(quality)},
               {"details", details_json(details)}},
+             file);
+}
+
+void write_plan(const plan_figures& figures, const std::filesystem::path& file) {
+  write_json({{"dovetail", version},
+              {"model", figures.model},
+              {"predicted_elements", figures.elements},
+              {"relative_error", figures.relative_error},
+              {"subdomains", figures.subdomains},
+              {"coarsening", figures.coarsening},
+              {"workers", figures.workers},
+              {"predicted_seconds", figures.seconds},
+              {"predicted_worker_bytes", figures.worker_bytes},
+              {"predicted_parent_bytes", figures.parent_bytes},
+              {"predicted_disk_bytes", figures.disk_bytes}},
              file);
 }
 

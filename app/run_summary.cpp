@@ -85,6 +85,8 @@ void add_interfaces(table& rows, const run_figures& figures) {
        static_cast<long long>(fine.forced));
   pair("Below the threshold, refused by the bound", "%14lld", static_cast<long long>(coarse.refused),
        static_cast<long long>(fine.refused));
+  pair("Below the threshold since remeshing", "%14lld", static_cast<long long>(coarse.remeshing),
+       static_cast<long long>(fine.remeshing));
   rows.heading("Intersection suppression");
   rows.whole("Difference of the number of subdomains", figures.merges);
   rows.whole("Maximal size of a merged subdomain", figures.largest_merged);
@@ -119,6 +121,23 @@ std::string summary_text(const run_figures& figures) {
     rows.heading("warning: " + warning);
   if (!figures.out.empty())
     rows.heading("The mesh is in " + figures.out);
+  return rows.text();
+}
+
+std::string plan_text(const plan_figures& figures) {
+  table rows;
+  const auto mebibytes = [&](const char* label, double bytes) { rows.row(label, "%.0f", bytes / (1 << 20)); };
+  rows.heading("Prediction");
+  rows.row("Model", figures.model);
+  rows.row("No. of tetrahedra", count_text(figures.elements));
+  rows.row("  within (percent)", "%.1f", 100 * figures.relative_error);
+  rows.whole("No. of subdomains", figures.subdomains);
+  rows.row("Background size / size", "%.2f", figures.coarsening);
+  rows.whole("No. of workers", figures.workers);
+  rows.row("Time", "about " + duration_text(figures.seconds));
+  mebibytes("Memory of a worker (MiB)", figures.worker_bytes);
+  mebibytes("Memory of the parent (MiB)", figures.parent_bytes);
+  mebibytes("Disk, with the spool (MiB)", figures.disk_bytes);
   return rows.text();
 }
 

@@ -1,0 +1,242 @@
+#include "commands.hpp"
+#include "failure.hpp"
+#include "mesh_digest.hpp"
+#include "model_source.hpp"
+#include "output.hpp"
+#include "run_figures.hpp"
+#include "run_identity.hpp"
+#include "run_setup.hpp"
+#include "stop_request.hpp"
+#include "terminal_progress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+/// The spool of a run. Unless a run leaves finished pieces to resume from, it is removed in the end.
+class run_spool {
+public:
+  run_spool(const std::filesystem::path& folder, const run_identity& identity, bool resume)
+      : spool_(resume ? spool::resume(folder, identity) : spool::start(folder, identity)) {}
+  run_spool(const run_spool&) = delete;
+  run_spool& operator=(const run_spool&) = delete;
+  ~run_spool() {
+    if (finished_ || !has_pieces())
+      spool_.clear();
+  }
+
+  const spool& get() const { return spool_; }
+  /// The mesh is written: the pieces are not needed any more.
+  void finish() { finished_ = true; }
+
+private:
+  bool has_pieces() const {
+    std::error_code failure;
+    for (const auto& entry : std::filesystem::directory_iterator(spool_.folder(), failure))
+      if (entry.path().filename().string().starts_with("piece_"))
+        return true;
+    return false;
+  }
+
+  spool spool_;
+  bool finished_ = false;
+};
+
+interface_figures figures_of(const interface_contract& contract) {
+  interface_figures figures;
+  if (contract.interface_faces > 0) {
+    figures.min_face_angle_deg = contract.face_angle.angle_deg;
+    figures.min_wedge_deg = contract.min_wedge_deg();
+  }
+  const auto count = [&](contract_cause cause) { return static_cast<std::int64_t>(contract.count(cause)); };
+  figures.faces = static_cast<std::int64_t>(contract.interface_faces);
+  figures.forced = count(contract_cause::forced);
+  figures.refused = count(contract_cause::refused);
+  figures.remeshing = count(contract_cause::remeshing);
+  return figures;
+}
+
+const report& child(const report& parent, const std::string& name) {
+  static const report none;
+  const auto found = std::find_if(parent.children.begin(), parent.children.end(),
+                                  [&](const report& candidate) { return candidate.name == name; });
+  return found == parent.children.end() ? none : *found;
+}
+
+void collect_warnings(const report& from, std::vector<std::string>& to) {
+  to.insert(to.end(), from.warnings.begin(), from.warnings.end());
+  for (const auto& part : from.children)
+    collect_warnings(part, to);
+}
+
+/// Mesher and improver run in one task, one after the other: the wall time of the stage is shared out in
+/// proportion to what the workers spent on each.
+void add_meshing_seconds(const report& meshing, stage_seconds& seconds) {
+  const double mesher = meshing.get("mesher_seconds");
+  const double improver = meshing.get("improver_seconds");
+  const double share = mesher + improver > 0 ? improver / (mesher + improver) : 0;
+  seconds.improvement = share * meshing.seconds;
+  seconds.meshing = meshing.seconds - seconds.improvement;
+}
+
+void add_pipeline_figures(const generate_result& result, run_figures& figures) {
+  const report& summary = result.summary;
+  figures.background_elements = static_cast<std::int64_t>(result.background.volume.elements.size());
+  figures.subdomains = static_cast<int>(result.mesh.counts.size());
+  figures.quality = result.quality;
+  figures.interfaces = figures_of(result.fine_contract);
+  figures.coarse_interfaces = figures_of(result.coarse_contract);
+  figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
+  const report& intersection = child(summary, "intersection");
+  figures.merges = static_cast<std::int64_t>(intersection.get("merges"));
+  figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
+  figures.seconds.background = child(summary, "background").seconds;
+  figures.seconds.simplification = child(summary, "simplification").seconds;
+  figures.seconds.partition = child(summary, "partition").seconds;
+  figures.seconds.skeleton = child(summary, "skeleton").seconds;
+  figures.seconds.intersection = intersection.seconds;
+  add_meshing_seconds(child(summary, "meshing"), figures.seconds);
+  figures.peak_rss_bytes = std::max(
+      figures.peak_rss_bytes, static_cast<std::uint64_t>(child(summary, "meshing").get("peak_rss_bytes")));
+}
+
+void add_mesh_figures(const distributed_mesh& mesh, run_figures& figures) {
+  figures.vertices = static_cast<std::int64_t>(mesh.skeleton.points.size());
+  std::int64_t largest = 0;
+  for (const auto& piece : mesh.counts) {
+    figures.elements += piece.elements;
+    figures.vertices += piece.inner_points;
+    largest = std::max<std::int64_t>(largest, piece.elements);
+  }
+  if (figures.elements > 0)
+    figures.imbalance = static_cast<double>(largest) * static_cast<double>(mesh.counts.size()) /
+                        static_cast<double>(figures.elements);
+  figures.boundary_triangles = std::count_if(mesh.skeleton.subdomains.begin(), mesh.skeleton.subdomains.end(),
+                                             [](const auto& sides) { return sides[1] == no_id; });
+}
+
+std::string text_of(const std::vector<piece_failure>& failures) {
+  std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
+  for (const auto& failure : failures) {
+    text += " subdomain " + std::to_string(failure.subdomain) + ": " +
+            (failure.reasons.empty() ? "no reason known" : failure.reasons.back());
+    if (!failure.facets.empty())
+      text += " (facets in " + failure.facets.string() + ")";
+    text += ";";
+  }
+  return text + " give another size or --subdomains";
+}
+
+/// One run of `dovetail mesh`.
+class mesh_run {
+public:
+  /// Everything that can be wrong about the options themselves is found before any file is read.
+  explicit mesh_run(const mesh_options& options)
+      : options_(options), policies_(make_policies(options)), parameters_(make_generate_options(options)),
+        formats_(make_formats(options.formats, options.pieces)) {}
+
+  int run() {
+    if (!options_.report.empty())
+      check_can_create(options_.report);
+    if (!options_.quiet)
+      lines_.emplace(stderr);
+    show("geometry");
+    const model_source source = load_model(options_.model);
+    figures_.seconds.geometry = clock_.seconds();
+    const output_folder folder(options_.out);
+    run_spool store(folder.path() / "spool", identity_of_run(options_, source), options_.resume);
+    parameters_.store = store.get();
+    parameters_.failure_folder = folder.path() / "failed";
+
+    const generate_result result = generate(source, folder.path());
+    describe(source, result);
+    if (!result.failures.empty()) {
+      finish();
+      throw mesher_error(text_of(result.failures));
+    }
+    write(result.mesh, folder.path());
+    store.finish();
+    finish();
+    return exit_ok;
+  }
+
+private:
+  void show(const char* stage) {
+    if (lines_)
+      lines_->update(stage, 0, 0);
+  }
+
+  generate_result generate(const model_source& source, const std::filesystem::path& folder) {
+    if (lines_)
+      parameters_.on_progress = lines_->callbacks();
+    else
+      parameters_.on_progress.stop_requested = stop_was_requested;
+    if (!options_.force)
+      parameters_.largest_prediction = elements_with_room(formats_, folder);
+    try {
+      return generate_mesh(source.geometry, source.size, policies_, parameters_);
+    } catch (const too_many_elements& problem) {
+      throw io_error(folder.string() + ": the sizes predict about " + count_text(problem.predicted) +
+                     " elements, and the disk has room for about " +
+                     count_text(parameters_.largest_prediction) + "; give larger sizes, or --force to try");
+    }
+  }
+
+  void describe(const model_source& source, const generate_result& result) {
+    figures_.model = source.name;
+    figures_.mesher = policies_.mesher.name();
+    figures_.partitioner = policies_.partitioner.name();
+    figures_.improver = policies_.improver.name();
+    figures_.executor = policies_.executor.name();
+    figures_.workers = policies_.executor.workers();
+    add_pipeline_figures(result, figures_);
+    add_mesh_figures(result.mesh, figures_);
+    figures_.details.name = "mesh";
+    figures_.details.children = {source.summary, result.summary};
+    collect_warnings(figures_.details, figures_.warnings);
+  }
+
+  void write(const distributed_mesh& mesh, const std::filesystem::path& folder) {
+    const stopwatch output;
+    for (const auto& format : formats_) {
+      show(("writing " + format.name).c_str());
+      figures_.details.children.push_back(format.write(mesh, folder));
+    }
+    show("hash");
+    figures_.mesh_hash = parallel_mesh_hash(mesh, policies_.executor);
+    figures_.seconds.output = output.seconds();
+    if (!formats_.empty())
+      figures_.out = options_.out;
+  }
+
+  void finish() {
+    lines_.reset();
+    figures_.seconds.total = clock_.seconds();
+    figures_.details.seconds = figures_.seconds.total;
+    figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes, peak_rss_bytes());
+    if (!options_.report.empty())
+      write_report(figures_, options_.report);
+    if (!options_.quiet)
+      std::fputs(summary_text(figures_).c_str(), stdout);
+  }
+
+  const stopwatch clock_;
+  const mesh_options& options_;
+  chosen_policies policies_;
+  generate_options parameters_;
+  std::vector<output_format> formats_;
+  std::optional<terminal_progress> lines_;
+  run_figures figures_;
+};
+
+} // namespace
+
+int run_mesh(const mesh_options& options) {
+  return mesh_run(options).run();
+}
+
+} // namespace dovetail::app

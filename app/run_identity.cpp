@@ -1,0 +1,65 @@
+#include "run_identity.hpp"
+
+#include "policies.hpp"
+
+#include "dovetail/core/hash.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <vector>
+
+namespace dovetail::app {
+namespace {
+
+std::string hexadecimal(std::uint64_t value) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
+  return text.data();
+}
+
+std::string content_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  content_hash hash;
+  std::vector<char> block(1 << 20);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    hash.bytes(std::as_bytes(std::span(block.data(), static_cast<std::size_t>(file.gcount()))));
+  return hexadecimal(hash.value());
+}
+
+/// The field itself, at points of a lattice of irrational steps: whatever file or option it comes from.
+std::string values_of_field(const any_sizing& size, const box3& box) {
+  constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  constexpr int samples = 4096;
+  const vec3 extent = box.upper - box.lower;
+  content_hash hash;
+  for (int i = 0; i < samples; ++i) {
+    vec3 p = box.lower;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double t = i * steps[static_cast<std::size_t>(axis)];
+      p[axis] += (t - std::floor(t)) * extent[axis];
+    }
+    hash.number(size(p));
+  }
+  return hexadecimal(hash.value());
+}
+
+} // namespace
+
+run_identity identity_of_run(const mesh_options& options, const model_source& source) {
+  run_identity identity{{"model", source.name}};
+  if (!options.model.input.empty()) {
+    identity.emplace_back("file", content_of_file(options.model.input));
+    identity.emplace_back("unit", options.model.unit);
+  }
+  identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
+  identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
+  identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");
+  identity.emplace_back("mesher", make_mesher(options.mesher).name());
+  identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
+  identity.emplace_back("improver", make_improver(options.improver).name());
+  return identity;
+}
+
+} // namespace dovetail::app

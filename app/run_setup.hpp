@@ -1,0 +1,16 @@
+/// @file
+/// From options to policies and parameters: what `mesh` and `plan` have in common.
+#pragma once
+
+#include "options.hpp"
+#include "pipeline.hpp"
+
+namespace dovetail::app {
+
+/// Throws `command_line_error` for names that do not exist and policies that do not go together.
+chosen_policies make_policies(const mesh_options& options);
+
+/// Throws `command_line_error` for numbers out of range.
+generate_options make_generate_options(const mesh_options& options);
+
+} // namespace dovetail::app
