@@ -142,6 +142,32 @@ private:
         result_.repairs.add("duplicates", 1);
       }
     }
+    drop(dropped);
+    cancel_thin_folds();
+  }
+
+  /// A thin triangle and its reverse, left of a strip that rounding closed, go together: they would make
+  /// their edges crowded.
+  void cancel_thin_folds() {
+    std::vector<std::pair<simplex<2>, std::size_t>> keyed;
+    for (std::size_t t = 0; t < triangles().size(); ++t)
+      if (is_sliver(t)) {
+        auto v = triangles()[t];
+        std::sort(v.begin(), v.end());
+        keyed.emplace_back(v, t);
+      }
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<char> dropped(triangles().size(), 0);
+    for (std::size_t i = 0; i + 1 < keyed.size(); ++i)
+      if (keyed[i].first == keyed[i + 1].first) {
+        dropped[keyed[i].second] = dropped[keyed[i + 1].second] = 1;
+        result_.repairs.add("degenerate", 2);
+        ++i;
+      }
+    drop(dropped);
+  }
+
+  void drop(const std::vector<char>& dropped) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles().size(); ++t)
       if (!dropped[t]) {
