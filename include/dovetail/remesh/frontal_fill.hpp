@@ -176,7 +176,7 @@ private:
   /// The size at p, kept within the growth limit of the size where the front comes from.
   double graded_size(vec3 p, double from, double near) const {
     const double change = parameters_.growth * near;
-    return std::clamp(s_.sizing(p), std::max(from - change, 0.4 * from), from + change);
+    return std::clamp(s_.target_size(p), std::max(from - change, 0.4 * from), from + change);
   }
 
   /// The triangle that holds a point strictly inside, found by walking from t; no_id when the walk leaves the

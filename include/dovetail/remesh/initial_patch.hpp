@@ -39,7 +39,7 @@ void set_boundary_sizes(patch_state<S>& s, const patch_boundary& boundary) {
     }
   }
   for (std::size_t v = 0; v < length_sum.size(); ++v)
-    s.size[v] = count[v] > 0 && length_sum[v] > 0 ? length_sum[v] / count[v] : s.sizing(s.point[v]);
+    s.size[v] = count[v] > 0 && length_sum[v] > 0 ? length_sum[v] / count[v] : s.target_size(s.point[v]);
 }
 
 /// Makes vertices of one label that are (nearly) at the same parameters exactly so: loops that touch in a
@@ -168,7 +168,7 @@ void unfold(patch_state<S>& s, flip_queue& flips) {
       const local_id v = split_at_middle(s, c, flips);
       if (v == no_id)
         continue;
-      s.size[s.at(v)] = s.sizing(s.point[s.at(v)]);
+      s.size[s.at(v)] = s.target_size(s.point[s.at(v)]);
       flips.raise_quality(s);
       any = true;
     }
@@ -216,7 +216,7 @@ void resolve_curvature(patch_state<S>& s) {
       const local_id v = split_at_middle(s, c, unused);
       if (v == no_id)
         continue;
-      s.size[s.at(v)] = s.sizing(s.point[s.at(v)]);
+      s.size[s.at(v)] = s.target_size(s.point[s.at(v)]);
       s.table.for_each_corner(v, [&](local_id e) { queue.push_back(e); });
       make_plane_delaunay(s, queue);
       any = true;

@@ -221,7 +221,8 @@ private:
     mesh.summary.set("min_angle_deg", least > 0 ? degrees * std::asin(std::sqrt(least)) : 0);
     mesh.summary.set("mean_min_angle_deg", degrees * angle_sum / count);
     mesh.summary.set("below_30_deg", static_cast<double>(below_thirty));
-    mesh.summary.set("mean_relative_length", lengths > 0 ? length_sum / static_cast<double>(lengths) : 1);
+    mesh.summary.set("mean_relative_length",
+                     lengths > 0 ? State::calibration * length_sum / static_cast<double>(lengths) : 1);
     mesh.summary.set("folded", static_cast<double>(mesh.folded.size()));
   }
 };
