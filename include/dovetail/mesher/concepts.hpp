@@ -13,7 +13,7 @@
 /// Complexity: about linear in the number of elements made.
 /// Failure: throws `mesher_error`; with `traits.may_crash` it may also end the process, so run it in a
 /// worker.
-/// Models for D = 3: tetgen. A mesher is a local (not collective) operation.
+/// Models for D = 3: tetgen, gmsh_hxt. A mesher is a local (not collective) operation.
 #pragma once
 
 #include "dovetail/core/report.hpp"
