@@ -41,6 +41,28 @@ double worst_lift(const discrete_model& model) {
   return worst;
 }
 
+/// Smallest angle, in degrees, between consecutive coedges of a face, in its parameter plane.
+double smallest_corner(const discrete_model& model) {
+  const auto& topology = model.topology();
+  double smallest = 360;
+  for (std::size_t f = 0; f < topology.faces.size(); ++f)
+    for (const auto& loop : topology.faces[f].loops)
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const auto end_of = [&](const geometry_topology::coedge& e, bool at_start, double away) {
+          const auto& curve = topology.curves[static_cast<std::size_t>(e.curve)];
+          const double length = std::min(away, curve.t[1] / 3);
+          const vec3 p = model.curve_point(e.curve, at_start != e.reversed ? length : curve.t[1] - length);
+          return model.surface().frames[f].flat(p);
+        };
+        const vec2 v = end_of(loop[k], false, 0);
+        const vec2 in = end_of(loop[k], false, 1e-4) - v;
+        const vec2 out = end_of(loop[(k + 1) % loop.size()], true, 1e-4) - v;
+        const double angle = std::atan2(cross(out, in), dot(out, in)) * 180 / std::numbers::pi;
+        smallest = std::min(smallest, angle < 0 ? angle + 360 : angle);
+      }
+  return smallest;
+}
+
 } // namespace
 
 TEST_CASE("a cube has six faces, twelve curves and eight vertices") {
@@ -100,6 +122,13 @@ TEST_CASE("a torus, whose charts have no natural start, passes all checks") {
   CHECK(features(model) == 0);
   check_model(model);
   CHECK(worst_lift(model) < 1e-9);
+}
+
+TEST_CASE("charts of smooth surfaces have no thin corners") {
+  CHECK(smallest_corner(model_of(box_soup({0, 0, 0}, {1, 1, 1}, 2))) == doctest::Approx(90));
+  for (const int n : {10, 16, 25})
+    CHECK(smallest_corner(model_of(sphere_soup({0, 0, 0}, 1, n))) > 20);
+  CHECK(smallest_corner(model_of(torus_soup(3, 1, 60, 24))) > 20);
 }
 
 TEST_CASE("a cylinder has two closed feature curves") {
