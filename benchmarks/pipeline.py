@@ -1,0 +1,202 @@
+#!/usr/bin/python3
+"""Measures the whole pipeline on one model: pipeline.py BUILD MODEL [options]
+
+At a size that gives the wanted number of elements it runs `dovetail mesh` with 1 and with 2 workers; TetGen alone on
+the boundary of the resulting mesh at the same size; and Gmsh's command line on the same model and size. It prints a
+table of each and the ratios, as markdown. All programs run one after the other; the machine should be idle.
+"""
+
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+STAGES = ("geometry", "background", "simplification", "partition", "skeleton", "intersection")
+PARALLEL = ("skeleton", "intersection", "meshing", "improvement")
+GIB = 2.0**30
+
+
+class Failure(Exception):
+    pass
+
+
+def run(command, limit):
+    """Output, seconds and peak memory in bytes of the largest process of a command."""
+    begin = time.monotonic()
+    with tempfile.TemporaryFile("w+", errors="replace") as output:
+        process = subprocess.Popen(["timeout", str(limit)] + [str(word) for word in command],
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        seconds = time.monotonic() - begin
+        output.seek(0)
+        text = output.read()
+    if process.returncode != 0:
+        raise Failure(f"{' '.join(map(str, command))}: exit status {process.returncode}: {text.strip()[-300:]}")
+    return text, seconds, 1024 * usage.ru_maxrss
+
+
+def read_json(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def find_size(driver, model, elements, folder, limit):
+    """The uniform size that is predicted to give so many elements."""
+    size = float(model_diagonal(driver, model, folder, limit)) / 60
+    report = os.path.join(folder, "plan.json")
+    for _ in range(4):
+        run([driver, "plan", model, "--size", repr(size), "--report", report], limit)
+        predicted = read_json(report)["predicted_elements"]
+        size *= (predicted / elements) ** (1 / 3)
+        if abs(predicted / elements - 1) < 0.02:
+            break
+    return float(f"{size:.4g}")
+
+
+def model_diagonal(driver, model, folder, limit):
+    """The driver names it when a size is larger than the model."""
+    try:
+        run([driver, "plan", model, "--size", "1e30"], limit)
+    except Failure as failure:
+        found = re.search(r"diagonal is ([0-9.e+]+)", str(failure))
+        if found:
+            return found.group(1).rstrip(".")
+    raise Failure(f"{model}: the driver does not tell its diagonal; give --size")
+
+
+def run_dovetail(driver, model, size, workers, out, options):
+    report = f"{out}_{workers}.json"
+    _, seconds, peak = run([driver, "mesh", model, "--size", repr(size), "--workers", workers, "--out", out,
+                            "--report", report, "--quiet"] + options.driver_options, options.limit)
+    result = read_json(report)
+    result["command_seconds"] = seconds
+    result["peak"] = max(peak, result["peak_rss_bytes"])
+    return result
+
+
+def run_gmsh(gmsh, algorithm, model, size, folder, limit):
+    """(elements, seconds of 3D meshing, seconds in all, peak) by one thread."""
+    mesh = os.path.join(folder, "gmsh.msh")
+    text, seconds, peak = run([gmsh, "-3", "-algo", algorithm, "-clmin", repr(size), "-clmax", repr(size), "-nt", 1,
+                               "-format", "msh41", "-bin", "-o", mesh, model], limit)
+    if os.path.exists(mesh):
+        os.remove(mesh)
+    volume = re.search(r"Done meshing 3D \(Wall ([0-9.e+-]+)s", text)
+    optimise = re.search(r"Done optimizing mesh \(Wall ([0-9.e+-]+)s", text)
+    tetrahedra = re.findall(r"(\d+) tetrahedra", text) or re.findall(r"(\d+) elements", text)
+    if not volume or not tetrahedra:
+        raise Failure(f"gmsh -algo {algorithm}: {text.strip()[-300:]}")
+    return int(tetrahedra[-1]), float(volume.group(1)) + float(optimise.group(1) if optimise else 0), seconds, peak
+
+
+def total(result, stages):
+    return sum(result["seconds"].get(stage, 0) for stage in stages)
+
+
+def rate(elements, seconds):
+    return elements / seconds if seconds > 0 else 0
+
+
+def print_dovetail(runs):
+    print("| dovetail | " + " | ".join(f"{w} worker{'s' if w > 1 else ''}" for w in runs) + " | ratio |")
+    print("|---|" + "--:|" * (len(runs) + 1))
+
+    def line(name, value, shown="{:.2f}", ratio=True):
+        values = [value(result, workers) for workers, result in runs.items()]
+        last = f"{values[0] / values[-1]:.2f}" if ratio and len(values) > 1 and values[-1] > 0 else ""
+        print(f"| {name} | " + " | ".join(shown.format(v) for v in values) + f" | {last} |")
+
+    line("elements", lambda r, w: r["elements"], "{:,}", False)
+    line("subdomains", lambda r, w: r["subdomains"], "{}", False)
+    line("background elements", lambda r, w: r["background_elements"], "{:,}", False)
+    for stage in STAGES + ("meshing", "improvement", "output"):
+        line(f"{stage}, s", lambda r, w, stage=stage: r["seconds"].get(stage, 0))
+    line("**all but meshing, improvement and output, s**", lambda r, w: total(r, STAGES))
+    line("**parallel stages** (skeleton, intersection, meshing, improvement), **s**", lambda r, w: total(r, PARALLEL))
+    line("whole command, s", lambda r, w: r["command_seconds"])
+    line("**meshing: elements per second and core**", lambda r, w: rate(r["elements"], w * total(r, ["meshing"])),
+         "{:,.0f}")
+    line("with improvement", lambda r, w: rate(r["elements"], w * total(r, ["meshing", "improvement"])), "{:,.0f}")
+    line("**largest process, GiB**", lambda r, w: r["peak"] / GIB)
+    line("smallest dihedral angle, degrees", lambda r, w: r["quality"]["min_dihedral_deg"], "{:.1f}", False)
+    line("under 12 degrees, per million", lambda r, w: r["quality"]["bad_per_million"], "{:.1f}", False)
+    hashes = {result["mesh_hash"] for result in runs.values()}
+    print(f"| mesh hash | {' | '.join(result['mesh_hash'] for result in runs.values())} | "
+          f"{'same' if len(hashes) == 1 else '**DIFFERENT**'} |")
+
+
+def print_others(rows, runs):
+    one = runs[min(runs)]
+    own = rate(one["elements"], total(one, ["meshing"]))
+    print("\n| one core | elements | meshing, s | elements/s | largest process, GiB | dovetail's rate over it |")
+    print("|---|--:|--:|--:|--:|--:|")
+    print(f"| dovetail, meshing | {one['elements']:,} | {total(one, ['meshing']):.2f} | {own:,.0f} "
+          f"| {one['peak'] / GIB:.2f} | 1.00 |")
+    for name, outcome in rows:
+        if isinstance(outcome, str):
+            print(f"| {name} | {outcome} | | | | |")
+        else:
+            elements, seconds, peak = outcome
+            print(f"| {name} | {elements:,} | {seconds:.2f} | {rate(elements, seconds):,.0f} | {peak / GIB:.2f} "
+                  f"| {own / rate(elements, seconds):.2f} |")
+
+
+def measure_others(options, build, size, out, folder):
+    yield "TetGen alone, same boundary", lambda: tetgen_alone(build, size, out, options.limit)
+    gmsh = shutil.which("gmsh")
+    for algorithm in ("hxt", "del3d") if gmsh else ():
+        def measure(algorithm=algorithm):
+            elements, seconds, _, peak = run_gmsh(gmsh, algorithm, options.model, size, folder, options.limit)
+            return elements, seconds, peak
+        yield f"gmsh -3 -algo {algorithm}, same model and size", measure
+
+
+def tetgen_alone(build, size, out, limit):
+    program = os.path.join(build, "benchmarks", "tetgen_alone")
+    text, _, _ = run([program, os.path.join(out, "mesh.pvtu"), repr(size)], limit)
+    result = json.loads(text.strip().splitlines()[-1])
+    return result["elements"], result["seconds"], result["peak_gib"] * GIB
+
+
+def attempt(measure):
+    try:
+        return measure()
+    except Failure as failure:
+        return str(failure).replace("\n", " ").replace("|", "/")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", help="build folder")
+    parser.add_argument("model", help="CAD file")
+    parser.add_argument("--elements", type=float, default=5e6)
+    parser.add_argument("--size", type=float, help="instead of --elements")
+    parser.add_argument("--workers", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
+    parser.add_argument("--alone", action="store_true", help="leave TetGen and Gmsh out")
+    parser.add_argument("driver_options", nargs="*", help="after --: more options of `dovetail mesh`")
+    options = parser.parse_args()
+    driver = os.path.join(options.build, "app", "dovetail")
+    with tempfile.TemporaryDirectory(prefix="dovetail_pipeline_") as folder:
+        size = options.size or find_size(driver, options.model, options.elements, folder, options.limit)
+        out = os.path.join(folder, "out")
+        print(f"`{os.path.basename(options.model)}`, uniform size {size:g}\n", flush=True)
+        runs = {w: run_dovetail(driver, options.model, size, w, out, options) for w in options.workers}
+        print_dovetail(runs)
+        sys.stdout.flush()
+        if not options.alone:
+            print_others([(name, attempt(measure))
+                          for name, measure in measure_others(options, options.build, size, out, folder)], runs)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Failure as problem:
+        sys.exit(f"pipeline.py: {problem}")
