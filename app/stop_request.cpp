@@ -17,6 +17,7 @@ void note_request(int signal_number) {
 void catch_stop_signals() {
   std::signal(SIGINT, note_request);
   std::signal(SIGTERM, note_request);
+  std::signal(SIGXFSZ, SIG_IGN); // a limit to the size of files is then an error like a full disk
 }
 
 bool stop_was_requested() {

@@ -1,0 +1,124 @@
+#!/bin/bash
+# Whole runs on a small model: files, figures, the same mesh whatever the workers, interruption and resumption.
+#   check_runs.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+limit=300
+
+# The unit cube as triangles.
+{
+  echo "OFF"
+  echo "8 12 0"
+  printf '%s\n' "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
+  printf '3 %s\n' "0 2 1" "0 3 2" "4 5 6" "4 6 7" "0 1 5" "0 5 4" "2 3 7" "2 7 6" "1 2 6" "1 6 5" "0 4 7" "0 7 3"
+} >"$inputs/cube.off"
+
+figure() { # key of the report
+  sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
+}
+mesh() { expect_success mesh "$inputs/cube.off" --report report.json "$@"; }
+
+# A run, its files and its figures.
+mesh --size 0.08 --subdomains 4 --workers 2
+hash=$(figure mesh_hash)
+elements=$(figure elements)
+((elements > 10000 && elements < 60000)) || fault "$elements elements"
+[[ $(figure subdomains) == 4 ]] || fault "$(figure subdomains) subdomains"
+[[ $(figure failed_subdomains) == 0 ]] || fault "failed subdomains"
+[[ $hash =~ ^[0-9a-f]{16}$ ]] || fault "the hash is '$hash'"
+(cd "$sandbox/work/out" && ls) >"$sandbox/listing"
+diff "$sandbox/listing" - <<<$'interfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||
+  fault "other files than expected"
+cp -r "$sandbox/work/out" "$inputs/mesh"
+
+# The mesh is one, by our own checker, and the statistics of the file are those of the report.
+expect_success check "$inputs/mesh"
+grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "the checker counts otherwise"
+expect_success stats "$inputs/mesh/mesh.pvtu" --report report.json
+[[ $(figure elements) == "$elements" ]] || fault "stats counts $(figure elements) elements, not $elements"
+
+# The same mesh by one worker, without workers, and in other files.
+mesh --size 0.08 --subdomains 4 --workers 1 --format none
+[[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh by one worker"
+[[ ! -e $sandbox/work/out ]] || fault "an empty folder is left"
+mesh --size 0.08 --subdomains 4 --executor serial --format msh,msh-partitioned
+[[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh without workers"
+for file in mesh mesh_partitioned; do
+  cp "$sandbox/work/out/$file.msh" "$inputs"
+done
+for file in mesh mesh_partitioned; do
+  expect_success check "$inputs/$file.msh"
+  grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "$file.msh has other counts"
+done
+
+# Every policy that has a name works.
+mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --pieces 1 --quiet
+[[ ! -s $sandbox/stdout && ! -s $sandbox/stderr ]] || fault "not quiet"
+[[ $(cd "$sandbox/work/out" && echo mesh_*.vtu) == mesh_0000.vtu ]] || fault "more than one piece"
+
+# Improving keeps a mesh valid.
+expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
+cp "$sandbox/work/better.vtu" "$inputs"
+expect_success check "$inputs/better.vtu"
+expect_success plan "$inputs/cube.off" --size 0.08
+grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no prediction"
+
+# Killed, interrupted, resumed: the same mesh as in one go. Twice as many pieces as can be finished at once.
+long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 12 --workers 1 --format none --report report.json)
+expect_success "${long[@]}"
+hash=$(figure mesh_hash)
+
+interrupt() { # signal
+  what="dovetail ${long[*]}, then SIG$1"
+  rm -rf "$sandbox/work"
+  mkdir "$sandbox/work"
+  cd "$sandbox/work" || exit 1
+  "$driver" "${long[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null &
+  local process=$!
+  for ((tenths = 0; tenths < 10 * limit; ++tenths)); do
+    compgen -G "out/spool/piece_*" >/dev/null && break
+    sleep 0.1
+  done
+  kill -"$1" $process
+  wait $process 2>/dev/null
+  status=$?
+  cd "$OLDPWD" || exit 1
+  compgen -G "$sandbox/work/out/spool/piece_*" >/dev/null || fault "no finished pieces are kept"
+}
+resume() {
+  what="dovetail ${long[*]} --resume"
+  (cd "$sandbox/work" && timeout $limit "$driver" "${long[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr")
+  status=$?
+  ((status == 0)) || fault "exit code is $status"
+  [[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh than in one go"
+  [[ ! -e $sandbox/work/out/spool ]] || fault "the spool is left"
+}
+
+interrupt KILL
+resume
+interrupt INT
+((status == 130)) || fault "exit code after Ctrl-C is $status"
+grep -q -- "--resume" "$sandbox/stderr" || fault "nothing is said about --resume"
+[[ ! -e $sandbox/work/report.json ]] || fault "a report of half a run"
+
+# Another run cannot be resumed, and says what differs; the pieces stay for the right one.
+what="resuming with another size"
+(cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --size 0.03 --subdomains 12 --resume) \
+  >"$sandbox/stdout" 2>"$sandbox/stderr"
+status=$?
+((status == 1)) || fault "exit code is $status"
+grep -q "cannot be resumed.*sizes" "$sandbox/stderr" || fault "the difference is not named"
+resume
+expect_error "no run to resume" mesh "$inputs/cube.off" --size 0.2 --resume
+
+# A file that may not grow any further is like a full disk.
+what="a limit to the size of files"
+rm -rf "$sandbox/work"
+mkdir "$sandbox/work"
+(cd "$sandbox/work" && ulimit -f 64 && "$driver" mesh "$inputs/cube.off" --size 0.05 --subdomains 2) \
+  >"$sandbox/stdout" 2>"$sandbox/stderr"
+status=$?
+((status == 1)) || fault "exit code is $status"
+(($(grep -c '^dovetail: ' "$sandbox/stderr") == 1)) || fault "not one line of complaint"
+[[ -z $(find "$sandbox/work" -name '*.vtu' -o -name '*.pvtu' -o -name '*.part') ]] || fault "half a mesh is left"
+finish
