@@ -227,7 +227,7 @@ private:
     result_.failures = std::move(pending_);
     if (options_.failure_folder.empty() || result_.failures.empty())
       return;
-    io::make_folder(options_.failure_folder);
+    make_folder(options_.failure_folder);
     for (piece_failure& failure : result_.failures) {
       failure.facets =
           options_.failure_folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");

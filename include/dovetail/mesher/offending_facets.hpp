@@ -2,7 +2,7 @@
 /// A file that shows why a boundary could not be meshed.
 #pragma once
 
-#include "dovetail/io/output_file.hpp"
+#include "dovetail/core/output_file.hpp"
 #include "dovetail/mesh/crossing_triangles.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
@@ -42,7 +42,7 @@ inline void write_facets(const simplicial_mesh<2>& boundary, const std::vector<l
         n = static_cast<local_id>(points.size());
         points.push_back(boundary.points[static_cast<std::size_t>(v)]);
       }
-  io::output_file file(path);
+  output_file file(path);
   const auto row = [&](const auto&... numbers) {
     const char* separator = "";
     ((file.text(separator), file.number(numbers), separator = " "), ...);

@@ -6,7 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/version.hpp"
-#include "dovetail/io/output_file.hpp"
+#include "dovetail/core/output_file.hpp"
 
 #include <array>
 #include <cstddef>
@@ -36,12 +36,12 @@ public:
   /// Starts a spool: makes the folder, removes what an earlier run left in it, writes the manifest. Throws
   /// `io_error` when the folder cannot be written.
   static spool start(const std::filesystem::path& folder, const run_identity& identity) {
-    io::make_folder(folder);
+    make_folder(folder);
     for (const auto& old : std::filesystem::directory_iterator(folder))
       if (const auto suffix = old.path().extension(); suffix == blob_suffix || suffix == ".part")
         std::filesystem::remove(old.path());
     const std::string manifest = manifest_text(identity);
-    io::output_file file(folder / manifest_name);
+    output_file file(folder / manifest_name);
     file.text(manifest);
     file.commit();
     return {folder, manifest};
@@ -69,7 +69,7 @@ public:
   /// Stores a blob, replacing an earlier one at once. Throws `io_error`, for example when the disk is full,
   /// and then leaves nothing under the name.
   void write(std::string_view name, const byte_buffer& blob) const {
-    io::output_file file(path_of(name));
+    output_file file(path_of(name));
     file.value(header{magic, blob.size(), checksum(name, blob)});
     file.bytes(blob.data(), blob.size());
     file.commit();
