@@ -11,6 +11,10 @@
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/metis.hpp"
 
+#ifdef DOVETAIL_DRIVER_WITH_GMSH
+#include "dovetail/mesher/gmsh_hxt.hpp"
+#endif
+
 #include <algorithm>
 #include <thread>
 
@@ -43,7 +47,11 @@ std::vector<any_partitioner> partitioners() {
 }
 
 std::vector<any_mesher> meshers() {
-  return {{"tetgen", mesher::tetgen{}}};
+  std::vector<any_mesher> known{{"tetgen", mesher::tetgen{}}};
+#ifdef DOVETAIL_DRIVER_WITH_GMSH
+  known.emplace_back("hxt", mesher::gmsh_hxt{});
+#endif
+  return known;
 }
 
 std::vector<any_improver> improvers() {
