@@ -200,7 +200,7 @@ background_result make_background(const G& model, const H& size, const Parameter
   auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
   options.on_progress("background volume", 0, 0);
   auto volume = background::coarse_volume(
-      surface.surface, model.topology(), coarse, given.mesh_it, improvement::native::hard(), given.run_tasks,
+      surface.surface, model.topology(), coarse, given.mesh_it, options.background_improver, given.run_tasks,
       {.failure_folder = options.failure_folder, .limit_seconds = options.limit_seconds});
   result.mesh = {std::move(surface.surface), std::move(volume.mesh)};
   result.summary.set("predicted_elements", result.plan.predicted_elements);
