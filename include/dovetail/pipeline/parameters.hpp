@@ -42,7 +42,6 @@ struct generate_options {
   /// Makes the coarse elements good, so that clean interfaces are found everywhere. Raising all angles to 32
   /// degrees takes a tenth of the time of `native::hard()`, for the same interfaces.
   improvement::native background_improver{.target_angle = 32};
-  improvement::native::hard(); ///< the better, the cleaner the interfaces
   remesh::patch_remesher surface_remesher = {};
   progress on_progress = {};
 };
