@@ -48,6 +48,13 @@ public:
       fallbacks_.push_back(any_mesher(name_, ladder[rung], no_fallbacks{}));
   }
 
+  /// The same with another mesher as the last rung of the ladder, for pieces that this one cannot mesh.
+  any_mesher with_fallback(any_mesher other) const {
+    any_mesher extended = *this;
+    extended.fallbacks_.push_back(std::move(other));
+    return extended;
+  }
+
   const std::string& name() const { return name_; }
   const mesher_traits& actual_traits() const { return actual_traits_; }
   std::vector<any_mesher> fallbacks() const { return fallbacks_; }

@@ -49,7 +49,8 @@ std::vector<any_partitioner> partitioners() {
 std::vector<any_mesher> meshers() {
   std::vector<any_mesher> known{{"tetgen", mesher::tetgen{}}};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  known.emplace_back("hxt", mesher::gmsh_hxt{});
+  // HXT fails on some boundaries that TetGen meshes, such as two parts that touch in an edge.
+  known.push_back(any_mesher("hxt", mesher::gmsh_hxt{}).with_fallback(known.front()));
 #endif
   return known;
 }

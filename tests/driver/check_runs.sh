@@ -25,7 +25,7 @@ elements=$(figure elements)
 ((elements > 10000 && elements < 60000)) || fault "$elements elements"
 [[ $(figure subdomains) == 4 ]] || fault "$(figure subdomains) subdomains"
 [[ $(figure failed_subdomains) == 0 ]] || fault "failed subdomains"
-[[ $hash =~ ^[0-9a-f]{16}$ ]] || fault "the hash is '$hash'"
+[[ $hash =~ ^[0-9a-f]{16}$ && ! $hash =~ ^0*$ ]] || fault "the hash is '$hash'"
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
 diff "$sandbox/listing" - <<<$'interfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||
   fault "other files than expected"

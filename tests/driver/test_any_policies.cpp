@@ -31,6 +31,26 @@ TEST_CASE("a held mesher passes on its input and its traits") {
   CHECK(result.mesh.tags == std::vector<local_id>{7});
 }
 
+TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks added") {
+  struct climbing : archetype::mesher {
+    explicit climbing(int at) : archetype::mesher(0), rung(at) {}
+    climbing(const climbing&) = default;
+    std::vector<climbing> fallbacks() const { return {climbing(1), climbing(2)}; }
+    mesher_result<3> operator()(const mesher_input<3>&, const any_sizing&) const {
+      mesher_result<3> result;
+      result.mesh.tags = {rung};
+      return result;
+    }
+    int rung;
+  };
+  const auto held = any_mesher("climbing", climbing(0)).with_fallback({"archetype", archetype::mesher(0)});
+  const auto ladder = ladder_of(held);
+  REQUIRE(ladder.size() == 4);
+  for (int rung = 0; rung < 3; ++rung)
+    CHECK(ladder[static_cast<std::size_t>(rung)]({}, {}).mesh.tags == std::vector<local_id>{rung});
+  CHECK(ladder[3].name() == "archetype");
+}
+
 TEST_CASE("a held improver works on the caller's mesh") {
   struct marking {
     report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {

@@ -5,8 +5,8 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
-#include "dovetail/core/version.hpp"
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/version.hpp"
 
 #include <array>
 #include <cstddef>
