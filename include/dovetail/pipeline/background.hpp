@@ -144,10 +144,11 @@ mesh_plan plan_mesh(const simplicial_mesh<2>& surface, const H& size, const gene
   plan.relative_error = predicted.relative_error;
   plan.subdomains =
       options.subdomains > 0 ? options.subdomains : detail::default_subdomains(predicted.elements, options);
-  const double per_coarse_element =
-      predicted.elements / (plan.subdomains * options.background_elements_per_subdomain);
-  plan.coarse_scale =
-      options.coarse_scale > 0 ? options.coarse_scale : std::max(1.5, std::cbrt(per_coarse_element));
+  const double coarse_elements = std::max(plan.subdomains * options.background_elements_per_subdomain,
+                                          std::min(options.background_elements, predicted.elements / 4));
+  plan.coarse_scale = options.coarse_scale > 0
+                          ? options.coarse_scale
+                          : std::max(1.5, std::cbrt(predicted.elements / coarse_elements));
   return plan;
 }
 
@@ -201,7 +202,9 @@ background_result make_background(const G& model, const H& size, const Parameter
   options.on_progress("background volume", 0, 0);
   auto volume = background::coarse_volume(
       surface.surface, model.topology(), coarse, given.mesh_it, options.background_improver, given.run_tasks,
-      {.failure_folder = options.failure_folder, .limit_seconds = options.limit_seconds});
+      {.failure_folder = options.failure_folder,
+       .limit_seconds = options.limit_seconds,
+       .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
   result.mesh = {std::move(surface.surface), std::move(volume.mesh)};
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
