@@ -8,6 +8,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/run_task.hpp"
 #include "dovetail/partition/concepts.hpp"
 
 #include <functional>
@@ -99,7 +100,7 @@ class any_executor {
 public:
   template <executor E>
   any_executor(std::string name, E policy)
-      : name_(std::move(name)), workers_(policy.workers()),
+      : name_(std::move(name)), workers_(policy.workers()), in_threads_(runs_in_threads(policy)),
         run_([held = std::make_shared<const E>(std::move(policy))](
                  std::size_t count, const task_function& task, const run_options& options) {
           return held->run(count, task, options);
@@ -107,6 +108,7 @@ public:
 
   const std::string& name() const { return name_; }
   int workers() const { return workers_; }
+  bool shares_process() const { return in_threads_; }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
     return run_(count, task, options);
@@ -115,6 +117,7 @@ public:
 private:
   std::string name_;
   int workers_;
+  bool in_threads_;
   std::function<std::vector<task_outcome>(std::size_t, const task_function&, const run_options&)> run_;
 };
 static_assert(executor<any_executor>);
