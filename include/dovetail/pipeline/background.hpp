@@ -145,7 +145,7 @@ mesh_plan plan_mesh(const simplicial_mesh<2>& surface, const H& size, const gene
   plan.subdomains =
       options.subdomains > 0 ? options.subdomains : detail::default_subdomains(predicted.elements, options);
   const double coarse_elements = std::max(plan.subdomains * options.background_elements_per_subdomain,
-                                          std::min(options.background_elements, predicted.elements / 4));
+                                          std::min(options.background_elements, predicted.elements / 10));
   plan.coarse_scale = options.coarse_scale > 0
                           ? options.coarse_scale
                           : std::max(1.5, std::cbrt(predicted.elements / coarse_elements));

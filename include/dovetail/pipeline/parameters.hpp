@@ -27,7 +27,7 @@ struct generate_options {
   double elements_per_subdomain = 31250;
   double many_elements = 1e6;
   /// Elements of the background mesh: at least so many per subdomain, and about `background_elements` where
-  /// that is no more than a quarter of the final mesh. From there on the simplification hardly refuses
+  /// that is no more than a tenth of the final mesh. From there on the simplification hardly refuses
   /// anything.
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
