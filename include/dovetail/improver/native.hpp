@@ -134,6 +134,7 @@ private:
     limits.target = std::min(limits.target, static_cast<float>(Measure::from_angle(stubborn_angle)));
     limits.search.iterations *= 2;
     limits.insertion = {.growth = 30, .patience = 12};
+    limits.hard_share = 0.02; // where they are not few, they are beyond help
     plan.set_limits(limits);
     plan.run();
     plan.log().write_to(result);

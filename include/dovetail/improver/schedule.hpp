@@ -8,6 +8,8 @@
 #include "dovetail/improver/vertex_insertion.hpp"
 #include "dovetail/improver/vertex_smoothing.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct schedule_limits {
   int passes = 8;           ///< sweeps over the poor elements
   double least_gain = 0.02; ///< two sweeps in a row that mend a smaller part of what is lacking are the last
   int hard_passes = 8;      ///< sweeps in which vertices are inserted and removed as well
+  double hard_share = 0.1;  ///< such a sweep tries this part of the elements, the worst, and at least 200
   insertion_limits insertion = {};
   apex_search_limits search = {};
   size_band band = {};
@@ -31,8 +34,11 @@ public:
   /// Changes the limits of later runs.
   void set_limits(const schedule_limits& limits) { limits_ = limits; }
   void run() {
-    sweep_until_settled(limits_.passes, [this](local_id e) { return mend(e); });
-    sweep_until_settled(limits_.hard_passes, [this](local_id e) { return mend_hard(e); });
+    const auto all = static_cast<std::size_t>(mesh_.element_slots());
+    const auto few =
+        std::max<std::size_t>(200, static_cast<std::size_t>(limits_.hard_share * static_cast<double>(all)));
+    sweep_until_settled(limits_.passes, all, [this](local_id e) { return mend(e); });
+    sweep_until_settled(limits_.hard_passes, few, [this](local_id e) { return mend_hard(e); });
   }
   const operation_log& log() const { return log_; }
   int passes() const { return passes_; }
@@ -65,12 +71,25 @@ private:
       }
     return deficit;
   }
+  /// Thin parts have nothing but poor elements, most of them beyond help: trying all would take minutes.
+  void keep_worst(std::size_t at_most) {
+    if (poor_.size() <= at_most)
+      return;
+    const auto worse = [&](local_id a, local_id b) {
+      return mesh_.value(a) != mesh_.value(b) ? mesh_.value(a) < mesh_.value(b) : a < b;
+    };
+    const auto last = poor_.begin() + static_cast<std::ptrdiff_t>(at_most);
+    std::nth_element(poor_.begin(), last, poor_.end(), worse);
+    poor_.erase(last, poor_.end());
+    std::sort(poor_.begin(), poor_.end());
+  }
   /// Sweeps over the poor elements until two sweeps in a row did not pay.
   template <class Mend>
-  void sweep_until_settled(int passes, const Mend& mend_one) {
+  void sweep_until_settled(int passes, std::size_t at_most, const Mend& mend_one) {
     failed_at_.clear();
     double deficit = collect_poor();
     for (int pass = 0, idle = 0; pass < passes && idle < 2 && !poor_.empty(); ++pass) {
+      keep_worst(at_most);
       for (const local_id e : poor_)
         if (is_poor(e) && !is_settled(e) && !mend_one(e))
           settle(e);
