@@ -160,6 +160,33 @@ TEST_CASE("points lie on the CAD entities that they are said to lie on") {
   CHECK(on_cylinder > 50);
 }
 
+namespace {
+
+/// Fails on the piece at the block's corner as long as it is small.
+struct fails_on_a_small_corner {
+  static constexpr mesher_traits traits = mesher::tetgen::traits;
+
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    const auto& points = input.boundary.points;
+    const bool has_corner = std::find(points.begin(), points.end(), vec3{0, 0, 0}) != points.end();
+    if (has_corner && enclosed_volume(points, input.boundary.elements) < 0.25 * 2.6)
+      throw mesher_error("the corner piece is too small for this mesher");
+    return mesher::tetgen{}(input, size);
+  }
+};
+
+} // namespace
+
+TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
+  const auto result =
+      generate<3>(occt_shape_from(drilled_block()).model, uniform_size(0.15),
+                  parameters<>{}.with_mesher(fails_on_a_small_corner{}).with_options(in_parts(6)));
+  require_valid(result);
+  CHECK(result.mesh.counts.size() < 6);
+  CHECK(result.summary.children.back().get("merged_after_failure") >= 1);
+  CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
+}
+
 TEST_CASE("sizes that make no sense are refused") {
   CHECK_THROWS_AS(mesh_shape(drilled_block(), 50, in_parts(2)), sizing_error);
 }

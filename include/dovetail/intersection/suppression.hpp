@@ -70,34 +70,4 @@ suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vect
   return plan;
 }
 
-/// Merges subdomains of a decomposition in place and numbers them without gaps, in order of their smallest
-/// member. `sizes` holds, per subdomain, how many original ones it is made of, before and after.
-inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::vector<local_id>& sizes,
-                             const std::vector<std::array<local_id, 2>>& merges) {
-  std::vector<local_id> root(sizes.size());
-  std::iota(root.begin(), root.end(), local_id{0});
-  const auto find = [&](local_id s) {
-    while (root[static_cast<std::size_t>(s)] != s)
-      s = root[static_cast<std::size_t>(s)];
-    return static_cast<std::size_t>(s);
-  };
-  for (const auto& [a, b] : merges) {
-    const std::size_t ra = find(a), rb = find(b);
-    root[std::max(ra, rb)] = static_cast<local_id>(std::min(ra, rb));
-  }
-  std::vector<local_id> number(sizes.size(), no_id), merged_sizes;
-  for (std::size_t s = 0; s < sizes.size(); ++s) {
-    const std::size_t r = find(static_cast<local_id>(s));
-    if (number[r] == no_id) { // the root is the smallest member, so it comes first
-      number[r] = static_cast<local_id>(merged_sizes.size());
-      merged_sizes.push_back(0);
-    }
-    number[s] = number[r];
-    merged_sizes[static_cast<std::size_t>(number[s])] += sizes[s];
-  }
-  for (local_id& s : subdomain_of_element)
-    s = number[static_cast<std::size_t>(s)];
-  sizes = std::move(merged_sizes);
-}
-
 } // namespace dovetail

@@ -31,9 +31,11 @@ using subdomain_source = std::function<subdomain_input(local_id)>;
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
-  /// Finished pieces go here as "piece_<subdomain>"; those that are there already are not made again. Without
-  /// a spool they are kept in memory.
+  /// Finished pieces go here as "<store_prefix>piece_<subdomain>"; those that are there already are not made
+  /// again. Without a spool they are kept in memory.
   std::optional<spool> store = std::nullopt;
+  /// Tells decompositions apart that share a spool, since the same number means another subdomain in each.
+  std::string store_prefix = {};
   /// Where the offending facets of failed subdomains are written, as OFF files; empty: nowhere.
   std::filesystem::path failure_folder = {};
   double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
@@ -63,17 +65,17 @@ namespace detail {
 /// Finished pieces, in the spool or in memory.
 class piece_shelf {
 public:
-  piece_shelf(std::size_t count, std::optional<spool> store)
-      : in_memory_(store ? 0 : count), store_(std::move(store)) {}
+  piece_shelf(std::size_t count, const meshing_options& options)
+      : in_memory_(options.store ? 0 : count), store_(options.store), prefix_(options.store_prefix) {}
 
   /// Worker side: what is left to send back after storing. Empty `found` means that nothing is stored yet.
   std::optional<byte_buffer> find(local_id subdomain) const {
-    return store_ ? store_->read(piece_name(subdomain)) : std::nullopt;
+    return store_ ? store_->read(name_of(subdomain)) : std::nullopt;
   }
   byte_buffer store(local_id subdomain, byte_buffer finished) const {
     if (!store_)
       return finished;
-    store_->write(piece_name(subdomain), finished);
+    store_->write(name_of(subdomain), finished);
     return receipt(finished);
   }
   /// In place of a piece that is in the spool, only its summary travels to the parent.
@@ -91,16 +93,19 @@ public:
   mesh_piece load(local_id subdomain) const {
     if (!store_)
       return piece_of(in_memory_.at(static_cast<std::size_t>(subdomain)));
-    const auto finished = store_->read(piece_name(subdomain));
+    const auto finished = store_->read(name_of(subdomain));
     if (!finished)
-      throw io_error(store_->path_of(piece_name(subdomain)).string() +
+      throw io_error(store_->path_of(name_of(subdomain)).string() +
                      " is missing or damaged; resume the run to make it again");
     return piece_of(*finished);
   }
 
 private:
+  std::string name_of(local_id subdomain) const { return prefix_ + piece_name(subdomain); }
+
   std::vector<byte_buffer> in_memory_;
   std::optional<spool> store_;
+  std::string prefix_;
 };
 
 /// Errors that no other rung can mend travel beside the result, and are thrown again by the parent.
@@ -113,7 +118,7 @@ public:
   subdomain_rounds(std::size_t count, const subdomain_source& source, const M& mesh_it, const I& improve,
                    const any_sizing& size, const E& run_tasks, const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
-        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf>(count, options.store)) {
+        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf>(count, options)) {
     result_.pieces.resize(count);
     pending_.resize(count);
     for (std::size_t s = 0; s < count; ++s)

@@ -82,7 +82,7 @@ inline std::vector<double> weights_of_subdomains(const realized_skeleton& skelet
 }
 
 template <class Parameters>
-meshing_result mesh_all_subdomains(const realized_skeleton& skeleton, std::vector<double> costs,
+meshing_result mesh_all_subdomains(const realized_skeleton& skeleton, std::vector<double> costs, int attempt,
                                    const Parameters& given) {
   const std::size_t count = skeleton.material_of_subdomain.size();
   const auto sorted = sort_by_subdomain(skeleton.fine, count);
@@ -97,11 +97,46 @@ meshing_result mesh_all_subdomains(const realized_skeleton& skeleton, std::vecto
   meshing_options options;
   options.predicted_cost = std::move(costs);
   options.store = given.options.store;
+  options.store_prefix = attempt == 0 ? "" : "merged_" + std::to_string(attempt) + "_";
   options.failure_folder = given.options.failure_folder;
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;
   return mesh_subdomains(count, source, given.mesh_it, given.improve_it, skeleton.size, given.run_tasks,
                          options);
+}
+
+/// A skeleton and the mesh inside it.
+struct meshed_skeleton {
+  realized_skeleton skeleton;
+  meshing_result meshed;
+};
+
+/// Realizes a decomposition and meshes its subdomains. What no rung of the mesher's ladder can mesh is merged
+/// with a neighbour and all is done again, until nothing fails or nothing can be merged.
+template <geometry_model G, class Parameters>
+meshed_skeleton realize_and_mesh(const G& model, const background_mesh& mesh, const side_table<3>& sides,
+                                 std::span<const side_state> side_states, decomposition pieces,
+                                 std::span<const double> weights, const any_sizing& size,
+                                 const Parameters& given) {
+  std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
+  for (int attempt = 0;; ++attempt) {
+    meshed_skeleton result;
+    result.skeleton = realize(model, mesh, sides, side_states, pieces.part_of_element,
+                              static_cast<local_id>(sizes.size()), size, given);
+    result.meshed =
+        mesh_all_subdomains(result.skeleton, weights_of_subdomains(result.skeleton, weights), attempt, given);
+    std::vector<local_id> failed;
+    for (const piece_failure& failure : result.meshed.failures)
+      failed.push_back(failure.subdomain);
+    const auto merges = merges_of_failed(result.skeleton.fine, failed);
+    result.meshed.summary.set("merged_after_failure",
+                              static_cast<double>(pieces.parts) - static_cast<double>(sizes.size()));
+    if (merges.empty())
+      return result;
+    pieces.part_of_element = result.skeleton.subdomain_of_element;
+    sizes.assign(result.skeleton.material_of_subdomain.size(), 1);
+    merge_subdomains(pieces.part_of_element, sizes, merges);
+  }
 }
 
 template <geometry_model G>
@@ -161,21 +196,19 @@ generate_result generate(const G& model, const H& size, const Parameters& given)
       coarse, sides, simplified.side_states, pieces.part_of_element, options.interface_angle_deg);
   pieces.summary.seconds = partition_clock.seconds();
 
-  auto skeleton = realize(model, coarse, sides, simplified.side_states, std::move(pieces.part_of_element),
-                          pieces.parts, any_sizing(size), given);
+  report partition_summary = pieces.summary;
+  auto [skeleton, meshed] = detail::realize_and_mesh(model, coarse, sides, simplified.side_states,
+                                                     std::move(pieces), weights, keep_bounds(size), given);
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_contract = check_interface_contract(
       {skeleton.fine.points, skeleton.fine.triangles, skeleton.fine.subdomains, skeleton.origins},
       options.interface_angle_deg);
-
-  auto meshed =
-      detail::mesh_all_subdomains(skeleton, detail::weights_of_subdomains(skeleton, weights), given);
   result.quality = meshed.quality;
   result.mesh = detail::assemble_mesh(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);
   result.summary.children = {std::move(background.summary),
                              std::move(simplification_summary),
-                             std::move(pieces.summary),
+                             std::move(partition_summary),
                              std::move(skeleton.skeleton_summary),
                              std::move(skeleton.intersection_summary),
                              std::move(meshed.summary)};

@@ -5,6 +5,7 @@
 
 #include "dovetail/decomposition/interface_contract.hpp"
 #include "dovetail/intersection/suppression.hpp"
+#include "dovetail/mesh/merge_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 

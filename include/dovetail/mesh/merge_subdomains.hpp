@@ -1,0 +1,76 @@
+/// @file
+/// Merges subdomains: where their interfaces cross the surface, or where a mesher fails.
+#pragma once
+
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <vector>
+
+namespace dovetail {
+
+/// Merges subdomains of a decomposition in place and numbers them without gaps, in order of their smallest
+/// member. `sizes` holds, per subdomain, how many original ones it is made of, before and after.
+inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::vector<local_id>& sizes,
+                             const std::vector<std::array<local_id, 2>>& merges) {
+  std::vector<local_id> root(sizes.size());
+  std::iota(root.begin(), root.end(), local_id{0});
+  const auto find = [&](local_id s) {
+    while (root[static_cast<std::size_t>(s)] != s)
+      s = root[static_cast<std::size_t>(s)];
+    return static_cast<std::size_t>(s);
+  };
+  for (const auto& [a, b] : merges) {
+    const std::size_t ra = find(a), rb = find(b);
+    root[std::max(ra, rb)] = static_cast<local_id>(std::min(ra, rb));
+  }
+  std::vector<local_id> number(sizes.size(), no_id), merged_sizes;
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    const std::size_t r = find(static_cast<local_id>(s));
+    if (number[r] == no_id) { // the root is the smallest member, so it comes first
+      number[r] = static_cast<local_id>(merged_sizes.size());
+      merged_sizes.push_back(0);
+    }
+    number[s] = number[r];
+    merged_sizes[static_cast<std::size_t>(number[s])] += sizes[s];
+  }
+  for (local_id& s : subdomain_of_element)
+    s = number[static_cast<std::size_t>(s)];
+  sizes = std::move(merged_sizes);
+}
+
+/// The neighbours that failed subdomains are merged with: of the same material, across the largest shared
+/// interface by area, ties to the smaller number. A subdomain without such a neighbour is left out. Linear.
+inline std::vector<std::array<local_id, 2>> merges_of_failed(const fine_skeleton& skeleton,
+                                                             const std::vector<local_id>& failed) {
+  std::map<std::array<local_id, 2>, double> shared_area; // {failed, neighbour}
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+    if (skeleton.cad_faces[t] != no_id)
+      continue;
+    const auto at = [&](std::size_t k) {
+      return skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][k])];
+    };
+    const double area = 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+    const auto [a, b] = skeleton.subdomains[t];
+    shared_area[{a, b}] += area;
+    shared_area[{b, a}] += area;
+  }
+  std::vector<std::array<local_id, 2>> merges;
+  for (const local_id s : failed) {
+    local_id best = no_id;
+    double largest = 0;
+    for (auto it = shared_area.lower_bound({s, 0}); it != shared_area.end() && it->first[0] == s; ++it)
+      if (it->second > largest) {
+        largest = it->second;
+        best = it->first[1];
+      }
+    if (best != no_id)
+      merges.push_back({std::min(s, best), std::max(s, best)});
+  }
+  return merges;
+}
+
+} // namespace dovetail
