@@ -95,7 +95,8 @@ void check_progress_and_stop(const E& executor) {
 
   run_options stopping;
   int asked = 0;
-  stopping.on_progress.stop_requested = [&] { return ++asked > 2; };
+  // Every executor reports the start and the end at least, however fast the tasks are.
+  stopping.on_progress.stop_requested = [&] { return ++asked > 1; };
   CHECK_THROWS_AS(executor.run(100000, task, stopping), cancelled);
 }
 
