@@ -124,8 +124,8 @@ TEST_CASE("the coarse size is bounded by scale, source radius and box, and never
   const source_field h(1.0, {point_source({0, 0, 0}, 0.5, 4.0, 0.1)});
   const box3 domain{{-50, -50, -50}, {50, 50, 50}};
   const coarse_size coarse(h, 30.0, domain);
-  CHECK(coarse({0, 0, 0}) == 0.25);
-  CHECK(coarse({2, 0, 0}) == 1.0);
+  CHECK(coarse({0, 0, 0}) == 0.5);
+  CHECK(coarse({2, 0, 0}) == 2.0);
   CHECK(coarse({20, 0, 0}) == doctest::Approx(std::sqrt(3.0) * 10));
   CHECK(coarse_size(h, 4.0, domain)({20, 0, 0}) == 4.0);
   CHECK(coarse_size(source_field(1.0, {point_source({}, 0.05, 4.0, 0.1)}), 30.0, domain)({}) == 0.1);

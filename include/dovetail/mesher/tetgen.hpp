@@ -80,9 +80,9 @@ class tetgen_sizing {
 public:
   tetgen_sizing(const any_sizing& size, double scale, std::size_t budget)
       : size_(size), scale_(scale), budget_(budget) {
-    current_ = this;
+    current = this;
   }
-  ~tetgen_sizing() { current_ = nullptr; }
+  ~tetgen_sizing() { current = nullptr; }
   tetgen_sizing(const tetgen_sizing&) = delete;
   tetgen_sizing& operator=(const tetgen_sizing&) = delete;
 
@@ -91,7 +91,7 @@ public:
   /// TetGen's signature: the four corners, and two arguments that it leaves empty.
   static bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
     const auto point = [](const REAL* p) { return vec3{p[0], p[1], p[2]}; };
-    return current_->too_large(point(a), point(b), point(c), point(d));
+    return current->too_large(point(a), point(b), point(c), point(d));
   }
 
 private:
@@ -106,7 +106,7 @@ private:
     return squares > 6 * h * h;
   }
 
-  inline static thread_local tetgen_sizing* current_ = nullptr;
+  inline static thread_local tetgen_sizing* current = nullptr;
   const any_sizing& size_;
   double scale_;
   std::size_t budget_;
