@@ -1,0 +1,123 @@
+/// @file
+/// Draws scenes of triangles and lines: flat shading, hidden parts by a depth per sample, smooth edges by
+/// several samples per pixel.
+#pragma once
+
+#include "dovetail/io/raster_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dovetail::io {
+
+namespace detail {
+
+/// A canvas of samples with depths.
+class raster_canvas {
+public:
+  raster_canvas(int width, int height, const raster_view& view, rgb background)
+      : image_(width, height, background), view_(view), scale_(height / view.height),
+        depths_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                -std::numeric_limits<float>::infinity()) {}
+
+  void draw(const raster_triangle& triangle) {
+    const auto& p = triangle.corners;
+    const vec3 normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
+    fill({on_canvas(p[0]), on_canvas(p[1]), on_canvas(p[2])}, darkened(triangle.colour, brightness(normal)));
+  }
+
+  /// A line is two triangles across the view, a little before its place so that the triangles it bounds do
+  /// not hide it.
+  void draw(const raster_line& line, double samples_per_pixel) {
+    vec3 a = on_canvas(line.ends[0]);
+    vec3 b = on_canvas(line.ends[1]);
+    a.z += line_lift * view_.height;
+    b.z += line_lift * view_.height;
+    const vec3 along = normalized({b.x - a.x, b.y - a.y, 0});
+    const vec3 aside = 0.5 * line.width * samples_per_pixel * vec3{-along.y, along.x, 0};
+    fill({a - aside, b - aside, b + aside}, line.colour);
+    fill({a - aside, b + aside, a + aside}, line.colour);
+  }
+
+  const raster_image& image() const { return image_; }
+
+private:
+  static constexpr double line_lift = 0.002; ///< of the picture's height
+  static constexpr double ambient = 0.5;     ///< brightness of what the light does not reach
+
+  /// x to the right and y down in samples; z towards the viewer in lengths.
+  vec3 on_canvas(vec3 p) const {
+    const vec3 d = p - view_.center;
+    return {0.5 * image_.width() + scale_ * dot(d, view_.right),
+            0.5 * image_.height() - scale_ * dot(d, view_.up), dot(d, view_.towards)};
+  }
+
+  /// The light comes from above, a little from the left; both sides of a triangle are alike.
+  double brightness(vec3 normal) const {
+    const vec3 light = normalized(0.8 * view_.towards + 0.9 * view_.up - 0.35 * view_.right);
+    const vec3 facing = dot(normal, view_.towards) < 0 ? -normal : normal;
+    return ambient + (1 - ambient) * std::max(0.0, dot(facing, light));
+  }
+
+  /// Colours the samples whose centers are in a triangle of canvas points and not hidden.
+  void fill(const std::array<vec3, 3>& p, rgb colour) {
+    const auto doubled_area = [](vec3 a, vec3 b, double x, double y) {
+      return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+    };
+    const double whole = doubled_area(p[0], p[1], p[2].x, p[2].y);
+    if (whole == 0)
+      return;
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+    const int first_x = static_cast<int>(std::max(0.0, std::ceil(left - 0.5)));
+    const int last_x = static_cast<int>(std::min(image_.width() - 1.0, std::floor(right - 0.5)));
+    const int first_y = static_cast<int>(std::max(0.0, std::ceil(top - 0.5)));
+    const int last_y = static_cast<int>(std::min(image_.height() - 1.0, std::floor(bottom - 0.5)));
+    for (int y = first_y; y <= last_y; ++y)
+      for (int x = first_x; x <= last_x; ++x) {
+        const double u = doubled_area(p[1], p[2], x + 0.5, y + 0.5) / whole;
+        const double v = doubled_area(p[2], p[0], x + 0.5, y + 0.5) / whole;
+        const double w = 1 - u - v;
+        if (u >= 0 && v >= 0 && w >= 0)
+          colour_sample(x, y, u * p[0].z + v * p[1].z + w * p[2].z, colour);
+      }
+  }
+
+  void colour_sample(int x, int y, double depth, rgb colour) {
+    float& nearest = depths_[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width()) +
+                             static_cast<std::size_t>(x)];
+    if (static_cast<float>(depth) <= nearest)
+      return;
+    nearest = static_cast<float>(depth);
+    image_.at(x, y) = colour;
+  }
+
+  raster_image image_;
+  raster_view view_;
+  double scale_; ///< samples per unit of length
+  std::vector<float> depths_;
+};
+
+} // namespace detail
+
+/// A picture of a scene. `samples` x `samples` samples make a pixel. Of things at the same depth the first
+/// drawn is seen: triangles before lines, each in their order. Time grows with the area of all triangles.
+/// Throws `usage_error` when a number of pixels or samples is not positive.
+inline raster_image render(const raster_scene& scene, const raster_view& view, int width, int height,
+                           int samples = 3) {
+  if (samples < 1)
+    throw usage_error("a picture with " + std::to_string(samples) + " samples a pixel; give at least 1");
+  detail::raster_canvas canvas(samples * width, samples * height, view, scene.background);
+  for (const auto& triangle : scene.triangles)
+    canvas.draw(triangle);
+  for (const auto& line : scene.lines)
+    canvas.draw(line, samples);
+  return samples == 1 ? canvas.image() : reduced(canvas.image(), samples);
+}
+
+} // namespace dovetail::io
