@@ -8,7 +8,7 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/remesh/corner_table.hpp"
+#include "dovetail/mesh/corner_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,8 @@
 /// flips in place of cavities.
 #pragma once
 
-#include "dovetail/remesh/edge_operations.hpp"
+#include "dovetail/mesh/surface_operations.hpp"
+#include "dovetail/remesh/patch_state.hpp"
 
 namespace dovetail::detail {
 

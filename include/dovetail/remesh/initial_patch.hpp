@@ -3,7 +3,8 @@
 /// edges split until none bridges a strongly curved part of the surface.
 #pragma once
 
-#include "dovetail/remesh/edge_operations.hpp"
+#include "dovetail/mesh/surface_operations.hpp"
+#include "dovetail/remesh/patch_state.hpp"
 
 #include <limits>
 #include <numeric>

@@ -7,10 +7,10 @@
 /// splits, flips and smoothing, all measured in 3-space.
 #pragma once
 
+#include "dovetail/mesh/surface_smoothing.hpp"
 #include "dovetail/remesh/frontal_fill.hpp"
 #include "dovetail/remesh/initial_patch.hpp"
 #include "dovetail/remesh/repeated_edges.hpp"
-#include "dovetail/remesh/smoothing.hpp"
 
 #include <limits>
 
@@ -125,8 +125,7 @@ private:
 
   /// Works on each triangle below 30 degrees by flips, moves, removal of a vertex and, at last, a split.
   template <class State>
-  std::size_t repair_worst(State& state, detail::flip_queue& flips,
-                           detail::smoother<std::remove_cvref_t<decltype(state.surface)>>& smooth) const {
+  std::size_t repair_worst(State& state, detail::flip_queue& flips, detail::smoother<State>& smooth) const {
     constexpr double thirty_degrees = 0.25;
     std::size_t improved = 0;
     const local_id slots = state.table.triangle_slots(); // triangles added on the way wait for the next round

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/mesh/triangle_shape.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/sizing/concepts.hpp"
@@ -14,35 +15,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace dovetail::detail {
-
-/// sin^2 of the smallest angle of a triangle; 0.75 when equilateral, 0 when degenerate.
-inline double shape_quality(vec3 a, vec3 b, vec3 c) {
-  const vec3 ab = b - a, bc = c - b, ca = a - c;
-  const double x = norm_squared(ab), y = norm_squared(bc), z = norm_squared(ca);
-  const double two_longest = std::max({x * y, y * z, z * x});
-  return two_longest > 0 ? norm_squared(cross(ab, bc)) / two_longest : 0.0;
-}
-
-/// Quality that also judges the triangle's normal: `shape_quality` where it agrees with the given surface
-/// normal direction (any length), otherwise a negative number that grows with the agreement.
-inline double oriented_quality(vec3 a, vec3 b, vec3 c, vec3 normal) {
-  constexpr double least_cosine = 0.15;
-  const vec3 ab = b - a, bc = c - b, ca = a - c;
-  const vec3 area = cross(ab, bc);
-  const double x = norm_squared(ab), y = norm_squared(bc), z = norm_squared(ca);
-  const double two_longest = std::max({x * y, y * z, z * x});
-  if (!(two_longest > 0))
-    return -1;
-  const double area_squared = norm_squared(area);
-  const double along = dot(area, normal);
-  const double full = area_squared * norm_squared(normal);
-  if (along > 0 && along * along >= least_cosine * least_cosine * full)
-    return area_squared / two_longest;
-  return full > 0 ? along / std::sqrt(full) - 1 : 0.0;
-}
 
 /// The triangulation and its geometry. Vertices [0, frozen) are those of the boundary.
 template <patch_surface S>
@@ -87,12 +64,47 @@ public:
     pole.push_back(0);
     return v;
   }
-  void place(local_id v, vec2 scaled, const surface_frame& f) {
-    xy[at(v)] = scaled;
-    point[at(v)] = f.point;
-    du[at(v)] = f.du;
-    dv[at(v)] = f.dv;
-    normal[at(v)] = normalized(cross(f.du, f.dv));
+
+  /// All that a move of a vertex changes.
+  struct location {
+    vec2 xy;
+    vec3 point, du, dv, normal;
+  };
+  location location_of(local_id v) const {
+    return {xy[at(v)], point[at(v)], du[at(v)], dv[at(v)], normal[at(v)]};
+  }
+  void place(local_id v, const location& where) {
+    xy[at(v)] = where.xy;
+    point[at(v)] = where.point;
+    du[at(v)] = where.du;
+    dv[at(v)] = where.dv;
+    normal[at(v)] = where.normal;
+  }
+  /// Where inner vertex v gets by a step in 3-space, if its star stays valid.
+  std::optional<location> displaced(local_id v, vec3 step,
+                                    std::span<const std::array<local_id, 2>> link) const {
+    const vec2 to = xy[at(v)] + parameter_step(du[at(v)], dv[at(v)], step);
+    if (to == xy[at(v)])
+      return std::nullopt;
+    for (const auto& [a, b] : link)
+      if (!(orient2d(xy[at(a)], xy[at(b)], to) > 0))
+        return std::nullopt;
+    const surface_frame f = frame_at(to);
+    return location{to, f.point, f.du, f.dv, normalized(cross(f.du, f.dv))};
+  }
+  /// A unit vector of the surface at v.
+  vec3 tangent(local_id v) const { return normalized(du[at(v)]); }
+
+  /// Adds a vertex at the middle of the parameters of the free side opposite c, if both triangles can be
+  /// split there. The caller splits the side.
+  local_id add_middle(local_id c) {
+    const vec2 a = xy[at(table.tail(c))], b = xy[at(table.head(c))];
+    const vec2 middle = 0.5 * (a + b);
+    const vec2 p = xy[at(table.vertex[at(c)])], q = xy[at(table.vertex[at(table.twin[at(c)])])];
+    if (!(orient2d(p, a, middle) > 0 && orient2d(b, p, middle) > 0 && orient2d(q, b, middle) > 0 &&
+          orient2d(a, q, middle) > 0))
+      return no_id;
+    return add_vertex(middle, frame_at(middle), target(table.tail(c), table.head(c)));
   }
 
   /// The step in scaled parameters that moves along the tangential part of `step`; zero where singular.
@@ -147,6 +159,9 @@ public:
   double target(local_id a, local_id b) const { return 0.5 * (size[at(a)] + size[at(b)]); }
   /// Edge length relative to the target.
   double relative_length(local_id a, local_id b) const { return length(a, b) / target(a, b); }
+
+  /// A valid plane triangulation admits whatever leaves it one.
+  bool may_collapse(local_id, local_id) const { return true; }
 
   /// A list that operations may use while they run; kept to avoid allocation in loops.
   std::vector<local_id>& ring_scratch() { return ring_; }

@@ -5,7 +5,8 @@
 /// other across a seam, with a boundary segment, or with a chord of another patch.
 #pragma once
 
-#include "dovetail/remesh/smoothing.hpp"
+#include "dovetail/mesh/surface_smoothing.hpp"
+#include "dovetail/remesh/patch_state.hpp"
 
 #include <map>
 

@@ -1,8 +1,24 @@
 /// @file
-/// Flips, splits and collapses on a `patch_state`, each leaving a valid triangulation.
+/// Flips, splits and collapses on the triangulation of a surface, each leaving it valid.
+///
+/// They are written for any state that has a corner table and geometry: remesh's `patch_state` (valid in a
+/// parameter plane), the improver's `surface_complex` (valid in space). What a state `s` offers:
+///
+/// - `s.table`: corner_table; `s.point[v]`, `s.normal[v]` (unit, or zero), `s.inner(v)`: v may be moved
+/// - `s.quality(a, b, c)`: what flips and moves raise; negative for a triangle that faces the wrong way
+/// - `s.positive(a, b, c)`, `s.may_flip(c)`, `s.may_collapse(v, w)`: whether the result would be valid
+/// - `s.relative_length(a, b)`: edge length over target length
+/// - `s.add_middle(c)`: a new vertex for the side opposite c, or no_id
+/// - `s.displaced(v, step, link)`: where a step takes v, or nothing; `s.location_of(v)`, `s.place(v, l)`
+/// - `s.tangent(v)`: a unit vector of the surface; `s.ring_scratch()`: a list kept between calls
 #pragma once
 
-#include "dovetail/remesh/patch_state.hpp"
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/corner_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace dovetail::detail {
 
@@ -12,18 +28,18 @@ public:
   void push(local_id c) { corners_.push_back(c); }
 
   /// Delaunay in 3-space: opposite angles add up to at most pi. Returns the number of flips.
-  template <class S>
-  std::size_t make_delaunay(patch_state<S>& s) {
+  template <class State>
+  std::size_t make_delaunay(State& s) {
     return run(s, [&](local_id c) { return violates_delaunay(s, c) && !flip_folds(s, c); });
   }
   /// Flips whatever raises the smaller quality of the two triangles; never loops, as that strictly grows.
-  template <class S>
-  std::size_t raise_quality(patch_state<S>& s, bool allow_chords = true) {
+  template <class State>
+  std::size_t raise_quality(State& s, bool allow_chords = true) {
     return run(s,
                [&](local_id c) { return (allow_chords || !makes_chord(s, c)) && flip_raises_quality(s, c); });
   }
-  template <class S>
-  void push_all(const patch_state<S>& s) {
+  template <class State>
+  void push_all(const State& s) {
     const auto& t = s.table;
     for (local_id c = 0; c < static_cast<local_id>(t.vertex.size()); ++c)
       if (t.vertex[static_cast<std::size_t>(c)] != no_id && t.twin[static_cast<std::size_t>(c)] > c)
@@ -31,12 +47,12 @@ public:
   }
 
 private:
-  template <class S>
-  static bool makes_chord(const patch_state<S>& s, local_id c) {
+  template <class State>
+  static bool makes_chord(const State& s, local_id c) {
     return !s.inner(s.table.vertex[s.at(c)]) && !s.inner(s.table.vertex[s.at(s.table.twin[s.at(c)])]);
   }
-  template <class S>
-  static bool violates_delaunay(const patch_state<S>& s, local_id c) {
+  template <class State>
+  static bool violates_delaunay(const State& s, local_id c) {
     const local_id d = s.table.twin[s.at(c)];
     const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
     const local_id a = s.table.tail(c), b = s.table.head(c);
@@ -56,16 +72,16 @@ private:
            -1e-9 * (norm_squared(pa) + norm_squared(pb)) * (norm_squared(qa) + norm_squared(qb));
   }
   /// True when a flip would make a triangle whose normal is wrong out of two whose normals are right.
-  template <class S>
-  static bool flip_folds(const patch_state<S>& s, local_id c) {
+  template <class State>
+  static bool flip_folds(const State& s, local_id c) {
     const local_id d = s.table.twin[s.at(c)];
     const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
     const local_id a = s.table.tail(c), b = s.table.head(c);
     const double after = std::min(s.quality(p, a, q), s.quality(q, b, p));
     return after <= 0 && after <= std::min(s.quality(p, a, b), s.quality(q, b, a));
   }
-  template <class S>
-  static bool flip_raises_quality(const patch_state<S>& s, local_id c) {
+  template <class State>
+  static bool flip_raises_quality(const State& s, local_id c) {
     const local_id d = s.table.twin[s.at(c)];
     const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
     const local_id a = s.table.tail(c), b = s.table.head(c);
@@ -73,8 +89,8 @@ private:
     return before < 0.74 && std::min(s.quality(p, a, q), s.quality(q, b, p)) > before + 1e-6;
   }
 
-  template <class S, class Rule>
-  std::size_t run(patch_state<S>& s, Rule wants_flip) {
+  template <class State, class Rule>
+  std::size_t run(State& s, Rule wants_flip) {
     std::size_t flips = 0;
     const std::size_t limit = 40 * corners_.size() + 1000; // the Delaunay rule may cycle on a curved surface
     while (!corners_.empty()) {
@@ -96,35 +112,27 @@ private:
   std::vector<local_id> corners_;
 };
 
-/// Splits the free side opposite c at the middle of its parameters. Returns the new vertex, or no_id when the
-/// parameters are too close for a valid split.
-template <class S>
-local_id split_at_middle(patch_state<S>& s, local_id c, flip_queue& flips) {
-  const local_id d = s.table.twin[s.at(c)];
-  const local_id a = s.table.tail(c), b = s.table.head(c);
-  const vec2 middle = 0.5 * (s.xy[s.at(a)] + s.xy[s.at(b)]);
-  const vec2 p = s.xy[s.at(s.table.vertex[s.at(c)])], q = s.xy[s.at(s.table.vertex[s.at(d)])];
-  const vec2 ax = s.xy[s.at(a)], bx = s.xy[s.at(b)];
-  if (!(orient2d(p, ax, middle) > 0 && orient2d(bx, p, middle) > 0 && orient2d(q, bx, middle) > 0 &&
-        orient2d(ax, q, middle) > 0))
-    return no_id;
-  const surface_frame f = s.frame_at(middle);
-  const local_id v = s.add_vertex(middle, f, s.target(a, b));
-  for (const local_id e : s.table.split_side(c, v))
-    flips.push(e);
+/// Splits the free side opposite c in its middle. Returns the new vertex, or no_id when its ends are too
+/// close for a valid split.
+template <class State>
+local_id split_at_middle(State& s, local_id c, flip_queue& flips) {
+  const local_id v = s.add_middle(c);
+  if (v != no_id)
+    for (const local_id e : s.table.split_side(c, v))
+      flips.push(e);
   return v;
 }
 
 /// The star of an inner vertex as pairs (tail, head) of its link, counter-clockwise.
-template <class S>
-void collect_link(const patch_state<S>& s, local_id v, std::vector<std::array<local_id, 2>>& link) {
+template <class State>
+void collect_link(const State& s, local_id v, std::vector<std::array<local_id, 2>>& link) {
   link.clear();
   s.table.for_each_corner(v, [&](local_id c) { link.push_back({s.table.tail(c), s.table.head(c)}); });
 }
 
 /// The smallest quality in the star of an inner vertex.
-template <class S>
-double star_quality(const patch_state<S>& s, local_id v) {
+template <class State>
+double star_quality(const State& s, local_id v) {
   double least = 1;
   s.table.for_each_corner(
       v, [&](local_id c) { least = std::min(least, s.quality(v, s.table.tail(c), s.table.head(c))); });
@@ -133,8 +141,8 @@ double star_quality(const patch_state<S>& s, local_id v) {
 
 /// The smallest quality that the fan over the star of v, seen from its neighbour w, would have; -3 when the
 /// fan is not valid in the parameter plane or has an edge longer than `longest` times its target.
-template <class S>
-double quality_after_collapse(const patch_state<S>& s, local_id v, local_id w, double longest) {
+template <class State>
+double quality_after_collapse(const State& s, local_id v, local_id w, double longest) {
   double least = 1;
   s.table.for_each_corner(v, [&](local_id c) {
     const local_id a = s.table.tail(c), b = s.table.head(c);
@@ -151,13 +159,13 @@ double quality_after_collapse(const patch_state<S>& s, local_id v, local_id w, d
 
 /// Removes inner vertex v by moving it onto a neighbour: the one that leaves the best star, when that is
 /// better than `required`. True when removed.
-template <class S>
-bool remove_vertex(patch_state<S>& s, local_id v, double required, double longest, flip_queue& flips) {
+template <class State>
+bool remove_vertex(State& s, local_id v, double required, double longest, flip_queue& flips) {
   double best = required;
   local_id onto = no_id;
   s.table.for_each_corner(v, [&](local_id c) {
     const double q = quality_after_collapse(s, v, s.table.tail(c), longest);
-    if (q > best) {
+    if (q > best && s.may_collapse(v, s.table.tail(c))) {
       best = q;
       onto = c; // tail(c) is the target: the side v -> tail(c) is opposite previous(c)
     }

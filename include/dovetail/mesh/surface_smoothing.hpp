@@ -1,16 +1,17 @@
 /// @file
-/// Moves inner vertices of a `patch_state` within the surface towards well-shaped stars.
+/// Moves inner vertices within the surface towards well-shaped stars; for the states of
+/// surface_operations.hpp.
 #pragma once
 
-#include "dovetail/remesh/edge_operations.hpp"
+#include "dovetail/mesh/surface_operations.hpp"
 
 namespace dovetail::detail {
 
 /// Gauss-Seidel smoothing in index order. A vertex is visited again only while it or a neighbour moves.
-template <class S>
+template <class State>
 class smoother {
 public:
-  explicit smoother(patch_state<S>& state) : s_(state) {}
+  explicit smoother(State& state) : s_(state) {}
 
   /// One pass over the vertices that are awake; returns how many moved noticeably.
   std::size_t pass() {
@@ -37,6 +38,14 @@ public:
   }
   void wake_all() { awake_.assign(s_.point.size(), 1); }
 
+  /// Moves v towards the middle of its star when that raises the sum of the qualities there and does not make
+  /// the worst of them worse.
+  bool relax(local_id v) {
+    collect_link(s_, v, link_);
+    const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
+    return try_step(v, step, strict_rule{}) || try_step(v, 0.4 * step, strict_rule{});
+  }
+
   /// Moves v to where the worst triangle of its star is best, by a shrinking pattern search.
   bool maximise_worst(local_id v) {
     collect_link(s_, v, link_);
@@ -44,7 +53,7 @@ public:
     double reach = 0.3 * link_radius(v);
     for (int round = 0; round < 6; ++round) {
       const vec3 n = s_.normal[s_.at(v)];
-      const vec3 x = normalized(s_.du[s_.at(v)]), y = cross(n, x);
+      const vec3 x = s_.tangent(v), y = cross(n, x);
       bool better = false;
       for (int k = 0; k < 6 && !better; ++k) {
         const double angle = 1.0471975511965976 * (k + 0.5 * (round % 2));
@@ -72,6 +81,11 @@ private:
         return after.least > before.least + 1e-4 ||
                (after.least >= before.least && after.sum > before.sum + 1e-4);
       return before.least < good_enough || after.sum > before.sum + 1e-3;
+    }
+  };
+  struct strict_rule {
+    bool operator()(const star& before, const star& after) const {
+      return after.least >= before.least && after.sum > before.sum + 1e-3;
     }
   };
   struct worst_rule {
@@ -107,24 +121,15 @@ private:
 
   template <class Rule>
   bool try_step(local_id v, vec3 step, Rule accepts) {
-    const std::size_t i = s_.at(v);
-    const vec2 step_xy = patch_state<S>::parameter_step(s_.du[i], s_.dv[i], step);
-    const vec2 to = s_.xy[i] + step_xy;
-    if (to == s_.xy[i])
+    const auto to = s_.displaced(v, step, link_);
+    if (!to)
       return false;
-    for (const auto& [a, b] : link_)
-      if (!(orient2d(s_.xy[s_.at(a)], s_.xy[s_.at(b)], to) > 0))
-        return false;
     const star before = measure(v);
-    const saved_vertex old{s_.xy[i], s_.point[i], s_.du[i], s_.dv[i], s_.normal[i]};
-    s_.place(v, to, s_.frame_at(to));
+    const auto old = s_.location_of(v);
+    s_.place(v, *to);
     if (accepts(before, measure(v)))
       return true;
-    s_.xy[i] = old.xy;
-    s_.point[i] = old.point;
-    s_.du[i] = old.du;
-    s_.dv[i] = old.dv;
-    s_.normal[i] = old.normal;
+    s_.place(v, old);
     return false;
   }
 
@@ -138,12 +143,7 @@ private:
     return result;
   }
 
-  struct saved_vertex {
-    vec2 xy;
-    vec3 point, du, dv, normal;
-  };
-
-  patch_state<S>& s_;
+  State& s_;
   std::vector<std::uint8_t> awake_, next_;
   std::vector<std::array<local_id, 2>> link_;
 };
