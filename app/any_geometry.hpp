@@ -4,16 +4,24 @@
 
 #include "dovetail/geometry/concepts.hpp"
 
+#include <concepts>
 #include <memory>
 #include <utility>
 
 namespace dovetail::app {
 
-/// Holds any geometry model by shared, immutable ownership.
+/// Holds any geometry model. Copies of a model that threads may share do share it.
 class any_geometry {
 public:
   template <geometry_model G>
+    requires(!std::same_as<G, any_geometry>)
   explicit any_geometry(G held) : held_(std::make_shared<const model<G>>(std::move(held))) {}
+
+  any_geometry(const any_geometry& other) : held_(other.thread_safe() ? other.held_ : other.held_->copy()) {}
+  any_geometry(any_geometry&&) = default;
+  any_geometry& operator=(const any_geometry& other) { return *this = any_geometry(other); }
+  any_geometry& operator=(any_geometry&&) = default;
+  ~any_geometry() = default;
 
   const geometry_topology& topology() const { return held_->topology(); }
   vec3 curve_point(local_id c, double t) const { return held_->curve_point(c, t); }
@@ -32,6 +40,7 @@ public:
 private:
   struct interface {
     virtual ~interface() = default;
+    virtual std::shared_ptr<const interface> copy() const = 0;
     virtual const geometry_topology& topology() const = 0;
     virtual vec3 curve_point(local_id c, double t) const = 0;
     virtual dovetail::curve_frame curve_frame(local_id c, double t) const = 0;
@@ -48,6 +57,7 @@ private:
   template <class G>
   struct model final : interface {
     explicit model(G g) : held(std::move(g)) {}
+    std::shared_ptr<const interface> copy() const override { return std::make_shared<const model>(held); }
     const geometry_topology& topology() const override { return held.topology(); }
     vec3 curve_point(local_id c, double t) const override { return held.curve_point(c, t); }
     dovetail::curve_frame curve_frame(local_id c, double t) const override { return held.curve_frame(c, t); }
