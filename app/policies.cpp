@@ -9,10 +9,19 @@
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/partition/inertial.hpp"
 #include "dovetail/partition/metis.hpp"
+#include "dovetail/partition/recursive_coordinate.hpp"
+#include "dovetail/partition/space_filling_curve.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
 #include "dovetail/mesher/gmsh_hxt.hpp"
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_SCOTCH
+#include "dovetail/partition/scotch.hpp"
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_EIGEN
+#include "dovetail/partition/spectral.hpp"
 #endif
 
 #include <algorithm>
@@ -43,7 +52,19 @@ Policy chosen(const std::vector<Policy>& policies, const std::string& name, cons
 }
 
 std::vector<any_partitioner> partitioners() {
-  return {{"metis", partition::metis{}}, {"greedy", partition::greedy{}}};
+  std::vector<any_partitioner> known{{"metis", partition::metis{}},
+                                     {"metis-recursive", partition::metis{.recursive = true}},
+                                     {"greedy", partition::greedy{}},
+                                     {"inertial", partition::inertial{}},
+                                     {"coordinate", partition::recursive_coordinate{}},
+                                     {"hilbert", partition::space_filling_curve{}}};
+#ifdef DOVETAIL_DRIVER_WITH_SCOTCH
+  known.emplace_back("scotch", partition::scotch{});
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_EIGEN
+  known.emplace_back("spectral", partition::spectral{});
+#endif
+  return known;
 }
 
 std::vector<any_mesher> meshers() {

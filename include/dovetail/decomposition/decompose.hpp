@@ -68,6 +68,23 @@ inline csr_graph within_materials(const csr_graph& graph, std::span<const local_
   return filtered;
 }
 
+/// The mean of the centres of each super-element's elements, for partitioners that go by place.
+template <int D>
+std::vector<vec3> centres_of_supers(const simplicial_mesh<D>& mesh,
+                                    std::span<const local_id> super_of_element, std::size_t supers) {
+  std::vector<vec3> sums(supers);
+  std::vector<double> counts(supers, 0.0);
+  for (std::size_t e = 0; e < super_of_element.size(); ++e) {
+    const auto super = static_cast<std::size_t>(super_of_element[e]);
+    for (const local_id v : mesh.elements[e])
+      sums[super] += mesh.points[static_cast<std::size_t>(v)] / (D + 1.0);
+    counts[super] += 1;
+  }
+  for (std::size_t s = 0; s < supers; ++s)
+    sums[s] = sums[s] / std::max(1.0, counts[s]);
+  return sums;
+}
+
 /// Partitions each component on its own; the parts of one component have consecutive numbers.
 template <graph_partitioner Partitioner>
 std::vector<local_id> partition_components(const csr_graph& graph, const labelled_components& components,
@@ -117,7 +134,8 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   if (!material.empty())
     for (std::size_t e = 0; e < super_of_element.size(); ++e)
       material_of_super[static_cast<std::size_t>(super_of_element[e])] = material[e];
-  const csr_graph graph = detail::within_materials(super_graph, material_of_super);
+  csr_graph graph = detail::within_materials(super_graph, material_of_super);
+  graph.positions = detail::centres_of_supers<D>(mesh, super_of_element, graph.node_weights.size());
   const labelled_components components = components_within(graph, material_of_super);
   std::vector<double> weights = part_weights(graph, components.of_node, components.count);
   std::vector<local_id> nodes(weights.size(), 0);

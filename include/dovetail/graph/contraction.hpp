@@ -64,8 +64,24 @@ inline csr_graph make_csr_graph(std::vector<double> node_weights, std::span<cons
   return graph;
 }
 
+/// The mean position of the nodes of each label; empty when the graph has no positions.
+inline std::vector<vec3> mean_positions(const csr_graph& graph, std::span<const local_id> label,
+                                        local_id labels) {
+  if (graph.positions.empty())
+    return {};
+  std::vector<vec3> sums(static_cast<std::size_t>(labels));
+  std::vector<double> counts(static_cast<std::size_t>(labels), 0.0);
+  for (std::size_t v = 0; v < label.size(); ++v) {
+    sums[static_cast<std::size_t>(label[v])] += graph.positions[v];
+    counts[static_cast<std::size_t>(label[v])] += 1;
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    sums[k] = sums[k] / std::max(1.0, counts[k]);
+  return sums;
+}
+
 /// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
-/// parallel add up, edges inside a label vanish.
+/// parallel add up, edges inside a label vanish, positions are averaged.
 inline csr_graph contract(const csr_graph& graph, std::span<const local_id> label, local_id labels) {
   std::vector<double> weights(static_cast<std::size_t>(labels), 0.0);
   std::vector<weighted_edge> edges;
@@ -78,7 +94,9 @@ inline csr_graph contract(const csr_graph& graph, std::span<const local_id> labe
       if (v < row[k])
         edges.push_back({a, label[static_cast<std::size_t>(row[k])], graph.edge_weights[begin + k]});
   }
-  return make_csr_graph(std::move(weights), edges);
+  csr_graph contracted = make_csr_graph(std::move(weights), edges);
+  contracted.positions = mean_positions(graph, label, labels);
+  return contracted;
 }
 
 /// A piece of a graph with the numbers its nodes have in the whole.
@@ -98,6 +116,8 @@ inline subgraph induced_subgraph(const csr_graph& graph, std::span<const local_i
     }
   for (const local_id v : piece.nodes) {
     piece.graph.node_weights.push_back(graph.node_weights[static_cast<std::size_t>(v)]);
+    if (!graph.positions.empty())
+      piece.graph.positions.push_back(graph.positions[static_cast<std::size_t>(v)]);
     const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
     const auto row = graph.row(v);
     for (std::size_t k = 0; k < row.size(); ++k)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
+#include "dovetail/core/vector.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,7 @@ struct csr_graph {
   std::vector<local_id> neighbours;     ///< size 2 x edges
   std::vector<double> edge_weights;     ///< parallel to `neighbours`
   std::vector<double> node_weights;     ///< size nodes
+  std::vector<vec3> positions = {};     ///< size nodes, for partitioners that go by place; or empty
 
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
   std::span<const local_id> row(local_id node) const {

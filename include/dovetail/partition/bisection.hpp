@@ -1,5 +1,5 @@
 /// @file
-/// Recursive bisection by greedy graph growing: the start of the multilevel partitioner.
+/// Bisection by greedy graph growing: the start of the multilevel partitioner.
 #pragma once
 
 #include "dovetail/graph/contraction.hpp"
@@ -88,33 +88,4 @@ inline std::vector<local_id> bisect(const csr_graph& graph, double fraction, dou
 }
 
 } // namespace detail
-
-/// Splits a graph into `parts` parts of about equal weight by repeated bisection.
-inline std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, double imbalance) {
-  std::vector<local_id> part(static_cast<std::size_t>(graph.node_count()), 0);
-  struct task {
-    local_id label;
-    int parts;
-  };
-  std::vector<task> tasks{{0, parts}};
-  while (!tasks.empty()) {
-    const auto [label, wanted] = tasks.back();
-    tasks.pop_back();
-    if (wanted < 2)
-      continue;
-    const subgraph piece = induced_subgraph(graph, part, label);
-    if (piece.nodes.size() < 2)
-      continue;
-    const int first = wanted / 2;
-    const auto half = detail::bisect(piece.graph, static_cast<double>(first) / wanted, imbalance);
-    const local_id second_label = label + first;
-    for (std::size_t k = 0; k < half.size(); ++k)
-      if (half[k] == 1)
-        part[static_cast<std::size_t>(piece.nodes[k])] = second_label;
-    tasks.push_back({label, first});
-    tasks.push_back({second_label, wanted - first});
-  }
-  return part;
-}
-
 } // namespace dovetail

@@ -8,7 +8,8 @@
 /// at most `imbalance` times the average, or the heaviest node allows no better; deterministic for the
 /// model's seed.
 /// Failure: throws `partition_error`.
-/// Models: metis, greedy.
+/// Models: metis, scotch, spectral, greedy; recursive_coordinate, inertial, space_filling_curve, which need
+/// the positions of the nodes.
 #pragma once
 
 #include "dovetail/graph/csr_graph.hpp"

@@ -5,7 +5,8 @@
 #include "dovetail/partition/bisection.hpp"
 #include "dovetail/partition/coarsening.hpp"
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/refinement.hpp"
+#include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/recursive_bisection.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -24,11 +25,15 @@ struct greedy {
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts.
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
     detail::require_partitionable(graph, parts);
+    detail::require_imbalance(imbalance);
     if (parts == 1)
       return std::vector<local_id>(graph.node_weights.size(), 0);
     const std::vector<coarsened_graph> levels = coarsen(graph, parts);
     const csr_graph& smallest = levels.empty() ? graph : levels.back().graph;
-    std::vector<local_id> part = recursive_bisection(smallest, parts, imbalance);
+    const auto grow_and_refine = [this](const csr_graph& piece, int left, int right) {
+      return detail::bisect(piece, static_cast<double>(left) / (left + right), imbalance);
+    };
+    std::vector<local_id> part = recursive_bisection(smallest, parts, grow_and_refine);
     refine(smallest, part, parts);
     for (std::size_t level = levels.size(); level-- > 0;) {
       const csr_graph& finer = level == 0 ? graph : levels[level - 1].graph;
@@ -38,6 +43,7 @@ struct greedy {
       part = std::move(projected);
       refine(finer, part, parts);
     }
+    detail::level_parts(graph, part, parts, imbalance);
     return part;
   }
 

@@ -4,7 +4,7 @@
 
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/greedy.hpp"
-#include "dovetail/partition/refinement.hpp"
+#include "dovetail/partition/integer_weights.hpp"
 
 #include <metis.h>
 
@@ -13,9 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -35,46 +32,17 @@ struct metis {
   /// when the graph exceeds METIS's integers, or when METIS fails.
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
     detail::require_partitionable(graph, parts);
+    detail::require_imbalance(imbalance);
     if (parts == 1)
       return std::vector<local_id>(graph.node_weights.size(), 0);
-    if (prints_and_fails(graph, parts))
+    if (detail::is_too_small_for_multilevel(graph, parts)) // METIS runs into empty pieces and prints about it
       return greedy{.imbalance = imbalance, .seed = static_cast<std::uint64_t>(seed)}(graph, parts);
     std::vector<local_id> part = call(graph, parts);
-    detail::fill_empty_parts(graph, part, parts);
-    partition_refiner(graph, part, equal_limits(graph, parts, imbalance)).balance();
+    detail::finish_partition(graph, part, parts, imbalance, 0);
     return part;
   }
 
 private:
-  /// With few nodes per part, or one that fills a part, METIS runs into empty pieces and prints about it.
-  static bool prints_and_fails(const csr_graph& graph, int parts) {
-    const auto& weights = graph.node_weights;
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    return graph.node_count() < 3 * parts || graph.neighbours.empty() ||
-           *std::max_element(weights.begin(), weights.end()) >= total / parts;
-  }
-
-  /// METIS adds weights up in `idx_t`; sums stay below this, with room for its internal multiples.
-  static constexpr double largest_sum = std::numeric_limits<idx_t>::max() / 8.0;
-
-  /// Integers of at least 1 in proportion to `weights`; the weights themselves when these are small integers.
-  static std::vector<idx_t> integers(std::span<const double> weights, const char* what) {
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const bool as_they_are = sum <= largest_sum && std::all_of(weights.begin(), weights.end(), [](double w) {
-                               return w >= 1 && w == std::floor(w);
-                             });
-    const auto count = static_cast<double>(weights.size());
-    if (count > largest_sum)
-      throw partition_error("METIS has 32-bit integers, too small for " + std::to_string(weights.size()) +
-                            " " + what + "; use a coarser mesh or another partitioner");
-    // Rounding up to 1 adds at most `count`, so scale to what is left.
-    const double scale = as_they_are ? 1.0 : sum > 0 ? (largest_sum - count) / sum : 0.0;
-    std::vector<idx_t> scaled(weights.size());
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      scaled[k] = std::max(idx_t{1}, static_cast<idx_t>(std::lround(weights[k] * scale)));
-    return scaled;
-  }
-
   /// METIS can keep parts connected, but only when the graph is.
   static bool has_one_component(const csr_graph& graph) {
     const std::vector<local_id> one(graph.node_weights.size(), 0);
@@ -82,8 +50,8 @@ private:
   }
 
   std::vector<local_id> call(const csr_graph& graph, int parts) const {
-    std::vector<idx_t> node_weights = integers(graph.node_weights, "nodes");
-    std::vector<idx_t> edge_weights = integers(graph.edge_weights, "edges");
+    std::vector<idx_t> node_weights = detail::integer_weights<idx_t>(graph.node_weights, "METIS", "nodes");
+    std::vector<idx_t> edge_weights = detail::integer_weights<idx_t>(graph.edge_weights, "METIS", "edges");
     std::vector<idx_t> offsets(graph.offsets.begin(), graph.offsets.end());
     std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
     std::array<idx_t, METIS_NOPTIONS> options{};

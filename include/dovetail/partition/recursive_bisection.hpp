@@ -1,0 +1,101 @@
+/// @file
+/// Recursive bisection by any rule, and cutting an order of nodes into runs of given shares.
+#pragma once
+
+#include "dovetail/graph/contraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace dovetail {
+
+/// A rule that bisects a graph: 0 or 1 for every node, such that part 0 weighs about left / (left + right) of
+/// the whole and the two have at least `left` and `right` nodes.
+template <class B>
+concept bisection_rule = requires(const B& bisect, const csr_graph& graph, int left, int right) {
+  { bisect(graph, left, right) } -> std::same_as<std::vector<local_id>>;
+};
+
+/// Splits a graph into `parts` parts of about equal weight by repeated bisection. The rule's cost times about
+/// log2(parts), plus one pass over the nodes per part.
+template <bisection_rule Bisect>
+std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, const Bisect& bisect) {
+  std::vector<local_id> part(static_cast<std::size_t>(graph.node_count()), 0);
+  struct task {
+    local_id label;
+    int parts;
+  };
+  std::vector<task> tasks{{0, parts}};
+  while (!tasks.empty()) {
+    const auto [label, wanted] = tasks.back();
+    tasks.pop_back();
+    if (wanted < 2)
+      continue;
+    const subgraph piece = induced_subgraph(graph, part, label);
+    if (piece.nodes.size() < 2)
+      continue;
+    const int first = wanted / 2;
+    const auto half = bisect(piece.graph, first, wanted - first);
+    const local_id second_label = label + first;
+    for (std::size_t k = 0; k < half.size(); ++k)
+      if (half[k] == 1)
+        part[static_cast<std::size_t>(piece.nodes[k])] = second_label;
+    tasks.push_back({label, first});
+    tasks.push_back({second_label, wanted - first});
+  }
+  return part;
+}
+
+/// Cuts a sequence of nodes into runs whose weights are as near as possible to the given shares of the whole;
+/// run k gets at least shares[k] nodes, so the shares must not exceed the nodes. Returns the run of each
+/// node. Linear.
+inline std::vector<local_id> cut_order(std::span<const local_id> order, std::span<const double> node_weights,
+                                       std::span<const int> shares) {
+  double total = 0;
+  for (const local_id v : order)
+    total += node_weights[static_cast<std::size_t>(v)];
+  const int all_shares = std::accumulate(shares.begin(), shares.end(), 0);
+  std::vector<local_id> run(node_weights.size(), 0);
+  std::size_t at = 0;
+  double before = 0; // weight of the nodes before `at`
+  int shares_before = 0;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const auto least_end = at + static_cast<std::size_t>(shares[k]);
+    shares_before += shares[k];
+    const std::size_t largest_end = order.size() - static_cast<std::size_t>(all_shares - shares_before);
+    const double target = total * shares_before / all_shares;
+    while (at < largest_end) {
+      const double w = node_weights[static_cast<std::size_t>(order[at])];
+      const bool nearer_without = before + w - target > target - before;
+      if (at >= least_end && k + 1 < shares.size() && nearer_without)
+        break;
+      run[static_cast<std::size_t>(order[at++])] = static_cast<local_id>(k);
+      before += w;
+    }
+  }
+  return run;
+}
+
+/// All nodes by growing key; equal keys by number.
+inline std::vector<local_id> order_by(std::span<const double> keys) {
+  std::vector<local_id> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+  });
+  return order;
+}
+
+/// Halves 0 and 1 of a graph by growing key, as a `bisection_rule` returns them.
+inline std::vector<local_id> bisect_by_key(const csr_graph& graph, std::span<const double> keys, int left,
+                                           int right) {
+  const std::vector<int> shares{left, right};
+  return cut_order(order_by(keys), graph.node_weights, shares);
+}
+
+} // namespace dovetail

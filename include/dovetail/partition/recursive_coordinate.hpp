@@ -1,0 +1,47 @@
+/// @file
+/// Recursive coordinate bisection: cuts across the longest side of the box, after M. J. Berger and S. H.
+/// Bokhari, "A partitioning strategy for nonuniform problems on multiprocessors" (1987).
+#pragma once
+
+#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/node_positions.hpp"
+#include "dovetail/partition/recursive_bisection.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace dovetail::partition {
+
+/// Parts are boxes before refinement. Needs `csr_graph::positions`. n log n per level.
+struct recursive_coordinate {
+  double imbalance = 1.03;   ///< heaviest part over average part
+  int refinement_passes = 8; ///< of single moves that shrink the cut; 0: parts stay boxes
+
+  /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts or
+  /// a node has no position.
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    detail::require_partitionable(graph, parts);
+    detail::require_imbalance(imbalance);
+    detail::require_positions(graph, "recursive_coordinate");
+    std::vector<local_id> part = recursive_bisection(graph, parts, across_longest_side);
+    detail::finish_partition(graph, part, parts, imbalance, refinement_passes);
+    return part;
+  }
+
+private:
+  static std::vector<local_id> across_longest_side(const csr_graph& graph, int left, int right) {
+    const box3 box = detail::box_of_positions(graph);
+    const vec3 extent = box.upper - box.lower;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    std::vector<double> keys;
+    keys.reserve(graph.positions.size());
+    for (const vec3& p : graph.positions)
+      keys.push_back(p[axis]);
+    return bisect_by_key(graph, keys, left, right);
+  }
+};
+
+static_assert(graph_partitioner<recursive_coordinate>);
+
+} // namespace dovetail::partition

@@ -1,0 +1,93 @@
+#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/partition/inertial.hpp"
+#include "dovetail/partition/recursive_coordinate.hpp"
+#include "dovetail/partition/space_filling_curve.hpp"
+#include "partition/partitioner_contract.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <numeric>
+
+using namespace dovetail;
+
+namespace {
+
+template <graph_partitioner P>
+void check_geometric_partitioner(P partitioner) {
+  dovetail_test::check_partitioner_contract(partitioner, 1.03, false);
+}
+
+template <graph_partitioner P>
+void check_needs_positions(const P& partitioner) {
+  csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_squares(4));
+  graph.positions[3].y = std::nan("");
+  CHECK_THROWS_WITH_AS(partitioner(graph, 2), doctest::Contains("node 3"), partition_error);
+  graph.positions.clear();
+  CHECK_THROWS_WITH_AS(partitioner(graph, 2), doctest::Contains("positions"), partition_error);
+}
+
+} // namespace
+
+TEST_CASE("recursive coordinate bisection satisfies the partitioner contract") {
+  check_geometric_partitioner(partition::recursive_coordinate{});
+  check_needs_positions(partition::recursive_coordinate{});
+}
+
+TEST_CASE("inertial bisection satisfies the partitioner contract") {
+  check_geometric_partitioner(partition::inertial{});
+  check_needs_positions(partition::inertial{});
+}
+
+TEST_CASE("the space-filling curve satisfies the partitioner contract") {
+  check_geometric_partitioner(partition::space_filling_curve{});
+  check_needs_positions(partition::space_filling_curve{});
+}
+
+TEST_CASE("decompose tells partitioners where its super-elements are") {
+  const auto mesh = dovetail_test::jittered_cubes(6);
+  const auto sides = build_sides(mesh);
+  std::vector<local_id> super(mesh.elements.size());
+  std::iota(super.begin(), super.end(), 0);
+  csr_graph graph = dovetail_test::element_graph(mesh);
+  graph.positions.clear(); // as the simplification makes it
+  const auto pieces = decompose<3>(mesh, sides, super, graph, {}, partition::recursive_coordinate{}, 4);
+  CHECK(pieces.parts == 4);
+  CHECK(imbalance_of(graph, pieces.part_of_super, 4) <= 1.05);
+}
+
+TEST_CASE("contraction averages positions, and a piece keeps its own") {
+  csr_graph path = make_csr_graph({1, 1, 1}, std::vector<weighted_edge>{{0, 1, 1}, {1, 2, 1}});
+  path.positions = {{0, 0, 0}, {1, 0, 0}, {5, 0, 0}};
+  const std::vector<local_id> label{0, 0, 1};
+  CHECK(contract(path, label, 2).positions == std::vector<vec3>{{0.5, 0, 0}, {5, 0, 0}});
+  CHECK(induced_subgraph(path, label, 1).graph.positions == std::vector<vec3>{{5, 0, 0}});
+}
+
+TEST_CASE("the inertial axis follows a slanted bar, the coordinate axes do not") {
+  csr_graph bar = dovetail_test::element_graph(dovetail_test::jittered_cubes(6));
+  for (vec3& p : bar.positions) { // long along the first axis, then turned by 45 degrees
+    const vec3 stretched{12 * p.x, p.y, p.z};
+    p = {stretched.x - stretched.y, stretched.x + stretched.y, p.z};
+  }
+  const partition::inertial inertial{.refinement_passes = 0};
+  const partition::recursive_coordinate boxes{.refinement_passes = 0};
+  CHECK(edge_cut(bar, inertial(bar, 2)) < edge_cut(bar, boxes(bar, 2)));
+}
+
+TEST_CASE("consecutive cells of the Hilbert curve are neighbours, and none is left out") {
+  constexpr int bits = 3;
+  constexpr std::uint32_t n = 1U << bits;
+  std::vector<std::array<int, 3>> cell_at(n * n * n, {-1, -1, -1});
+  for (std::uint32_t i = 0; i < n * n * n; ++i) {
+    const std::array<std::uint32_t, 3> cell{i % n, i / n % n, i / n / n};
+    const auto place = hilbert_index(cell, bits);
+    REQUIRE(place < cell_at.size());
+    cell_at[place] = {static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2])};
+  }
+  for (std::size_t k = 1; k < cell_at.size(); ++k) {
+    int steps = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      steps += std::abs(cell_at[k][axis] - cell_at[k - 1][axis]);
+    CHECK(steps == 1);
+  }
+}
