@@ -1,6 +1,7 @@
 /// @file
 /// One archetype per role concept: a type that has what the concept asks for and nothing else, so that
-/// generic code that compiles with it asks for no more than the concept says.
+/// generic code that compiles with it asks for no more than the concept says. `mesher_as` and `geometry_as`
+/// do a real model's job, so that the whole pipeline can run with archetypes alone.
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
@@ -12,7 +13,8 @@
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
-#include <algorithm>
+#include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace dovetail::archetype {
@@ -25,6 +27,7 @@ public:
   copyable_only& operator=(const copyable_only&) = delete;
 };
 
+// for graph_partitioner
 /// Splits the nodes, in their order, into parts of nearly equal count.
 struct partitioner : copyable_only {
   using copyable_only::copyable_only;
@@ -36,11 +39,14 @@ struct partitioner : copyable_only {
     return part;
   }
 };
+// end
 
+// for sizing_field
 struct sizing : copyable_only {
   using copyable_only::copyable_only;
-  float operator()(vec3) const { return 1.0f; } // convertible to double is enough
+  float operator()(vec3) const { return 0.2f; } // convertible to double is enough
 };
+// end
 
 /// Meshes a boundary that is the surface of one tetrahedron.
 struct mesher : copyable_only {
@@ -55,11 +61,32 @@ struct mesher : copyable_only {
   }
 };
 
+// for piece_mesher, boundary_keeping_mesher
+template <piece_mesher<3> M>
+class mesher_as {
+public:
+  explicit mesher_as(M held) : held_(std::move(held)) {}
+  mesher_as(const mesher_as&) = default;
+  mesher_as& operator=(const mesher_as&) = delete;
+
+  static constexpr mesher_traits traits = M::traits;
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    return held_(input, size);
+  }
+
+private:
+  M held_;
+};
+// end
+
+// for improver
 struct improver : copyable_only {
   using copyable_only::copyable_only;
   report operator()(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&) const { return {}; }
 };
+// end
 
+// for executor
 /// Neither copyable nor movable: an executor is passed by reference where it runs.
 struct executor {
   executor() = default;
@@ -75,22 +102,27 @@ struct executor {
   }
   short workers() const { return 1; }
 };
+// end
 
+// for mesh_writer
 struct writer : copyable_only {
   using copyable_only::copyable_only;
   report operator()(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
 };
+// end
 
+// for mesh_reader
 struct reader : copyable_only {
   using copyable_only::copyable_only;
   io::loaded_mesh operator()(const std::filesystem::path&) const { return {}; }
 };
+// end
 
 /// A model without entities.
 class geometry {
 public:
   geometry() = default;
-  geometry(const geometry&) = delete;
+  geometry(const geometry&) = default;
   geometry& operator=(const geometry&) = delete;
 
   const geometry_topology& topology() const { return topology_; }
@@ -108,5 +140,32 @@ public:
 private:
   geometry_topology topology_;
 };
+
+// for geometry_model
+template <geometry_model G>
+class geometry_as {
+public:
+  explicit geometry_as(const G& held) : held_(held) {}
+  geometry_as(const geometry_as&) = default;
+  geometry_as& operator=(const geometry_as&) = delete;
+
+  const geometry_topology& topology() const { return held_.topology(); }
+  vec3 curve_point(local_id c, double t) const { return held_.curve_point(c, t); }
+  dovetail::curve_frame curve_frame(local_id c, double t) const { return held_.curve_frame(c, t); }
+  vec2 curve_uv(local_id f, int coedge, double t) const { return held_.curve_uv(f, coedge, t); }
+  vec3 face_point(local_id f, vec2 uv) const { return held_.face_point(f, uv); }
+  surface_frame face_frame(local_id f, vec2 uv) const { return held_.face_frame(f, uv); }
+  double face_curvature(local_id f, vec2 uv) const { return held_.face_curvature(f, uv); }
+  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const { return held_.project_to_face(f, p, seed); }
+  double project_to_curve(local_id c, vec3 p, double seed) const {
+    return held_.project_to_curve(c, p, seed);
+  }
+  box3 bounds() const { return held_.bounds(); }
+  bool thread_safe() const { return held_.thread_safe(); }
+
+private:
+  const G& held_;
+};
+// end
 
 } // namespace dovetail::archetype

@@ -1,24 +1,33 @@
 #!/bin/bash
-# A program that must not compile: it fails, and the error matches the expression on the program's first line.
-# With -DCORRECT the same program must compile, so that it fails for the one reason it is about.
+# A program of near misses, one concept's: with NEAR_MISS=0 it must compile; with 1, 2, ... each must be rejected with
+# an error that matches the expression of its line "// error N: ...", so that a user sees which requirement failed.
 #   check_rejected.sh <compiler> <include directory> <program>
 set -uo pipefail
-compile=("$1" -std=c++20 -I"$2" -fsyntax-only)
 program=$3
-expected=$(sed -n '1s|^// error: ||p' "$program")
-[[ -n $expected ]] || { echo "$program: no '// error: ' on the first line"; exit 1; }
+compile() { "$compiler" -std=c++20 -I"$includes" -fsyntax-only "-DNEAR_MISS=$1" "$program" 2>&1; }
+compiler=$1
+includes=$2
 
-if ! messages=$("${compile[@]}" -DCORRECT "$program" 2>&1); then
-  echo "does not compile even when correct:"
+if ! messages=$(compile 0); then
+  echo "does not compile even when nothing is missed:"
   echo "$messages"
   exit 1
 fi
-if messages=$("${compile[@]}" "$program" 2>&1); then
-  echo "compiles, and should not"
-  exit 1
-fi
-if ! grep -qE -- "$expected" <<<"$messages"; then
-  echo "the error does not match '$expected':"
-  echo "$messages"
-  exit 1
-fi
+
+failed=0
+count=0
+while IFS=: read -r number expected; do
+  ((++count))
+  expected=${expected# }
+  if messages=$(compile "$number"); then
+    echo "near miss $number compiles, and should not"
+    failed=1
+  elif ! grep -qE -- "$expected" <<<"$messages"; then
+    echo "near miss $number: the error does not match '$expected':"
+    echo "$messages"
+    failed=1
+  fi
+done < <(sed -n 's|^// error \([0-9]*\)|\1|p' "$program")
+
+((count >= 3)) || { echo "$program: $count near misses; a concept has at least three"; exit 1; }
+exit $failed

@@ -20,7 +20,8 @@
 ///
 /// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
 /// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
-/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes.
+/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes. A
+/// copy is cheap, and may be queried in another thread even where `thread_safe()` is false.
 /// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
 /// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
 /// Models: occt_model, discrete_model.
@@ -90,7 +91,8 @@ struct geometry_topology {
 };
 
 template <class G>
-concept geometry_model = requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {
+concept geometry_model = std::copy_constructible<G> &&
+    requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {
   { g.topology() } -> std::convertible_to<const geometry_topology&>;
   { g.curve_point(id, t) } -> std::same_as<vec3>;
   { g.curve_frame(id, t) } -> std::same_as<curve_frame>;
