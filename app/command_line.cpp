@@ -76,6 +76,7 @@ struct parser {
   check_options check;
   stats_options stats;
   improve_options improve;
+  compare_options compare;
   std::function<int()> chosen;
 
   parser() {
@@ -89,6 +90,7 @@ struct parser {
     add_check();
     add_stats();
     add_improve();
+    add_compare();
   }
 
   void add_mesh() {
@@ -130,6 +132,12 @@ struct parser {
     command.add_option("--report", improve.report, "JSON file for the figures");
     command.add_flag("--quiet", improve.quiet, "No progress and no summary");
     command.callback([this] { chosen = [this] { return run_improve(improve); }; });
+  }
+  void add_compare() {
+    auto& command = *app.add_subcommand("compare", "Run combinations of policies on one model: table and page");
+    add_model_options(command, compare.model);
+    add_compare_options(command, compare);
+    command.callback([this] { chosen = [this] { return run_compare(compare); }; });
   }
 };
 

@@ -2,11 +2,13 @@
 /// The driver's commands. Each returns the exit code, prints to the standard output, and throws on failure.
 #pragma once
 
+#include "compare_options.hpp"
 #include "options.hpp"
 
 namespace dovetail::app {
 
 int run_mesh(const mesh_options& options);
+int run_compare(const compare_options& options);
 int run_plan(const plan_options& options);
 int run_models();
 int run_check(const check_options& options);

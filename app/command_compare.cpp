@@ -1,0 +1,118 @@
+#include "commands.hpp"
+#include "compare_runs.hpp"
+#include "compare_table.hpp"
+#include "failure.hpp"
+#include "model_source.hpp"
+#include "output.hpp"
+#include "run_setup.hpp"
+#include "stop_request.hpp"
+#include "terminal_progress.hpp"
+
+#include "dovetail/core/output_file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace dovetail::app {
+namespace {
+
+/// One run of `dovetail compare`.
+class compare_run {
+public:
+  /// Everything that can be wrong about the options themselves is found before any file is read.
+  explicit compare_run(const compare_options& options)
+      : options_(options), combinations_(combinations_of(options)) {
+    for (const auto& each : combinations_)
+      policies_.push_back(make_policies(options_of_run(options, each)));
+    parameters_ = make_generate_options(options_of_run(options, combinations_.front()));
+    if (options.elements && !(*options.elements > 0))
+      throw command_line_error("--elements: " + std::to_string(*options.elements) +
+                               " is not a number of elements");
+  }
+
+  int run() {
+    if (!options_.quiet)
+      lines_.emplace(stderr);
+    const output_folder folder(options_.out);
+    for (const char* name : {"compare.csv", "compare.html"})
+      check_can_create(folder.path() / name);
+    model_source source = load();
+    run_all(source);
+    lines_.reset();
+    write(folder.path());
+    if (!options_.quiet)
+      std::fputs(terminal_text(compared_).c_str(), stdout);
+    return exit_code();
+  }
+
+private:
+  model_source load() {
+    show("geometry");
+    model_source source = load_model(options_.model);
+    if (options_.elements)
+      source.size = size_for_elements(source, *options_.elements, policies_.front(), parameters_);
+    return source;
+  }
+
+  void run_all(const model_source& source) {
+    compared_.model = source.name;
+    compared_.workers = policies_.front().executor.workers();
+    compared_.angle_threshold = parameters_.interface_angle_deg;
+    for (std::size_t k = 0; k < combinations_.size(); ++k) {
+      const combination& each = combinations_[k];
+      const std::string label = std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " +
+                                name_of(each) + (each.simplified ? "" : ", plain");
+      parameters_.on_progress = progress_of(label);
+      compared_.rows.push_back(run_combination(source, each, policies_[k], parameters_,
+                                               [](const comparison_row&, const generate_result&) {}));
+    }
+  }
+
+  /// One line per combination on the terminal.
+  progress progress_of(const std::string& label) {
+    return {.update = [this, label](std::string_view, std::size_t done,
+                                    std::size_t total) { show(label, done, total); },
+            .stop_requested = stop_was_requested};
+  }
+  void show(const std::string& label, std::size_t done = 0, std::size_t total = 0) {
+    if (lines_)
+      lines_->update(label, done, total);
+  }
+
+  void write(const std::filesystem::path& folder) const {
+    output_batch files;
+    files.open(folder / "compare.csv").text(csv_text(compared_));
+    files.commit();
+  }
+
+  /// A failed combination is a result; only when all failed has the command.
+  int exit_code() const {
+    if (std::any_of(compared_.rows.begin(), compared_.rows.end(),
+                    [](const comparison_row& row) { return !row.failed(); }))
+      return exit_ok;
+    complain("all " + std::to_string(compared_.rows.size()) + " combinations failed, the first with " +
+             compared_.rows.front().error);
+    return exit_failure;
+  }
+
+  const compare_options& options_;
+  std::vector<combination> combinations_;
+  std::vector<chosen_policies> policies_; ///< per combination
+  generate_options parameters_;
+  std::optional<terminal_progress> lines_;
+  comparison compared_;
+};
+
+} // namespace
+
+int run_compare(const compare_options& options) {
+  try {
+    return compare_run(options).run();
+  } catch (const cancelled&) {
+    complain("stopped; nothing was written");
+    return exit_stopped;
+  }
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,38 @@
+#include "compare_options.hpp"
+
+#include "policies.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace dovetail::app {
+namespace {
+
+void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& chosen,
+               const std::string& what, const std::vector<std::string>& known) {
+  std::string text = what + ", separated by commas (default: " + known.front() + "). There are: ";
+  for (const auto& name : known)
+    text += (name == known.front() ? "" : ", ") + name;
+  command.add_option(option, chosen, text)->delimiter(',');
+}
+
+} // namespace
+
+void add_compare_options(CLI::App& command, compare_options& options) {
+  add_names(command, "--partitioners", options.partitioners, "Graph partitioners", partitioner_names());
+  add_names(command, "--meshers", options.meshers, "Volume meshers", mesher_names());
+  add_names(command, "--improvers", options.improvers, "Mesh improvers", improver_names());
+  command
+      .add_option("--elements", options.elements,
+                  "About how many elements: scales the sizes to predict so many")
+      ->excludes(command.get_option("--size"));
+  command.add_option("--subdomains", options.subdomains,
+                     "Number of subdomains (default: from the predicted number of elements)");
+  command.add_option("--coarsening", options.coarsening,
+                     "Edge length of the background mesh over the target (default: from the prediction)");
+  command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
+  command.add_option("--executor", options.executor, "Where pieces are meshed");
+  command.add_option("--out", options.out, "Folder for compare.csv and compare.html")->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "No progress and no table on the terminal");
+}
+
+} // namespace dovetail::app

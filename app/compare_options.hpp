@@ -1,0 +1,36 @@
+/// @file
+/// What `dovetail compare` is asked for.
+#pragma once
+
+#include "options.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI { // NOLINT: the name is CLI11's
+class App;
+}
+
+namespace dovetail::app {
+
+/// Every combination of the three lists is run, with and without simplification. An empty list stands for the
+/// default policy.
+struct compare_options {
+  model_options model;
+  std::vector<std::string> partitioners;
+  std::vector<std::string> meshers;
+  std::vector<std::string> improvers;
+  std::optional<double> elements; ///< scales the sizes until the prediction is this number
+  std::optional<int> subdomains;
+  std::optional<double> coarsening;
+  int workers = 0;
+  std::string executor;
+  std::string out = "compare";
+  bool quiet = false;
+};
+
+/// Adds the options of the command but those of the model, which must be there already.
+void add_compare_options(CLI::App& command, compare_options& options);
+
+} // namespace dovetail::app

@@ -1,0 +1,70 @@
+/// @file
+/// What a comparison finds out: one row of figures per combination of policies.
+#pragma once
+
+#include "run_figures.hpp"
+
+#include "dovetail/mesh/quality.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// One way to run the pipeline.
+struct combination {
+  std::string partitioner;
+  std::string mesher;
+  std::string improver;
+  bool simplified = true; ///< false: a plain partition of the background mesh
+
+  friend bool operator==(const combination&, const combination&) = default;
+};
+
+/// Angles at the interfaces between subdomains, in degrees; NaN where there are none.
+struct interface_row {
+  double min_face_angle = std::numeric_limits<double>::quiet_NaN();
+  double min_wedge = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t faces = 0;
+  std::int64_t under_threshold = 0; ///< faces and wedges
+};
+
+struct comparison_row {
+  combination policies;
+  std::string error;              ///< kind and text of what went wrong; the figures are void then
+  bool background_reused = false; ///< made for an earlier row; its time is repeated here
+
+  std::int64_t elements = 0;
+  std::int64_t background_elements = 0;
+  int subdomains = 0;
+  double imbalance = 0; ///< largest subdomain over the average, in elements
+  stage_seconds seconds;
+  quality_statistics quality;
+  interface_row coarse; ///< on the background mesh; its faces are the cut
+  interface_row fine;   ///< on the finished mesh
+
+  bool failed() const { return !error.empty(); }
+};
+
+/// All rows, and what they have in common.
+struct comparison {
+  std::string model;
+  int workers = 1;
+  double angle_threshold = 30; ///< degrees
+  std::vector<comparison_row> rows;
+};
+
+/// "metis + tetgen + none".
+inline std::string name_of(const combination& policies) {
+  return policies.partitioner + " + " + policies.mesher + " + " + policies.improver;
+}
+
+/// "with" or "without", of simplification.
+inline const char* simplification_of(const combination& policies) {
+  return policies.simplified ? "with" : "without";
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,169 @@
+#include "compare_runs.hpp"
+
+#include "failure.hpp"
+#include "policies.hpp"
+
+#include "dovetail/sizing/compose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+/// The names once each, in their order; the default one when there are none.
+std::vector<std::string> distinct_or_default(const std::vector<std::string>& names,
+                                             const std::vector<std::string>& known) {
+  std::vector<std::string> distinct;
+  for (const auto& name : names)
+    if (std::find(distinct.begin(), distinct.end(), name) == distinct.end())
+      distinct.push_back(name);
+  return distinct.empty() ? std::vector<std::string>{known.front()} : distinct;
+}
+
+template <class Error>
+bool is(const error& problem) {
+  return dynamic_cast<const Error*>(&problem) != nullptr;
+}
+
+/// The library's name of an error's type.
+std::string kind_of(const error& problem) {
+  const std::pair<bool, const char*> kinds[] = {
+      {is<input_error>(problem), "input_error"},
+      {is<geometry_error>(problem), "geometry_error"},
+      {is<sizing_error>(problem), "sizing_error"},
+      {is<intersection_error>(problem), "intersection_error"},
+      {is<partition_error>(problem), "partition_error"},
+      {is<mesher_error>(problem), "mesher_error"},
+      {is<mesh_error>(problem), "mesh_error"},
+      {is<io_error>(problem), "io_error"},
+      {is<usage_error>(problem), "usage_error"},
+  };
+  for (const auto& [matches, name] : kinds)
+    if (matches)
+      return name;
+  return "error";
+}
+
+/// The stage's report; an empty one when there is none of that name.
+report stage(const report& summary, const std::string& name) {
+  for (const report& child : summary.children)
+    if (child.name == name)
+      return child;
+  return {};
+}
+
+/// As in the report of `dovetail mesh`: mesher and improver run in one task, one after the other, and share
+/// the stage's wall time in proportion to what the workers spent on each.
+stage_seconds seconds_of(const report& summary) {
+  stage_seconds seconds;
+  seconds.background = stage(summary, "background").seconds;
+  seconds.simplification = stage(summary, "simplification").seconds;
+  seconds.partition = stage(summary, "partition").seconds;
+  seconds.skeleton = stage(summary, "skeleton").seconds;
+  seconds.intersection = stage(summary, "intersection").seconds;
+  const report meshing = stage(summary, "meshing");
+  const double improver = meshing.get("improver_seconds");
+  const double both = meshing.get("mesher_seconds") + improver;
+  seconds.improvement = both > 0 ? meshing.seconds * improver / both : 0;
+  seconds.meshing = meshing.seconds - seconds.improvement;
+  seconds.total = summary.seconds;
+  return seconds;
+}
+
+interface_row row_of(const interface_contract& contract) {
+  interface_row row;
+  row.faces = static_cast<std::int64_t>(contract.interface_faces);
+  row.under_threshold = static_cast<std::int64_t>(contract.violations.size());
+  if (row.faces > 0) {
+    row.min_face_angle = contract.face_angle.angle_deg;
+    row.min_wedge = contract.min_wedge_deg();
+  }
+  return row;
+}
+
+void add_figures(const generate_result& result, comparison_row& row) {
+  row.background_elements = static_cast<std::int64_t>(result.background.volume.elements.size());
+  row.subdomains = static_cast<int>(result.mesh.counts.size());
+  std::int64_t largest = 0;
+  for (const auto& piece : result.mesh.counts) {
+    row.elements += piece.elements;
+    largest = std::max<std::int64_t>(largest, piece.elements);
+  }
+  if (row.elements > 0)
+    row.imbalance = static_cast<double>(largest) * row.subdomains / static_cast<double>(row.elements);
+  row.seconds = seconds_of(result.summary);
+  row.quality = result.quality;
+  row.coarse = row_of(result.coarse_contract);
+  row.fine = row_of(result.fine_contract);
+}
+
+} // namespace
+
+std::vector<combination> combinations_of(const compare_options& options) {
+  std::vector<combination> all;
+  for (const auto& partitioner : distinct_or_default(options.partitioners, partitioner_names()))
+    for (const auto& mesher : distinct_or_default(options.meshers, mesher_names()))
+      for (const auto& improver : distinct_or_default(options.improvers, improver_names()))
+        for (const bool simplified : {true, false})
+          all.push_back({partitioner, mesher, improver, simplified});
+  return all;
+}
+
+mesh_options options_of_run(const compare_options& options, const combination& policies) {
+  mesh_options run;
+  run.model = options.model;
+  run.subdomains = options.subdomains;
+  run.coarsening = options.coarsening;
+  run.workers = options.workers;
+  run.executor = options.executor;
+  run.partitioner = policies.partitioner;
+  run.mesher = policies.mesher;
+  run.improver = policies.improver;
+  return run;
+}
+
+comparison_row run_combination(const model_source& source, const combination& policies,
+                               const chosen_policies& chosen, const generate_options& options,
+                               const result_observer& observe) {
+  comparison_row row;
+  row.policies = policies;
+  try {
+    generate_options plain_or_not = options;
+    plain_or_not.simplify = policies.simplified;
+    const auto result = generate_mesh(source.geometry, source.size, chosen, plain_or_not);
+    if (!result.failures.empty()) {
+      const auto& first = result.failures.front();
+      throw mesher_error(std::to_string(result.failures.size()) +
+                         " subdomains could not be meshed; subdomain " + std::to_string(first.subdomain) +
+                         ": " + (first.reasons.empty() ? "no reason known" : first.reasons.back()));
+    }
+    add_figures(result, row);
+    observe(row, result);
+  } catch (const cancelled&) {
+    throw;
+  } catch (const error& problem) {
+    row.error = kind_of(problem) + ": " + problem.what();
+  } catch (const std::bad_alloc&) {
+    row.error = "out of memory";
+  }
+  return row;
+}
+
+any_sizing size_for_elements(const model_source& source, double elements, const chosen_policies& policies,
+                             const generate_options& options) {
+  if (!(elements > 0) || !std::isfinite(elements))
+    throw command_line_error("--elements: " + std::to_string(elements) + " is not a number of elements");
+  double factor = 1;
+  // The number goes with the size's inverse cube but for gradation and walls, so a second step is close.
+  for (int step = 0; step < 2; ++step) {
+    const any_sizing size = keep_bounds(scaled<any_sizing>(source.size, factor));
+    factor *=
+        std::cbrt(plan_generation(source.geometry, size, policies, options).predicted_elements / elements);
+  }
+  return keep_bounds(scaled<any_sizing>(source.size, factor));
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,36 @@
+/// @file
+/// Runs the pipeline for one combination of policies after the other.
+#pragma once
+
+#include "compare_options.hpp"
+#include "compare_rows.hpp"
+#include "model_source.hpp"
+#include "pipeline.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// All combinations that the options ask for, without repetition: partitioner varies slowest, simplification
+/// fastest.
+std::vector<combination> combinations_of(const compare_options& options);
+
+/// The options of `dovetail mesh` that run one of them.
+mesh_options options_of_run(const compare_options& options, const combination& policies);
+
+/// What is given to whoever wants more of a result than its figures; the result ends with the call.
+using result_observer = std::function<void(const comparison_row&, const generate_result&)>;
+
+/// Runs one combination. An error of the pipeline is a row with its text; `cancelled` is passed on.
+comparison_row run_combination(const model_source& source, const combination& policies,
+                               const chosen_policies& chosen, const generate_options& options,
+                               const result_observer& observe);
+
+/// The sizes of the model, scaled such that about `elements` elements are predicted. Throws
+/// `command_line_error` for a number that is not positive, and what planning throws.
+any_sizing size_for_elements(const model_source& source, double elements, const chosen_policies& policies,
+                             const generate_options& options);
+
+} // namespace dovetail::app
