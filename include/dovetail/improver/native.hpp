@@ -5,6 +5,7 @@
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/mesh_exchange.hpp"
 #include "dovetail/improver/schedule.hpp"
+#include "dovetail/improver/surface_improver.hpp"
 #include "dovetail/improver/surface_limits.hpp"
 
 #include <algorithm>
@@ -78,6 +79,12 @@ struct native {
       break;
     }
     return improve<minimum_dihedral>(mesh, frozen, size);
+  }
+
+  /// The same for triangles, in the plane or on a surface: see surface_improver.hpp.
+  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen = {},
+                    const any_sizing& size = {}, const surface_host& host = {}) const {
+    return improve_surface(*this, mesh, frozen, size, host);
   }
 
 private:
@@ -219,6 +226,7 @@ struct none {
 using native_improver = improvement::native;
 using no_improver = improvement::none;
 
-static_assert(improver<native_improver, 3> && improver<no_improver, 3>);
+static_assert(improver<native_improver, 3> && improver<native_improver, 2>);
+static_assert(improver<no_improver, 3> && improver<no_improver, 2>);
 
 } // namespace dovetail

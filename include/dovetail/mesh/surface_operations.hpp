@@ -46,6 +46,16 @@ public:
         push(c);
   }
 
+  /// Would the smaller quality of the two triangles at the side opposite c grow?
+  template <class State>
+  static bool flip_raises_quality(const State& s, local_id c) {
+    const local_id d = s.table.twin[s.at(c)];
+    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
+    const local_id a = s.table.tail(c), b = s.table.head(c);
+    const double before = std::min(s.quality(p, a, b), s.quality(q, b, a));
+    return before < 0.74 && std::min(s.quality(p, a, q), s.quality(q, b, p)) > before + 1e-6;
+  }
+
 private:
   template <class State>
   static bool makes_chord(const State& s, local_id c) {
@@ -80,15 +90,6 @@ private:
     const double after = std::min(s.quality(p, a, q), s.quality(q, b, p));
     return after <= 0 && after <= std::min(s.quality(p, a, b), s.quality(q, b, a));
   }
-  template <class State>
-  static bool flip_raises_quality(const State& s, local_id c) {
-    const local_id d = s.table.twin[s.at(c)];
-    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
-    const local_id a = s.table.tail(c), b = s.table.head(c);
-    const double before = std::min(s.quality(p, a, b), s.quality(q, b, a));
-    return before < 0.74 && std::min(s.quality(p, a, q), s.quality(q, b, p)) > before + 1e-6;
-  }
-
   template <class State, class Rule>
   std::size_t run(State& s, Rule wants_flip) {
     std::size_t flips = 0;

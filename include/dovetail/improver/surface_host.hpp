@@ -1,0 +1,106 @@
+/// @file
+/// What the vertices of a triangulation stay on while it is improved.
+#pragma once
+
+#include "dovetail/core/ids.hpp"
+#include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/simplex.hpp"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A point of a surface: its place, the unit normal there (along the normals of the mesh's triangles; zero
+/// where the surface is singular) and its parameters.
+struct host_point {
+  vec3 point;
+  vec3 normal;
+  vec2 uv;
+};
+
+/// The surface under a mesh of triangles, any kind of surface behind two functions. An empty one stands for
+/// the triangles themselves: vertices then stay on the mesh that was given, exactly in its planes where it is
+/// plane. See `host_on_model` for CAD faces.
+struct surface_host {
+  /// The point of face `face` (the triangle's tag; 0 without tags) nearest `p`, searched from parameters
+  /// `near`.
+  std::function<host_point(local_id face, vec3 p, vec2 near)> project;
+  /// The point of a face at known parameters; needed only together with `corner_uv`.
+  std::function<host_point(local_id face, vec2 uv)> evaluate = {};
+  /// Parameters per triangle and corner to start from; empty when unknown: searches then start from (0, 0).
+  std::vector<std::array<vec2, 3>> corner_uv = {};
+
+  explicit operator bool() const { return static_cast<bool>(project); }
+};
+
+namespace improvement {
+
+/// A triangulation as the host of its own improvement: nearest points are found by walking downhill from a
+/// triangle nearby, never across a fixed side, as triangles know each other through vertices of one patch.
+class triangle_host {
+public:
+  triangle_host() = default;
+  /// `normals` are per vertex. Vertices on both sides of a fixed side must be different ones.
+  triangle_host(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<vec3> normals)
+      : points_(std::move(points)), triangles_(std::move(triangles)), normals_(std::move(normals)),
+        first_(points_.size() + 1, 0), around_(3 * triangles_.size()) {
+    for (const auto& triangle : triangles_)
+      for (const local_id v : triangle)
+        ++first_[at(v) + 1];
+    for (std::size_t v = 0; v < points_.size(); ++v)
+      first_[v + 1] += first_[v];
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (const local_id v : triangles_[t])
+        around_[next[at(v)]++] = static_cast<local_id>(t);
+  }
+
+  /// The point near p on the triangles around `on`, which becomes the triangle it lies on. O(steps taken).
+  host_point project(vec3 p, local_id& on) const {
+    found best = nearest(on, p);
+    for (int step = 0; step < most_steps; ++step) {
+      const local_id from = on;
+      for (const local_id v : triangles_[at(from)])
+        for (std::size_t i = first_[at(v)]; i < first_[at(v) + 1]; ++i)
+          if (const found other = nearest(around_[i], p); other.distance_squared < best.distance_squared) {
+            best = other;
+            on = around_[i];
+          }
+      if (on == from)
+        break;
+    }
+    const auto& [a, b, c] = triangles_[at(on)];
+    const auto& w = best.weights;
+    return {
+        best.point, normalized(w[0] * normals_[at(a)] + w[1] * normals_[at(b)] + w[2] * normals_[at(c)]), {}};
+  }
+
+private:
+  static constexpr int most_steps = 100;
+  struct found {
+    std::array<double, 3> weights;
+    vec3 point;
+    double distance_squared;
+  };
+  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+  found nearest(local_id t, vec3 p) const {
+    const auto& [a, b, c] = triangles_[at(t)];
+    const auto w = nearest_on_triangle(points_[at(a)], points_[at(b)], points_[at(c)], p);
+    const vec3 q = w[0] * points_[at(a)] + w[1] * points_[at(b)] + w[2] * points_[at(c)];
+    return {w, q, norm_squared(q - p)};
+  }
+
+  std::vector<vec3> points_;
+  std::vector<simplex<2>> triangles_;
+  std::vector<vec3> normals_;
+  std::vector<std::size_t> first_; ///< per vertex: where its triangles start in `around_`
+  std::vector<local_id> around_;
+};
+
+} // namespace improvement
+} // namespace dovetail
