@@ -133,7 +133,8 @@ private:
       sides[k] = {-s_.length(s_.table.tail(c), s_.table.head(c)), c};
     }
     std::sort(sides.begin(), sides.end());
-    for (const auto& [length, c] : sides) {
+    for (const auto& side : sides) {
+      const local_id c = side.second;
       const local_id v = s_.table.tail(c), w = s_.table.head(c);
       if (s_.table.free_side(c) &&
           log_.record(operation::insertion, [&] { return insertion_.improve(c, least_step); }))
