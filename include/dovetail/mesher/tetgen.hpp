@@ -7,12 +7,8 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/element_labels.hpp"
+#include "dovetail/mesher/tetgen_library.hpp"
 #include "dovetail/mesher/void_points.hpp"
-
-#ifndef TETLIBRARY
-#define TETLIBRARY // declares the library's interface and makes its errors exceptions
-#endif
-#include <tetgen.h>
 
 #include <algorithm>
 #include <array>
@@ -191,9 +187,10 @@ inline std::string tetgen_failure(int code) {
 }
 
 inline void run_tetgen(const std::string& switches, tetgenio& in, tetgenio& out) {
+  tetgen_function* const run = tetgen_entry();
   try {
     std::string writable = switches;
-    tetrahedralize(writable.data(), &in, &out);
+    run(writable.data(), &in, &out, nullptr, nullptr);
   } catch (int code) {
     throw mesher_error(tetgen_failure(code) + " (switches " + switches + ")");
   } catch (const std::bad_alloc&) {
