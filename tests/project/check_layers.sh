@@ -1,13 +1,13 @@
 #!/bin/bash
 # The folders of include/dovetail are layers. A file includes its own folder, lower layers and any role's concepts; a
 # stage never includes another stage; third parties are included by adapters only. Within tier 2 executors come first:
-# meshers run on them.
+# meshers run on them, and remeshers, since a mesher of surfaces is one.
 set -euo pipefail
 cd include/dovetail
 
 declare -A tier=(
   [core]=10 [mesh]=10 [graph]=10 [geometry]=10 [sizing]=10
-  [parallel]=20 [partition]=21 [remesh]=21 [mesher]=21 [improver]=21 [io]=21
+  [parallel]=20 [partition]=21 [remesh]=21 [mesher]=22 [improver]=21 [io]=21
   [background]=30 [simplification]=30 [decomposition]=30 [skeleton]=30 [intersection]=30
   [pipeline]=40
 )

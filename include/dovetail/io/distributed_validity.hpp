@@ -20,14 +20,14 @@ namespace dovetail::io {
 enum class seam_fault {
   moved_point,      ///< skeleton point whose coordinates differ in the piece
   repeated_point,   ///< skeleton point that the piece has twice
-  missing_triangle, ///< skeleton triangle of the subdomain that is not a side of its piece, seen from outside
+  missing_triangle, ///< skeleton side of the subdomain that its piece has not, seen from outside
   surplus_side,     ///< element of the piece with a boundary side that is not in the skeleton
   wrong_material    ///< element with a tag other than the subdomain's material
 };
 
 inline std::string_view name_of(seam_fault kind) {
   constexpr std::array<std::string_view, 5> names{
-      "moved skeleton point", "repeated skeleton point", "missing skeleton triangle",
+      "moved skeleton point", "repeated skeleton point", "missing skeleton side",
       "boundary side that is not in the skeleton", "wrong material"};
   return names[static_cast<std::size_t>(kind)];
 }
@@ -77,38 +77,42 @@ struct distributed_validity {
 
 namespace detail {
 
-/// A side with its vertices as skeleton points, smallest first, orientation kept.
+/// A side with its vertices as skeleton points, in one order per orientation.
+template <int D>
 struct oriented_side {
-  simplex<2> vertices;
-  local_id origin; ///< a skeleton triangle, or an element
+  simplex<D - 1> vertices;
+  local_id origin; ///< a skeleton side, or an element
 
   friend bool operator<(const oriented_side& a, const oriented_side& b) { return a.vertices < b.vertices; }
 };
 
-inline oriented_side make_oriented(simplex<2> vertices, local_id origin) {
-  std::rotate(vertices.begin(), std::min_element(vertices.begin(), vertices.end()), vertices.end());
+template <int D>
+oriented_side<D> make_oriented(simplex<D - 1> vertices, local_id origin) {
+  if constexpr (D == 3) // the order of two vertices is their orientation
+    std::rotate(vertices.begin(), std::min_element(vertices.begin(), vertices.end()), vertices.end());
   return {vertices, origin};
 }
 
 /// The sides that the skeleton says a subdomain has, outwards. A sheet inside the subdomain is there twice.
-inline std::vector<oriented_side> expected_sides(const fine_skeleton& skeleton,
-                                                 std::span<const local_id> triangles, local_id subdomain) {
-  std::vector<oriented_side> sides;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto t = static_cast<std::size_t>(triangles[i]);
-    auto vertices = skeleton.triangles[t];
-    const bool second_side_of_sheet = i > 0 && triangles[i - 1] == triangles[i];
+template <int D>
+std::vector<oriented_side<D>> expected_sides(const simplicial_skeleton<D>& skeleton,
+                                             std::span<const local_id> listed, local_id subdomain) {
+  std::vector<oriented_side<D>> sides;
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    const auto t = static_cast<std::size_t>(listed[i]);
+    auto vertices = sides_of(skeleton)[t];
+    const bool second_side_of_sheet = i > 0 && listed[i - 1] == listed[i];
     if (skeleton.subdomains[t][0] != subdomain || second_side_of_sheet)
-      std::swap(vertices[1], vertices[2]);
-    sides.push_back(make_oriented(vertices, triangles[i]));
+      std::swap(vertices[D - 2], vertices[D - 1]);
+    sides.push_back(make_oriented<D>(vertices, listed[i]));
   }
   std::sort(sides.begin(), sides.end());
   return sides;
 }
 
 /// Both lists ascending; calls `only_first` and `only_second` for sides that the other list lacks.
-template <class F, class G>
-void compare_sides(const std::vector<oriented_side>& first, const std::vector<oriented_side>& second,
+template <int D, class F, class G>
+void compare_sides(const std::vector<oriented_side<D>>& first, const std::vector<oriented_side<D>>& second,
                    F only_first, G only_second) {
   std::size_t i = 0;
   std::size_t j = 0;
@@ -122,8 +126,9 @@ void compare_sides(const std::vector<oriented_side>& first, const std::vector<or
   }
 }
 
-inline void check_shared_points(const mesh_piece& piece, const fine_skeleton& skeleton,
-                                subdomain_faults& faults) {
+template <int D>
+void check_shared_points(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
+                         subdomain_faults& faults) {
   for (std::size_t i = 0; i < piece.skeleton_points.size(); ++i)
     if (piece.mesh.points[i] != skeleton.points[static_cast<std::size_t>(piece.skeleton_points[i])])
       faults.add(seam_fault::moved_point, piece.skeleton_points[i]);
@@ -135,11 +140,12 @@ inline void check_shared_points(const mesh_piece& piece, const fine_skeleton& sk
 }
 
 /// The boundary sides of the piece against those of the skeleton.
-inline void check_boundary(const mesh_piece& piece, const fine_skeleton& skeleton,
-                           std::span<const local_id> triangles, subdomain_faults& faults) {
-  auto expected = expected_sides(skeleton, triangles, piece.subdomain);
+template <int D>
+void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
+                    std::span<const local_id> listed, subdomain_faults& faults) {
+  auto expected = expected_sides<D>(skeleton, listed, piece.subdomain);
   const auto table = build_sides(piece.mesh);
-  std::vector<oriented_side> found;
+  std::vector<oriented_side<D>> found;
   for (std::size_t s = 0; s < table.size(); ++s) {
     const bool boundary = table.is_boundary(static_cast<local_id>(s));
     auto vertices = table.vertices[s];
@@ -153,13 +159,13 @@ inline void check_boundary(const mesh_piece& piece, const fine_skeleton& skeleto
     }
     for (auto& v : vertices)
       v = piece.skeleton_points[static_cast<std::size_t>(v)];
-    const auto side = make_oriented(vertices, table.elements[s][0]);
+    const auto side = make_oriented<D>(vertices, table.elements[s][0]);
     if (boundary) {
       found.push_back(side);
       continue;
     }
-    std::swap(vertices[1], vertices[2]);
-    const auto mirrored = make_oriented(vertices, table.elements[s][1]);
+    std::swap(vertices[D - 2], vertices[D - 1]);
+    const auto mirrored = make_oriented<D>(vertices, table.elements[s][1]);
     if (std::binary_search(expected.begin(), expected.end(), side) &&
         std::binary_search(expected.begin(), expected.end(), mirrored)) { // both sides of a sheet
       found.push_back(side);
@@ -167,36 +173,38 @@ inline void check_boundary(const mesh_piece& piece, const fine_skeleton& skeleto
     }
   }
   std::sort(found.begin(), found.end());
-  compare_sides(
-      expected, found, [&](local_id triangle) { faults.add(seam_fault::missing_triangle, triangle); },
+  compare_sides<D>(
+      expected, found, [&](local_id side) { faults.add(seam_fault::missing_triangle, side); },
       [&](local_id element) { faults.add(seam_fault::surplus_side, element); });
 }
 
 } // namespace detail
 
 /// Checks one piece by itself and against the skeleton.
-inline subdomain_faults check_piece(const mesh_piece& piece, const fine_skeleton& skeleton,
-                                    std::span<const local_id> triangles) {
+template <int D>
+subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
+                             std::span<const local_id> listed) {
   subdomain_faults faults;
   faults.subdomain = piece.subdomain;
-  faults.inside = check_validity(piece.mesh);
+  faults.inside = check_validity(piece.mesh, {.closed_boundary = D == 3});
   detail::check_shared_points(piece, skeleton, faults);
-  detail::check_boundary(piece, skeleton, triangles, faults);
-  for (std::size_t e = 0; e < piece.mesh.tags.size(); ++e)
+  detail::check_boundary(piece, skeleton, listed, faults);
+  for (std::size_t e = 0; D == 3 && e < piece.mesh.tags.size(); ++e)
     if (piece.mesh.tags[e] != piece.material)
       faults.add(seam_fault::wrong_material, static_cast<local_id>(e));
   return faults;
 }
 
 /// Checks all pieces, one in memory at a time. Inside a piece: references, exact orientation, conformity,
-/// duplicates. Against the skeleton: same coordinates, and every skeleton triangle is a side of exactly the
+/// duplicates. Against the skeleton: same coordinates, and every skeleton side is a side of exactly the
 /// one or two subdomains that it names, facing outwards of each. Throws `mesh_error` when pieces cannot even
 /// be indexed. About linear.
-inline distributed_validity check_distributed(const distributed_mesh& mesh) {
-  const triangles_by_subdomain triangles(mesh);
+template <int D>
+distributed_validity check_distributed(const distributed_simplicial_mesh<D>& mesh) {
+  const sides_by_subdomain<D> sides(mesh);
   distributed_validity result;
   for (local_id p = 0; p < static_cast<local_id>(mesh.counts.size()); ++p) {
-    auto faults = check_piece(load_checked(mesh, p), mesh.skeleton, triangles[p]);
+    auto faults = check_piece<D>(load_checked(mesh, p), mesh.skeleton, sides[p]);
     if (!faults.valid())
       result.subdomains.push_back(std::move(faults));
   }

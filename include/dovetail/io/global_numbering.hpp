@@ -20,7 +20,8 @@ struct global_numbering {
 };
 
 /// O(pieces).
-inline global_numbering number_globally(const distributed_mesh& mesh) {
+template <int D>
+global_numbering number_globally(const distributed_simplicial_mesh<D>& mesh) {
   global_numbering numbers{{static_cast<global_id>(mesh.skeleton.points.size())}, {0}};
   for (const auto& piece : mesh.counts) {
     numbers.first_point.push_back(numbers.first_point.back() + piece.inner_points);
@@ -31,7 +32,8 @@ inline global_numbering number_globally(const distributed_mesh& mesh) {
 
 /// Loads a piece and checks it against its counts and the skeleton, so that consumers may index freely;
 /// throws `mesh_error` naming the subdomain when they disagree. O(size of the piece).
-inline mesh_piece load_checked(const distributed_mesh& mesh, local_id index) {
+template <int D>
+simplicial_piece<D> load_checked(const distributed_simplicial_mesh<D>& mesh, local_id index) {
   const auto refuse = [index](const char* what) {
     throw mesh_error("subdomain " + std::to_string(index) + ": " + what);
   };
@@ -55,7 +57,8 @@ inline mesh_piece load_checked(const distributed_mesh& mesh, local_id index) {
 }
 
 /// The global number of point `i` of a piece.
-inline global_id global_point(const mesh_piece& piece, const global_numbering& numbers, local_id i) {
+template <int D>
+global_id global_point(const simplicial_piece<D>& piece, const global_numbering& numbers, local_id i) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   if (i < shared)
     return piece.skeleton_points[static_cast<std::size_t>(i)];

@@ -27,8 +27,9 @@ public:
       hash.number(at[axis]);
     sum_ += hash.value();
   }
-  /// An element given by the global numbers of its points.
-  void element(std::array<global_id, 4> vertices) {
+  /// An element, triangle or tetrahedron, given by the global numbers of its points.
+  template <std::size_t N>
+  void element(std::array<global_id, N> vertices) {
     bool mirrored = false;
     const auto order = [&](std::size_t i, std::size_t j) {
       if (vertices[j] < vertices[i]) {
@@ -36,7 +37,10 @@ public:
         mirrored = !mirrored;
       }
     };
-    order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+    if constexpr (N == 4)
+      order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+    else
+      order(0, 1), order(1, 2), order(0, 1);
     content_hash hash;
     hash.word(mirrored ? 2 : 1);
     for (const auto v : vertices)
@@ -57,12 +61,13 @@ private:
 };
 
 /// Adds the inner points and the elements of a piece. O(piece).
-inline void hash_piece(mesh_hasher& hasher, const mesh_piece& piece, const global_numbering& numbers) {
+template <int D>
+void hash_piece(mesh_hasher& hasher, const simplicial_piece<D>& piece, const global_numbering& numbers) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   for (local_id i = shared; i < static_cast<local_id>(piece.mesh.points.size()); ++i)
     hasher.point(global_point(piece, numbers, i), piece.mesh.points[static_cast<std::size_t>(i)]);
   for (const auto& element : piece.mesh.elements) {
-    std::array<global_id, 4> vertices;
+    std::array<global_id, D + 1> vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k)
       vertices[k] = global_point(piece, numbers, element[k]);
     hasher.element(vertices);
@@ -70,14 +75,16 @@ inline void hash_piece(mesh_hasher& hasher, const mesh_piece& piece, const globa
 }
 
 /// Adds the points of the skeleton. O(skeleton).
-inline void hash_skeleton(mesh_hasher& hasher, const fine_skeleton& skeleton) {
+template <int D>
+void hash_skeleton(mesh_hasher& hasher, const simplicial_skeleton<D>& skeleton) {
   global_id id = 0;
   for (const auto& p : skeleton.points)
     hasher.point(id++, p);
 }
 
 /// The hash of a distributed mesh; one piece in memory at a time.
-inline std::uint64_t mesh_hash(const distributed_mesh& mesh) {
+template <int D>
+std::uint64_t mesh_hash(const distributed_simplicial_mesh<D>& mesh) {
   const auto numbers = number_globally(mesh);
   mesh_hasher hasher;
   hash_skeleton(hasher, mesh.skeleton);
@@ -93,7 +100,7 @@ inline std::uint64_t mesh_hash(const simplicial_mesh<3>& mesh) {
   for (const auto& p : mesh.points)
     hasher.point(id++, p);
   for (const auto& e : mesh.elements)
-    hasher.element({e[0], e[1], e[2], e[3]});
+    hasher.element(std::array<global_id, 4>{e[0], e[1], e[2], e[3]});
   return hasher.value();
 }
 
@@ -107,7 +114,7 @@ inline std::uint64_t mesh_hash(const loaded_mesh& loaded) {
   for (std::size_t v = 0; v < loaded.node_ids.size(); ++v)
     hasher.point(loaded.node_ids[v], loaded.mesh.points[v]);
   for (const auto& e : loaded.mesh.elements)
-    hasher.element({id(e[0]), id(e[1]), id(e[2]), id(e[3])});
+    hasher.element(std::array<global_id, 4>{id(e[0]), id(e[1]), id(e[2]), id(e[3])});
   return hasher.value();
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which skeleton triangles and points belong to which subdomain.
+/// Which skeleton sides and points belong to which subdomain.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -12,13 +12,15 @@
 
 namespace dovetail::io {
 
-/// The triangles of the skeleton listed by subdomain. A triangle between two subdomains is in both lists; one
+/// The sides of the skeleton listed by subdomain. A side between two subdomains is in both lists; one
 /// with the same subdomain on both sides is in its list twice.
-class triangles_by_subdomain {
+template <int D>
+class sides_by_subdomain {
 public:
-  /// O(triangles + subdomains). Throws `mesh_error` when a triangle names a subdomain or a point that does
+  /// O(sides + subdomains). Throws `mesh_error` when a side names a subdomain or a point that does
   /// not exist, so that consumers may index freely.
-  explicit triangles_by_subdomain(const distributed_mesh& mesh) : start_(mesh.counts.size() + 1, 0) {
+  explicit sides_by_subdomain(const distributed_simplicial_mesh<D>& mesh)
+      : start_(mesh.counts.size() + 1, 0) {
     const auto& skeleton = mesh.skeleton;
     check(mesh);
     for (const auto& pair : skeleton.subdomains)
@@ -41,26 +43,26 @@ public:
   }
 
 private:
-  static void check(const distributed_mesh& mesh) {
+  static void check(const distributed_simplicial_mesh<D>& mesh) {
     const auto& skeleton = mesh.skeleton;
-    if (skeleton.subdomains.size() != skeleton.triangles.size() ||
-        skeleton.cad_faces.size() != skeleton.triangles.size())
-      throw mesh_error("the skeleton does not list subdomains and CAD face of every triangle");
-    for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
-      for (const auto v : skeleton.triangles[t])
+    const auto& sides = sides_of(skeleton);
+    if (skeleton.subdomains.size() != sides.size() || hosts_of_sides(skeleton).size() != sides.size())
+      throw mesh_error("the skeleton does not list subdomains and CAD entity of every side");
+    for (std::size_t t = 0; t < sides.size(); ++t) {
+      for (const auto v : sides[t])
         if (v < 0 || static_cast<std::size_t>(v) >= skeleton.points.size())
-          throw mesh_error("skeleton triangle " + std::to_string(t) +
-                           " refers to a point that does not exist");
+          throw mesh_error("skeleton side " + std::to_string(t) + " refers to a point that does not exist");
       const auto [behind, front] = skeleton.subdomains[t];
       const auto count = static_cast<local_id>(mesh.counts.size());
       if (behind < 0 || behind >= count || front < no_id || front >= count)
-        throw mesh_error("skeleton triangle " + std::to_string(t) +
-                         " refers to a subdomain that does not exist");
+        throw mesh_error("skeleton side " + std::to_string(t) + " refers to a subdomain that does not exist");
     }
   }
 
   std::vector<std::size_t> start_;
   std::vector<local_id> items_;
 };
+
+using triangles_by_subdomain = sides_by_subdomain<3>;
 
 } // namespace dovetail::io

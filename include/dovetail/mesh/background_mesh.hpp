@@ -1,16 +1,33 @@
 /// @file
-/// The coarse mesh that is decomposed: surface triangles on the CAD model and tetrahedra between them.
+/// The coarse mesh that is decomposed: surface triangles on the CAD model and, in D = 3, tetrahedra between
+/// them.
 #pragma once
 
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 namespace dovetail {
 
+template <int D>
+struct simplicial_background;
+
+/// In D = 2 the surface itself is decomposed.
+template <>
+struct simplicial_background<2> {
+  surface_mesh surface;
+
+  const simplicial_mesh<2>& elements() const { return surface.mesh; }
+};
+
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
 /// triangle is a side of the volume. `volume.tags` are materials: solids of the model.
-struct background_mesh {
+template <>
+struct simplicial_background<3> {
   surface_mesh surface;
   simplicial_mesh<3> volume;
+
+  const simplicial_mesh<3>& elements() const { return volume; }
 };
+
+using background_mesh = simplicial_background<3>;
 
 } // namespace dovetail

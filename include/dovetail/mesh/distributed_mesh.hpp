@@ -14,10 +14,14 @@
 
 namespace dovetail {
 
-/// The remeshed boundaries of all subdomains. A triangle is stored once, oriented outwards of
-/// `subdomains[0]`; `subdomains[1]` is the subdomain on its other side, or no_id on the boundary of the
-/// domain.
-struct fine_skeleton {
+/// The remeshed boundaries of all pieces, held once. A side between two pieces is stored once, oriented
+/// outwards of `subdomains[0]`; `subdomains[1]` is the piece on its other side, or no_id on the boundary of
+/// the domain.
+template <int D>
+struct simplicial_skeleton;
+
+template <>
+struct simplicial_skeleton<3> {
   std::vector<vec3> points;
   std::vector<host>
       point_hosts; ///< the lowest-dimensional CAD entity of each point; {3, solid} on inner interfaces
@@ -28,31 +32,67 @@ struct fine_skeleton {
   std::vector<local_id> curves;                     ///< the CAD curve of each such edge
 };
 
+/// In D = 2 the sides are the edges of the lines between subsurfaces and on CAD curves. An edge passed with
+/// the piece on its left is oriented outwards of it. An edge of other than two triangles is stored once per
+/// triangle; one on a CAD curve inside a piece names that piece twice.
+template <>
+struct simplicial_skeleton<2> {
+  std::vector<vec3> points;
+  std::vector<host> point_hosts; ///< {2, CAD face} on a line that is not on a CAD curve
+  std::vector<simplex<1>> edges;
+  std::vector<std::array<local_id, 2>> subdomains;
+  std::vector<local_id> curves; ///< per edge: its CAD curve, or no_id on a line inside a CAD face
+};
+
+using fine_skeleton = simplicial_skeleton<3>;
+
+/// The sides of a skeleton by one name for every dimension.
+inline const std::vector<simplex<2>>& sides_of(const simplicial_skeleton<3>& skeleton) {
+  return skeleton.triangles;
+}
+inline const std::vector<simplex<1>>& sides_of(const simplicial_skeleton<2>& skeleton) {
+  return skeleton.edges;
+}
+
+/// The CAD entity of each side; no_id on an interface.
+inline const std::vector<local_id>& hosts_of_sides(const simplicial_skeleton<3>& skeleton) {
+  return skeleton.cad_faces;
+}
+inline const std::vector<local_id>& hosts_of_sides(const simplicial_skeleton<2>& skeleton) {
+  return skeleton.curves;
+}
+
 /// The mesh of one subdomain. Its first `skeleton_points.size()` points are skeleton points, the others its
-/// own.
-struct mesh_piece {
+/// own. In D = 2 the elements' tags are CAD faces.
+template <int D>
+struct simplicial_piece {
   local_id subdomain = no_id;
   local_id material = 0;
-  simplicial_mesh<3> mesh;
+  simplicial_mesh<D> mesh;
   std::vector<local_id> skeleton_points; ///< index in the skeleton of each of the first points
 };
 
-/// A whole mesh without holding it: what writers, checks and statistics stream over.
-struct distributed_mesh {
-  fine_skeleton skeleton;
+using mesh_piece = simplicial_piece<3>;
 
-  /// Known without loading the piece.
-  struct piece_counts {
-    local_id material = 0;
-    global_id inner_points = 0;
-    global_id elements = 0;
-  };
+/// Known of a piece without loading it.
+struct piece_counts {
+  local_id material = 0;
+  global_id inner_points = 0;
+  global_id elements = 0;
+};
+
+/// A whole mesh without holding it: what writers, checks and statistics stream over.
+template <int D>
+struct distributed_simplicial_mesh {
+  simplicial_skeleton<D> skeleton;
   std::vector<piece_counts> counts;
-  std::function<mesh_piece(local_id)> load; ///< loads piece p; pure
+  std::function<simplicial_piece<D>(local_id)> load; ///< loads piece p; pure
 
   std::vector<std::string> material_names; ///< per material
   std::vector<std::string> face_names;     ///< per CAD face; may be empty strings
   std::vector<std::string> patch_names;    ///< per CAD face: the boundary patch it belongs to; may be empty
 };
+
+using distributed_mesh = distributed_simplicial_mesh<3>;
 
 } // namespace dovetail

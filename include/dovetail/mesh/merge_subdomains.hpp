@@ -42,27 +42,41 @@ inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::v
   sizes = std::move(merged_sizes);
 }
 
+namespace detail {
+
+/// Area of a triangle or length of an edge.
+template <int D>
+double measure_of_side(const std::vector<vec3>& points, const simplex<D - 1>& side) {
+  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(side[k])]; };
+  if constexpr (D == 3)
+    return 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+  else
+    return distance(at(0), at(1));
+}
+
+} // namespace detail
+
 /// The neighbours that failed subdomains are merged with: of the same material, across the largest shared
-/// interface by area, ties to the smaller number. A subdomain without such a neighbour is left out. Linear.
-inline std::vector<std::array<local_id, 2>> merges_of_failed(const fine_skeleton& skeleton,
-                                                             const std::vector<local_id>& failed) {
-  std::map<std::array<local_id, 2>, double> shared_area; // {failed, neighbour}
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
-    if (skeleton.cad_faces[t] != no_id)
+/// interface by area or length, ties to the smaller number. A subdomain without such a neighbour is left out.
+/// In D = 2 subsurfaces may be merged across CAD curves. Linear.
+template <int D>
+std::vector<std::array<local_id, 2>> merges_of_failed(const simplicial_skeleton<D>& skeleton,
+                                                      const std::vector<local_id>& failed) {
+  std::map<std::array<local_id, 2>, double> shared; // {failed, neighbour}
+  const auto& sides = sides_of(skeleton);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const auto [a, b] = skeleton.subdomains[s];
+    if ((D == 3 && hosts_of_sides(skeleton)[s] != no_id) || b == no_id || a == b)
       continue;
-    const auto at = [&](std::size_t k) {
-      return skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][k])];
-    };
-    const double area = 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
-    const auto [a, b] = skeleton.subdomains[t];
-    shared_area[{a, b}] += area;
-    shared_area[{b, a}] += area;
+    const double measure = detail::measure_of_side<D>(skeleton.points, sides[s]);
+    shared[{a, b}] += measure;
+    shared[{b, a}] += measure;
   }
   std::vector<std::array<local_id, 2>> merges;
   for (const local_id s : failed) {
     local_id best = no_id;
     double largest = 0;
-    for (auto it = shared_area.lower_bound({s, 0}); it != shared_area.end() && it->first[0] == s; ++it)
+    for (auto it = shared.lower_bound({s, 0}); it != shared.end() && it->first[0] == s; ++it)
       if (it->second > largest) {
         largest = it->second;
         best = it->first[1];

@@ -13,14 +13,19 @@
 /// Complexity: about linear in the number of elements made.
 /// Failure: throws `mesher_error`; with `traits.may_crash` it may also end the process, so run it in a
 /// worker.
-/// Models for D = 3: tetgen, gmsh_hxt. A mesher is a local (not collective) operation.
+///
+/// In D = 2 a piece consists of regions on CAD faces or planes: points lie exactly on the region's surface,
+/// and elements are oriented along the oriented face. Models for D = 2: native_surface, cgal_plane (planes
+/// only). Models for D = 3: tetgen, gmsh_hxt. A mesher is a local (not collective) operation.
 #pragma once
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/mesher/surface_region.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <concepts>
+#include <vector>
 
 namespace dovetail {
 
@@ -38,6 +43,15 @@ template <int D>
 struct mesher_input {
   simplicial_mesh<D - 1> boundary;
   local_id material = 0;
+};
+
+/// In D = 2 the boundary are the edges of the lines, each passed with the piece on its left. An edge inside
+/// the piece, on a CAD curve or an inner line, is listed in both directions.
+template <>
+struct mesher_input<2> {
+  simplicial_mesh<1> boundary;
+  local_id material = 0;
+  std::vector<surface_region> regions = {};
 };
 
 template <int D>

@@ -20,13 +20,16 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
 
 /// Makes the input of a subdomain; a pure function, called in the worker.
-using subdomain_source = std::function<subdomain_input(local_id)>;
+template <int D>
+using piece_source = std::function<piece_input<D>(local_id)>;
+using subdomain_source = piece_source<3>;
 
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
@@ -51,18 +54,23 @@ struct piece_failure {
   std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
 };
 
-struct meshing_result {
-  std::vector<piece_summary> pieces;        ///< per subdomain; counts are 0 where it failed
-  std::vector<piece_failure> failures;      ///< by growing subdomain
-  quality_statistics quality;               ///< of all pieces together
-  std::function<mesh_piece(local_id)> load; ///< a finished piece; `io_error` when its file is damaged
+template <int D>
+struct meshed_pieces {
+  std::vector<piece_summary> pieces;   ///< per subdomain; counts are 0 where it failed
+  std::vector<piece_failure> failures; ///< by growing subdomain
+  quality_statistics quality;          ///< of all pieces together
+  /// A finished piece; `io_error` when its file is damaged.
+  std::function<simplicial_piece<D>(local_id)> load;
   report summary; ///< "elements", "inner_points", "retried", "failed", "peak_rss_bytes", and the sums over
                   ///< workers "mesher_seconds" and "improver_seconds"
 };
 
+using meshing_result = meshed_pieces<3>;
+
 namespace detail {
 
 /// Finished pieces, in the spool or in memory.
+template <int D>
 class piece_shelf {
 public:
   piece_shelf(std::size_t count, const meshing_options& options)
@@ -90,14 +98,14 @@ public:
     if (!store_)
       in_memory_[static_cast<std::size_t>(subdomain)] = std::move(sent);
   }
-  mesh_piece load(local_id subdomain) const {
+  simplicial_piece<D> load(local_id subdomain) const {
     if (!store_)
-      return piece_of(in_memory_.at(static_cast<std::size_t>(subdomain)));
+      return piece_of<D>(in_memory_.at(static_cast<std::size_t>(subdomain)));
     const auto finished = store_->read(name_of(subdomain));
     if (!finished)
       throw io_error(store_->path_of(name_of(subdomain)).string() +
                      " is missing or damaged; resume the run to make it again");
-    return piece_of(*finished);
+    return piece_of<D>(*finished);
   }
 
 private:
@@ -112,20 +120,20 @@ private:
 enum class reply_kind : std::uint8_t { finished, cannot_store, bad_size };
 
 /// The rounds of `mesh_subdomains`.
-template <class M, class I, class E>
+template <int D, class M, class I, class E>
 class subdomain_rounds {
 public:
-  subdomain_rounds(std::size_t count, const subdomain_source& source, const M& mesh_it, const I& improve,
+  subdomain_rounds(std::size_t count, const piece_source<D>& source, const M& mesh_it, const I& improve,
                    const any_sizing& size, const E& run_tasks, const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
-        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf>(count, options)) {
+        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf<D>>(count, options)) {
     result_.pieces.resize(count);
     pending_.resize(count);
     for (std::size_t s = 0; s < count; ++s)
       pending_[s].subdomain = static_cast<local_id>(s);
   }
 
-  meshing_result run() {
+  meshed_pieces<D> run() {
     const stopwatch clock;
     for (std::size_t rung = 0; rung < rung_count() && !pending_.empty(); ++rung)
       run_round(rung);
@@ -138,12 +146,12 @@ public:
 
 private:
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
-  std::size_t rung_count() const { return ladder_.size() + 1; }
+  std::size_t rung_count() const { return ladder_.size() + (improver<I, D> ? 1 : 0); }
   byte_buffer attempt(local_id subdomain, std::size_t rung) const {
-    const subdomain_input input = source_(subdomain);
+    const piece_input<D> input = source_(subdomain);
     if (rung < ladder_.size())
-      return make_piece(subdomain, input, ladder_[rung], &improve_, size_, rung);
-    return make_piece<M, I>(subdomain, input, ladder_[0], nullptr, size_, rung);
+      return make_piece<D>(subdomain, input, ladder_[rung], &improve_, size_, rung);
+    return make_piece<D, M, I>(subdomain, input, ladder_[0], nullptr, size_, rung);
   }
 
   void run_round(std::size_t rung) {
@@ -180,7 +188,7 @@ private:
   byte_buffer reply(local_id subdomain, std::size_t rung) const {
     try {
       if (const auto finished = shelf_->find(subdomain))
-        return tagged(reply_kind::finished, piece_shelf::receipt(*finished));
+        return tagged(reply_kind::finished, piece_shelf<D>::receipt(*finished));
       return tagged(reply_kind::finished, shelf_->store(subdomain, attempt(subdomain, rung)));
     } catch (const io_error& e) {
       return tagged(reply_kind::cannot_store, as_bytes(e.what()));
@@ -230,14 +238,16 @@ private:
 
   void write_failures() {
     result_.failures = std::move(pending_);
-    if (options_.failure_folder.empty() || result_.failures.empty())
-      return;
-    make_folder(options_.failure_folder);
-    for (piece_failure& failure : result_.failures) {
-      failure.facets =
-          options_.failure_folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");
-      failure.crossing_facets =
-          write_offending_facets(source_(failure.subdomain).boundary.boundary, failure.facets);
+    if constexpr (D == 3) {
+      if (options_.failure_folder.empty() || result_.failures.empty())
+        return;
+      make_folder(options_.failure_folder);
+      for (piece_failure& failure : result_.failures) {
+        failure.facets =
+            options_.failure_folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");
+        failure.crossing_facets =
+            write_offending_facets(source_(failure.subdomain).boundary.boundary, failure.facets);
+      }
     }
   }
 
@@ -264,15 +274,15 @@ private:
       result_.summary.warnings.push_back(piece + ": " + warning);
   }
 
-  const subdomain_source& source_;
+  const piece_source<D>& source_;
   const I& improve_;
   const any_sizing& size_;
   const E& run_tasks_;
   const meshing_options& options_;
   std::vector<M> ladder_;
-  std::shared_ptr<piece_shelf> shelf_;
+  std::shared_ptr<piece_shelf<D>> shelf_;
   std::vector<piece_failure> pending_;
-  meshing_result result_;
+  meshed_pieces<D> result_;
 };
 
 } // namespace detail
@@ -285,15 +295,19 @@ private:
 /// Failed subdomains do not throw. Throws `usage_error` when the mesher may not run in the executor's
 /// threads, `io_error` when a finished piece cannot be stored, `sizing_error` when the field gives an
 /// unusable size, and `cancelled`. Memory: one piece per worker with a spool, else the whole mesh.
-template <boundary_keeping_mesher<3> M, improver<3> I, executor E>
-meshing_result mesh_subdomains(std::size_t count, const subdomain_source& source, const M& mesh_it,
-                               const I& improve, const any_sizing& size, const E& run_tasks,
-                               const meshing_options& options = {}) {
+///
+/// In D = 2 the pieces are subsurfaces, and they are left as meshed when `improve` is no improver of D = 2.
+template <int D = 3, boundary_keeping_mesher<D> M, class I, executor E>
+  requires(D == 2 || improver<I, D>)
+meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
+                                 const M& mesh_it, const I& improve, const any_sizing& size,
+                                 const E& run_tasks, const meshing_options& options = {}) {
   if (!M::traits.thread_safe && runs_in_threads(run_tasks))
     throw usage_error("this mesher must not run in several threads of one process; use worker processes");
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
-  return detail::subdomain_rounds(count, source, mesh_it, improve, size, run_tasks, options).run();
+  return detail::subdomain_rounds<D, M, I, E>(count, source, mesh_it, improve, size, run_tasks, options)
+      .run();
 }
 
 } // namespace dovetail

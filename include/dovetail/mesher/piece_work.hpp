@@ -9,6 +9,7 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/parallel/piece_codec.hpp"
 
 #include <string>
@@ -18,14 +19,17 @@
 namespace dovetail {
 
 /// What a mesher needs of one subdomain.
-struct subdomain_input {
-  mesher_input<3> boundary;
+template <int D>
+struct piece_input {
+  mesher_input<D> boundary;
   std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
 };
 
+using subdomain_input = piece_input<3>;
+
 /// What is known of a finished piece without loading it.
 struct piece_summary {
-  distributed_mesh::piece_counts counts;
+  piece_counts counts;
   quality_statistics quality;
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
 };
@@ -43,14 +47,15 @@ inline void encode(byte_writer& to, const piece_summary& s) {
 }
 inline piece_summary decode_summary(byte_reader& from) {
   piece_summary s;
-  s.counts = from.value<distributed_mesh::piece_counts>();
+  s.counts = from.value<piece_counts>();
   s.quality = from.value<quality_statistics>();
   s.summary = decode_report(from);
   return s;
 }
 
 /// A finished piece as bytes: its summary, and the mesh behind it.
-inline byte_buffer finished_bytes(const piece_summary& summary, const mesh_piece& piece) {
+template <int D>
+byte_buffer finished_bytes(const piece_summary& summary, const simplicial_piece<D>& piece) {
   byte_writer bytes;
   encode(bytes, summary);
   dovetail::encode(bytes, piece);
@@ -60,17 +65,18 @@ inline piece_summary summary_of(const byte_buffer& finished) {
   byte_reader reader(finished);
   return decode_summary(reader);
 }
-inline mesh_piece piece_of(const byte_buffer& finished) {
+template <int D>
+simplicial_piece<D> piece_of(const byte_buffer& finished) {
   byte_reader reader(finished);
   decode_summary(reader);
-  return decode_piece(reader);
+  return decode_piece<D>(reader);
 }
 
 /// Improves a mesh inside its frozen boundary and checks that the boundary is still there.
-template <improver<3> I>
-report improve_inside(simplicial_mesh<3>& mesh, const mesher_input<3>& input, const I& improve,
+template <int D, improver<D> I>
+report improve_inside(simplicial_mesh<D>& mesh, const mesher_input<D>& input, const I& improve,
                       const any_sizing& size) {
-  frozen_entities<3> frozen;
+  frozen_entities<D> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
   const stopwatch clock;
@@ -81,10 +87,10 @@ report improve_inside(simplicial_mesh<3>& mesh, const mesher_input<3>& input, co
   return summary;
 }
 
-/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null. Throws
-/// what the mesher, the improver and the checks throw.
-template <boundary_keeping_mesher<3> M, improver<3> I>
-byte_buffer make_piece(local_id subdomain, const subdomain_input& input, const M& mesh_it, const I* improve,
+/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null or no
+/// improver of D. Throws what the mesher, the improver and the checks throw.
+template <int D, boundary_keeping_mesher<D> M, class I>
+byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const M& mesh_it, const I* improve,
                        const any_sizing& size, std::size_t rung) {
   const stopwatch clock;
   auto made = mesh_it(input.boundary, size);
@@ -93,8 +99,10 @@ byte_buffer make_piece(local_id subdomain, const subdomain_input& input, const M
   summary.summary.name = piece_name(subdomain);
   summary.summary.set("rung", static_cast<double>(rung));
   summary.summary.children.push_back(std::move(made.summary));
-  if (improve != nullptr)
-    summary.summary.children.push_back(improve_inside(made.mesh, input.boundary, *improve, size));
+  if constexpr (!improver<I, D>)
+    check_mesher_result(input.boundary, made.mesh);
+  else if (improve != nullptr)
+    summary.summary.children.push_back(improve_inside<D>(made.mesh, input.boundary, *improve, size));
   else
     summary.summary.warnings.push_back("left unimproved, since every attempt to improve it failed");
   summary.counts.material = input.boundary.material;
@@ -103,8 +111,8 @@ byte_buffer make_piece(local_id subdomain, const subdomain_input& input, const M
       static_cast<global_id>(made.mesh.points.size() - input.boundary.boundary.points.size());
   summary.quality = measure_quality(made.mesh);
   summary.summary.seconds = clock.seconds();
-  return finished_bytes(summary,
-                        {subdomain, input.boundary.material, std::move(made.mesh), input.skeleton_points});
+  return finished_bytes<D>(summary,
+                           {subdomain, input.boundary.material, std::move(made.mesh), input.skeleton_points});
 }
 
 } // namespace detail

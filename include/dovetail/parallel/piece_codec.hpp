@@ -45,7 +45,8 @@ inline report decode_report(byte_reader& from) {
 }
 
 /// Tags are stored only where they differ from the piece's material.
-inline void encode(byte_writer& to, const mesh_piece& piece) {
+template <int D>
+void encode(byte_writer& to, const simplicial_piece<D>& piece) {
   to.value(piece.subdomain);
   to.value(piece.material);
   to.array(piece.skeleton_points);
@@ -59,13 +60,14 @@ inline void encode(byte_writer& to, const mesh_piece& piece) {
     to.array(tags);
 }
 
-inline mesh_piece decode_piece(byte_reader& from) {
-  mesh_piece piece;
+template <int D = 3>
+simplicial_piece<D> decode_piece(byte_reader& from) {
+  simplicial_piece<D> piece;
   piece.subdomain = from.value<local_id>();
   piece.material = from.value<local_id>();
   piece.skeleton_points = from.array<local_id>();
   piece.mesh.points = from.array<vec3>();
-  piece.mesh.elements = from.array<simplex<3>>();
+  piece.mesh.elements = from.array<simplex<D>>();
   switch (from.value<std::uint8_t>()) {
   case 0:
     break;

@@ -1,6 +1,6 @@
 /// @file
-/// The first step of the pipeline: how large the mesh will be, and the coarse surface and volume mesh that is
-/// decomposed (paper, section 3.2).
+/// The first step of the pipeline: how large the mesh will be, and the coarse surface mesh, and volume mesh
+/// in D = 3, that is decomposed (paper, section 3.2).
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
@@ -9,6 +9,7 @@
 #include "dovetail/mesh/crossing_triangles.hpp"
 #include "dovetail/pipeline/parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
+#include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
 
 #include <cmath>
@@ -132,24 +133,40 @@ background::coarse_surface_result surface_without_crossings(const G& model, cons
   }
 }
 
-/// Predicts the size of the mesh inside a surface and chooses the decomposition. `surface` may be as coarse
-/// as the sizing field's features allow. `elements_per_unit_size` are the elements a mesher makes per
-/// integral of h^-3.
-template <sizing_field H>
-mesh_plan plan_mesh(const simplicial_mesh<2>& surface, const H& size, const generate_options& options,
-                    double elements_per_unit_size) {
-  const auto predicted = predict_volume_elements(surface, size, {.density = elements_per_unit_size});
+/// Chooses the decomposition from the predicted size of a mesh. The numbers of background elements in the
+/// options are those of D = 3; a surface has as many per length.
+template <int D>
+mesh_plan plan_mesh(const element_prediction& predicted, const generate_options& options) {
+  const auto of_dimension = [](double elements) {
+    return D == 3 ? elements : std::pow(elements, static_cast<double>(D) / 3);
+  };
   mesh_plan plan;
   plan.predicted_elements = predicted.elements;
   plan.relative_error = predicted.relative_error;
   plan.subdomains =
       options.subdomains > 0 ? options.subdomains : detail::default_subdomains(predicted.elements, options);
-  const double coarse_elements = std::max(plan.subdomains * options.background_elements_per_subdomain,
-                                          std::min(options.background_elements, predicted.elements / 10));
+  const double coarse_elements =
+      std::max(plan.subdomains * of_dimension(options.background_elements_per_subdomain),
+               std::min(of_dimension(options.background_elements), predicted.elements / 10));
   plan.coarse_scale = options.coarse_scale > 0
                           ? options.coarse_scale
-                          : std::max(1.5, std::cbrt(predicted.elements / coarse_elements));
+                          : std::max(1.5, D == 3 ? std::cbrt(predicted.elements / coarse_elements)
+                                                 : std::pow(predicted.elements / coarse_elements, 1.0 / D));
   return plan;
+}
+
+/// The elements that a mesh of a model will have: tetrahedra inside a surface, or triangles on it. `surface`
+/// may be as coarse as the sizing field's features allow. `elements_per_unit_size` are the tetrahedra a
+/// mesher makes per integral of h^-3.
+template <int D, sizing_field H>
+element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology, const H& size,
+                                double elements_per_unit_size) {
+  if constexpr (D == 3) {
+    return predict_volume_elements(detail::outer_surface(surface, topology), size,
+                                   {.density = elements_per_unit_size});
+  } else {
+    return predict_elements<2>(surface.mesh, size);
+  }
 }
 
 /// The elements a mesher makes per integral of h^-3; regular elements when it does not say.
@@ -161,8 +178,9 @@ constexpr double elements_per_inverse_cubed_size() {
     return 0;
 }
 
+template <int D>
 struct background_result {
-  background_mesh mesh;
+  simplicial_background<D> mesh;
   mesh_plan plan;
   report summary;
 };
@@ -170,7 +188,7 @@ struct background_result {
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
 /// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
 /// cannot be used, and what the surface mesher throws.
-template <geometry_model G, sizing_field H, class Parameters>
+template <int D = 3, geometry_model G, sizing_field H, class Parameters>
 mesh_plan plan_background(const G& model, const H& size, const Parameters& given) {
   detail::require_usable_size(model, size);
   const generate_options& options = given.options;
@@ -178,9 +196,10 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
   options.on_progress("planning", 0, 0);
   const auto first = surface_without_crossings(
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
-  const mesh_plan plan =
-      plan_mesh(detail::outer_surface(first.surface, model.topology()), size, options,
-                elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>());
+  const mesh_plan plan = plan_mesh<D>(
+      predict_mesh<D>(first.surface, model.topology(), size,
+                      elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>()),
+      options);
   if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
     throw too_many_elements(plan.predicted_elements, options.largest_prediction);
   return plan;
@@ -188,28 +207,33 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
 
 /// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
 /// concerned.
-template <geometry_model G, sizing_field H, class Parameters>
-background_result make_background(const G& model, const H& size, const Parameters& given) {
+template <int D, geometry_model G, sizing_field H, class Parameters>
+background_result<D> make_background(const G& model, const H& size, const Parameters& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
-  background_result result;
+  background_result<D> result;
   result.summary.name = "background";
-  result.plan = plan_background(model, size, given);
+  result.plan = plan_background<D>(model, size, given);
 
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
   auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
-  options.on_progress("background volume", 0, 0);
-  auto volume = background::coarse_volume(
-      surface.surface, model.topology(), coarse, given.mesh_it, options.background_improver, given.run_tasks,
-      {.failure_folder = options.failure_folder,
-       .limit_seconds = options.limit_seconds,
-       .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
-  result.mesh = {std::move(surface.surface), std::move(volume.mesh)};
+  result.summary.children.push_back(std::move(surface.summary));
+  result.mesh.surface = std::move(surface.surface);
+  if constexpr (D == 3) {
+    options.on_progress("background volume", 0, 0);
+    auto volume = background::coarse_volume(
+        result.mesh.surface, model.topology(), coarse, given.mesh_it, options.background_improver,
+        given.run_tasks,
+        {.failure_folder = options.failure_folder,
+         .limit_seconds = options.limit_seconds,
+         .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
+    result.mesh.volume = std::move(volume.mesh);
+    result.summary.children.push_back(std::move(volume.summary));
+  }
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
-  result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
-  result.summary.children = {std::move(surface.summary), std::move(volume.summary)};
+  result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.seconds = clock.seconds();
   return result;
 }

@@ -60,16 +60,17 @@ struct parameters {
   Executor run_tasks{};
   generate_options options{};
 
-  template <boundary_keeping_mesher<3> M>
-  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
-    return {std::move(mesher), partition_it, improve_it, run_tasks, options};
-  }
+  template <class M>
+    requires(boundary_keeping_mesher<M, 3> || boundary_keeping_mesher<M, 2>)
+  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher)
+  const { return {std::move(mesher), partition_it, improve_it, run_tasks, options}; }
   template <graph_partitioner P>
   parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
     return {mesh_it, std::move(partitioner), improve_it, run_tasks, options};
   }
   template <class I>
-    requires improver<I, 3> parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
+    requires(improver<I, 3> || improver<I, 2>)
+  parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
   const { return {mesh_it, partition_it, std::move(improver), run_tasks, options}; }
   template <executor E>
   parameters<Mesher, Partitioner, Improver, E> with_executor(E executor) const {

@@ -7,11 +7,17 @@
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/mesh/merge_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 namespace dovetail {
 
-struct realized_skeleton {
+/// A decomposition after merges, with the fine boundaries of its pieces.
+template <int D>
+struct realized;
+
+template <>
+struct realized<3> {
   fine_skeleton fine;
   coarse_skeleton coarse;
   std::vector<local_id> subdomain_of_element;  ///< of the background mesh, after merges
@@ -22,6 +28,22 @@ struct realized_skeleton {
   report
       intersection_summary; ///< "crossings", "merges", "largest_merged" (original subdomains in the largest)
 };
+
+/// In D = 2 the boundaries are the lines; the regions between them are meshed as pieces.
+template <>
+struct realized<2> {
+  simplicial_skeleton<2> fine;
+  coarse_skeleton coarse;
+  numbered_lines lines;
+  std::vector<std::vector<local_id>> regions; ///< of each subdomain, in `coarse`
+  std::vector<local_id> subdomain_of_element;
+  std::vector<local_id> material_of_subdomain; ///< all 0
+  any_sizing size;
+  report skeleton_summary;
+  report intersection_summary; ///< nothing is tested: lines of one region that cross fail as its piece
+};
+
+using realized_skeleton = realized<3>;
 
 namespace detail {
 
@@ -184,6 +206,33 @@ private:
 };
 
 } // namespace detail
+
+/// Remeshes the lines of a decomposed surface, each once: what D = 3 does with the pieces that its subdomains
+/// induce on the surface, before it fills the regions between the lines. Throws what the geometry throws.
+template <geometry_model G, class Parameters>
+realized<2> realize(const G& model, const simplicial_background<2>& mesh, const side_table<2>& sides,
+                    std::span<const side_state>, std::vector<local_id> subdomain_of_element,
+                    local_id subdomains, const any_sizing& size, const Parameters& given) {
+  const stopwatch clock;
+  realized<2> result;
+  result.coarse = extract_skeleton(mesh.surface, own_pieces(subdomain_of_element));
+  result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size,
+                               given.run_tasks, given.options.on_progress);
+  result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
+  result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(subdomains));
+  result.subdomain_of_element = std::move(subdomain_of_element);
+  result.material_of_subdomain.assign(static_cast<std::size_t>(subdomains), 0);
+  result.size = size;
+  result.intersection_summary.name = "intersection";
+  report& summary = result.skeleton_summary;
+  summary.name = "skeleton";
+  summary.set("lines", static_cast<double>(result.coarse.lines.size()));
+  summary.set("regions", static_cast<double>(result.coarse.regions.size()));
+  summary.set("edges", static_cast<double>(result.fine.edges.size()));
+  summary.set("points", static_cast<double>(result.fine.points.size()));
+  summary.seconds = clock.seconds();
+  return result;
+}
 
 /// Remeshes the skeleton of a decomposition until nothing crosses. `side_states` are what the simplification
 /// decided about the sides of the coarse volume. Throws `intersection_error` when too many subdomains would

@@ -13,9 +13,9 @@
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/side_state.hpp"
+#include "dovetail/mesh/wedge_runs.hpp"
 #include "dovetail/simplification/side_shape.hpp"
 #include "dovetail/simplification/types.hpp"
-#include "dovetail/simplification/wedge_runs.hpp"
 
 #include <algorithm>
 #include <array>

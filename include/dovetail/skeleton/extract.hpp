@@ -218,6 +218,15 @@ inline triangle_subdomains induced_pieces(const background_mesh& mesh, const sid
   return pieces;
 }
 
+/// The pieces of a surface that is itself decomposed (D = 2): the part of each triangle, nothing in front.
+inline triangle_subdomains own_pieces(const std::vector<local_id>& part_of_triangle) {
+  triangle_subdomains pieces;
+  pieces.reserve(part_of_triangle.size());
+  for (const local_id part : part_of_triangle)
+    pieces.push_back({part, no_id});
+  return pieces;
+}
+
 /// The skeleton of a surface cut into pieces; `faces` are the interface faces that end on it (none for D =
 /// 2). O(n log n). Throws `mesh_error` when the surface mesh contradicts itself.
 inline coarse_skeleton extract_skeleton(const surface_mesh& surface, const triangle_subdomains& pieces,

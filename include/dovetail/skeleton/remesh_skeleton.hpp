@@ -46,9 +46,7 @@ public:
 
   remeshed_skeleton run() {
     const stopwatch clock;
-    lines_ = number_lines(skeleton_,
-                          remesh_lines(model_, skeleton_.lines, coarse_points_, size_, run_, on_progress_),
-                          coarse_points_, surface_.vertex_hosts);
+    lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, run_, on_progress_);
     const double line_seconds = clock.seconds();
     build_patches();
     remesh_patches();

@@ -1,0 +1,97 @@
+/// @file
+/// From the meshes of a piece's regions to the mesh of the piece: shared by all meshers of D = 2.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesher/concepts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Appends a region's own points and its triangles.
+inline void append_region(const surface_region& region, const patch_mesh& made, simplicial_mesh<2>& mesh) {
+  const auto& labels = region.boundary.labels;
+  const auto frozen = static_cast<local_id>(labels.size());
+  const auto first_inner = static_cast<local_id>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), made.inner_points.begin(), made.inner_points.end());
+  mesh.elements.reserve(mesh.elements.size() + made.triangles.size());
+  for (simplex<2> triangle : made.triangles) {
+    for (local_id& v : triangle)
+      v = v < frozen ? labels[static_cast<std::size_t>(v)] : first_inner + v - frozen;
+    if (region.reversed)
+      std::swap(triangle[1], triangle[2]);
+    mesh.elements.push_back(triangle);
+    mesh.tags.push_back(region.face);
+  }
+}
+
+/// Adds to a region's forbidden edges those inner edges between boundary points that it must not have; false
+/// when it has none.
+inline bool forbid_chords(const surface_region& region, const patch_mesh& made, patch_boundary& boundary) {
+  if (!region.forbids)
+    return false;
+  const auto label = [&](local_id v) { return boundary.labels[static_cast<std::size_t>(v)]; };
+  const auto frozen = static_cast<local_id>(boundary.labels.size());
+  std::vector<std::array<local_id, 2>> own, found;
+  for (const auto& [a, b] : boundary.segments)
+    own.push_back(sorted_vertices(std::array{label(a), label(b)}));
+  std::sort(own.begin(), own.end());
+  for (const simplex<2>& t : made.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const local_id a = t[i], b = t[(i + 1) % 3]; a < frozen && b < frozen && label(a) != label(b))
+        if (const auto edge = sorted_vertices(std::array{label(a), label(b)});
+            !std::binary_search(own.begin(), own.end(), edge) && region.forbids(edge[0], edge[1]))
+          found.push_back(edge);
+  const std::size_t before = boundary.forbidden_edges.size();
+  for (const auto& edge : found)
+    if (auto& forbidden = boundary.forbidden_edges;
+        std::find(forbidden.begin(), forbidden.end(), edge) == forbidden.end())
+      forbidden.push_back(edge);
+  return boundary.forbidden_edges.size() > before;
+}
+
+/// Meshes a region, again as long as it has edges that it must not have.
+template <class MeshRegion>
+patch_mesh mesh_without_forbidden_chords(const surface_region& region, const MeshRegion& mesh_region) {
+  patch_mesh made = mesh_region(region.surface, region.boundary);
+  patch_boundary boundary = region.boundary;
+  for (int round = 0; round < 6 && forbid_chords(region, made, boundary); ++round)
+    made = mesh_region(region.surface, boundary);
+  return made;
+}
+
+} // namespace detail
+
+namespace mesher {
+
+/// Meshes the regions of a piece one by one, `mesh_region(surface, boundary)` giving a `patch_mesh`, and
+/// joins them along their lines. Throws `mesher_error` when the lines of a region cross in its parameter
+/// plane.
+template <class MeshRegion>
+mesher_result<2> assemble_regions(const mesher_input<2>& input, const MeshRegion& mesh_region) {
+  mesher_result<2> result;
+  result.mesh.points = input.boundary.points;
+  std::size_t folded = 0;
+  for (const surface_region& region : input.regions) {
+    const patch_mesh made = dovetail::detail::mesh_without_forbidden_chords(region, mesh_region);
+    if (!made.crossings.empty() || !made.misplaced.empty())
+      throw mesher_error("a region of face " + std::to_string(region.face) +
+                         ": its boundary lines cross in the parameter plane");
+    folded += made.folded.size();
+    dovetail::detail::append_region(region, made, result.mesh);
+  }
+  result.summary.set("regions", static_cast<double>(input.regions.size()));
+  if (folded > 0)
+    result.summary.warnings.push_back(std::to_string(folded) + " triangles turn away from the surface");
+  return result;
+}
+
+} // namespace mesher
+} // namespace dovetail

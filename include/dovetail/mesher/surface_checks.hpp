@@ -1,0 +1,125 @@
+/// @file
+/// What every surface mesher's result must satisfy, whoever made it: the given lines, edge by edge, the given
+/// points, elements with the piece's orientation, and on planes the area that the lines enclose.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/predicates.hpp"
+#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesher/concepts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// A directed edge between points of the boundary, by which listed and found edges are compared.
+using directed_edge = std::array<local_id, 2>;
+
+/// All edges of the elements between boundary points, directed, in growing order.
+inline std::vector<directed_edge> edges_between(const simplicial_mesh<2>& mesh, local_id boundary_points) {
+  std::vector<directed_edge> edges;
+  for (const auto& t : mesh.elements)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const directed_edge edge{t[k], t[(k + 1) % 3]};
+          edge[0] < boundary_points && edge[1] < boundary_points)
+        edges.push_back(edge);
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Every listed edge is passed by exactly one element in the direction in which it is listed, and by none in
+/// the other one unless it is listed in both.
+inline void check_lines_kept(const simplicial_mesh<1>& boundary, const simplicial_mesh<2>& mesh) {
+  auto listed = boundary.elements;
+  std::sort(listed.begin(), listed.end());
+  const auto found = edges_between(mesh, static_cast<local_id>(boundary.points.size()));
+  const auto times = [](const std::vector<directed_edge>& edges, const directed_edge& edge) {
+    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
+    return last - first;
+  };
+  std::size_t lost = 0;
+  for (const directed_edge& edge : listed) {
+    const directed_edge back{edge[1], edge[0]};
+    if (times(found, edge) > times(listed, edge) || times(found, back) > times(listed, back))
+      throw mesher_error("the mesh overlaps itself or the outside at the edge between boundary points " +
+                         std::to_string(edge[0]) + " and " + std::to_string(edge[1]));
+    lost += times(found, edge) == 0 ? 1 : 0;
+  }
+  if (lost > 0)
+    throw mesher_error("the mesher lost " + std::to_string(lost) + " of " + std::to_string(listed.size()) +
+                       " boundary edges");
+}
+
+inline void check_line_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {
+  if (got.size() < given.size())
+    throw mesher_error("the mesher lost " + std::to_string(given.size() - got.size()) +
+                       " of the boundary's points");
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
+      throw mesher_error("the mesher moved boundary point " + std::to_string(v));
+}
+
+/// The area that the segments of a region enclose in its parameter plane.
+inline double enclosed_area(const patch_boundary& boundary) {
+  double area = 0;
+  const vec2 origin = boundary.uv.empty() ? vec2{} : boundary.uv.front();
+  for (const auto& [a, b] : boundary.segments)
+    area += 0.5 * cross(boundary.uv[static_cast<std::size_t>(a)] - origin,
+                        boundary.uv[static_cast<std::size_t>(b)] - origin);
+  return area;
+}
+
+/// A piece of plane regions: every element is oriented like its face, exactly, and the areas add up.
+inline void check_planes_filled(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
+  std::map<local_id, const surface_region*> region_of_face;
+  double expected = 0;
+  for (const surface_region& region : input.regions) {
+    region_of_face.try_emplace(region.face, &region);
+    expected += enclosed_area(region.boundary);
+  }
+  double area = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const surface_region& region = *region_of_face.at(mesh.tags[e]);
+    std::array<vec2, 3> at;
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = region.surface.plane->project(mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]);
+    if (region.reversed)
+      std::swap(at[1], at[2]);
+    if (!(orient2d(at[0], at[1], at[2]) > 0))
+      throw mesher_error("element " + std::to_string(e) + " of the mesher's result is flat or inverted");
+    area += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
+  }
+  box3 box;
+  for (const vec3 p : input.boundary.points)
+    box.include(p);
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::pow(box.diagonal(), 2);
+  if (!(std::abs(area - expected) <= 1e-9 * std::abs(expected) + rounding))
+    throw mesher_error("the elements fill an area of " + std::to_string(area) + ", the lines enclose " +
+                       std::to_string(expected));
+}
+
+} // namespace detail
+
+/// Checks a mesher's or improver's result against its input; throws `mesher_error` that says what is wrong.
+/// Linear but for sorting the edges between boundary points.
+inline void check_mesher_result(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
+  detail::check_line_points_kept(input.boundary.points, mesh.points);
+  detail::check_lines_kept(input.boundary, mesh);
+  const bool planes = std::all_of(input.regions.begin(), input.regions.end(),
+                                  [](const surface_region& r) { return r.surface.plane.has_value(); });
+  if (planes && !input.regions.empty())
+    detail::check_planes_filled(input, mesh);
+}
+
+} // namespace dovetail

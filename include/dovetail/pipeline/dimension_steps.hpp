@@ -1,0 +1,117 @@
+/// @file
+/// The steps of `generate` that differ between D = 2 and D = 3, as overloads: what the simplification is
+/// given, and how the interfaces are measured.
+#pragma once
+
+#include "dovetail/decomposition/corner_contract.hpp"
+#include "dovetail/decomposition/subdomain_boundary.hpp"
+#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/simplification/simplify_coupled.hpp"
+
+namespace dovetail::detail {
+
+inline std::span<const local_id> materials_of(const simplicial_background<3>& mesh) {
+  return mesh.volume.tags;
+}
+/// Subsurfaces may cross CAD curves.
+inline std::span<const local_id> materials_of(const simplicial_background<2>&) {
+  return {};
+}
+
+inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
+  std::vector<simplex<1>> edges;
+  for (const auto& edge : surface.curve_edges)
+    edges.push_back(edge.vertices);
+  return edges;
+}
+
+/// The rule for the surface, in either dimension; without simplification every element stays by itself.
+inline simplify_parameters<2> surface_rule(const generate_options& options, int subdomains) {
+  simplify_parameters<2> rule;
+  rule.wedge_threshold_deg = options.simplify ? options.surface_angle_deg : 0;
+  rule.subdomains = subdomains;
+  return rule;
+}
+
+inline simplify_parameters<3> volume_rule(const generate_options& options, int subdomains) {
+  simplify_parameters<3> rule;
+  rule.wedge_threshold_deg = rule.shape_threshold_deg = options.simplify ? options.interface_angle_deg : 0;
+  rule.subdomains = subdomains;
+  return rule;
+}
+
+inline simplification<2> simplify_background(const simplicial_background<2>& mesh, const side_table<2>& sides,
+                                             std::span<const double> weights, int subdomains,
+                                             const generate_options& options, report& summary) {
+  const auto on_curves = edges_on_curves(mesh.surface);
+  auto simplified =
+      simplify<2>(mesh.surface.mesh, sides, {.fixed_sides = on_curves, .element_weights = weights},
+                  surface_rule(options, subdomains));
+  summary = simplified.summary;
+  return simplified;
+}
+
+inline simplification<3> simplify_background(const simplicial_background<3>& mesh, const side_table<3>& sides,
+                                             std::span<const double> weights, int subdomains,
+                                             const generate_options& options, report& summary) {
+  if (!options.simplify) {
+    auto plain =
+        simplify<3>(mesh.volume, sides, {.element_weights = weights}, volume_rule(options, subdomains));
+    summary = plain.summary;
+    return plain;
+  }
+  const auto on_curves = edges_on_curves(mesh.surface);
+  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides,
+                                  {.curve_edges = on_curves, .element_weights = weights},
+                                  surface_rule(options, subdomains), volume_rule(options, subdomains));
+  summary = std::move(coupled.summary);
+  return std::move(coupled.volume);
+}
+
+inline interface_contract coarse_interface_contract(const simplicial_background<3>& mesh,
+                                                    const side_table<3>& sides,
+                                                    std::span<const side_state> side_states,
+                                                    std::span<const local_id> subdomain_of_element,
+                                                    const generate_options& options) {
+  const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
+  const auto origins = triangle_origins(boundary, side_states);
+  return check_interface_contract({mesh.volume.points, boundary.sides, boundary.subdomains, origins},
+                                  options.interface_angle_deg);
+}
+
+inline interface_contract coarse_interface_contract(const simplicial_background<2>& mesh,
+                                                    const side_table<2>& sides,
+                                                    std::span<const side_state> side_states,
+                                                    std::span<const local_id> subdomain_of_element,
+                                                    const generate_options& options) {
+  return check_corner_contract({mesh.surface.mesh, sides, side_states, subdomain_of_element},
+                               options.surface_angle_deg);
+}
+
+inline interface_contract fine_interface_contract(const realized<3>& skeleton,
+                                                  const simplicial_background<3>&, const side_table<3>&,
+                                                  std::span<const side_state>,
+                                                  const generate_options& options) {
+  return check_interface_contract(
+      {skeleton.fine.points, skeleton.fine.triangles, skeleton.fine.subdomains, skeleton.origins},
+      options.interface_angle_deg);
+}
+
+/// Between the first edges of the lines at each vertex.
+inline interface_contract fine_interface_contract(const realized<2>& skeleton,
+                                                  const simplicial_background<2>& mesh,
+                                                  const side_table<2>& sides,
+                                                  std::span<const side_state> side_states,
+                                                  const generate_options& options) {
+  const auto leaves = [&](local_id side, local_id vertex) {
+    const auto& ends = sides.vertices[static_cast<std::size_t>(side)];
+    const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
+    const auto along = skeleton.lines.along(line, vertex);
+    const auto& points = skeleton.lines.points;
+    return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
+  };
+  return check_corner_contract({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
+                               options.surface_angle_deg);
+}
+
+} // namespace dovetail::detail

@@ -1,0 +1,125 @@
+/// @file
+/// The fine skeleton of D = 2: the edges of the remeshed lines, with the subsurfaces beside them.
+#pragma once
+
+#include "dovetail/skeleton/extract.hpp"
+#include "dovetail/skeleton/fine_lines.hpp"
+
+#include <utility>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Appends the edges of a line in the direction of the coarse edge from -> to.
+inline void append_line_edges(const numbered_lines& lines, local_id line, local_id from,
+                              std::array<local_id, 2> parts, simplicial_skeleton<2>& skeleton) {
+  const auto l = static_cast<std::size_t>(line);
+  const skeleton_line& key = lines.keys[l];
+  const auto numbers = lines.along(line, from);
+  for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
+    skeleton.edges.push_back({numbers[i], numbers[i + 1]});
+    skeleton.subdomains.push_back(parts);
+    skeleton.curves.push_back(key.on.dimension == 1 ? key.on.id : no_id);
+  }
+}
+
+/// The direction in which a triangle passes a side: from the first of these vertices to the second.
+inline simplex<1> passage_of(const side_table<2>& sides, const simplicial_mesh<2>& mesh, local_id side,
+                             local_id triangle) {
+  const auto t = static_cast<std::size_t>(triangle);
+  const auto& of_element = sides.of_element[t];
+  const auto local =
+      static_cast<std::size_t>(std::find(of_element.begin(), of_element.end(), side) - of_element.begin());
+  return pick(mesh.elements[t], numbering::sides<2>[local]);
+}
+
+} // namespace detail
+
+/// The fine skeleton of a decomposed surface from its lines. `sides` is `build_sides(surface.mesh)`. Linear
+/// in the edges made.
+inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side_table<2>& sides,
+                                                const std::vector<local_id>& part_of_triangle,
+                                                const numbered_lines& lines) {
+  simplicial_skeleton<2> skeleton;
+  skeleton.points = lines.points;
+  skeleton.point_hosts = lines.hosts;
+  const auto part = [&](local_id triangle) { return part_of_triangle[static_cast<std::size_t>(triangle)]; };
+  for (std::size_t l = 0; l < lines.keys.size(); ++l) {
+    const auto line = static_cast<local_id>(l);
+    const local_id side = detail::find_side<2>(sides, lines.keys[l].vertices);
+    const auto at_side = sides.all_elements(side);
+    const auto passage = [&](std::size_t k) {
+      return detail::passage_of(sides, surface.mesh, side, at_side[k]);
+    };
+    if (at_side.size() == 2 && passage(0) != passage(1)) {
+      const bool swap = part(at_side[1]) < part(at_side[0]);
+      detail::append_line_edges(lines, line, passage(swap ? 1 : 0)[0],
+                                {part(at_side[swap ? 1 : 0]), part(at_side[swap ? 0 : 1])}, skeleton);
+      continue;
+    }
+    for (std::size_t k = 0; k < at_side.size(); ++k)
+      detail::append_line_edges(lines, line, passage(k)[0], {part(at_side[k]), no_id}, skeleton);
+  }
+  return skeleton;
+}
+
+/// Which chords (inner edges of a region that join two points of lines) must not be: those that coincide with
+/// an edge of a line, and those that another region beside the same CAD curve might have too. Of the regions
+/// that might, the first may. A pure function of the skeleton, so that regions need not wait for each other.
+class chord_rule {
+public:
+  chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine, const numbered_lines& lines,
+             const surface_mesh& surface)
+      : edges_(fine.edges), regions_at_(fine.points.size()) {
+    for (simplex<1>& edge : edges_)
+      edge = sorted_vertices(edge);
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
+      for (const local_id t : skeleton.regions[r].triangles)
+        add_region(static_cast<local_id>(r), surface.mesh.elements[static_cast<std::size_t>(t)], lines);
+    for (auto& regions : regions_at_) {
+      std::sort(regions.begin(), regions.end());
+      regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+    }
+  }
+
+  bool forbids(local_id region, local_id a, local_id b) const {
+    const auto& at_a = regions_at_[static_cast<std::size_t>(a)];
+    const auto& at_b = regions_at_[static_cast<std::size_t>(b)];
+    const bool an_earlier_region = std::any_of(at_a.begin(), at_a.end(), [&](local_id r) {
+      return r < region && std::binary_search(at_b.begin(), at_b.end(), r);
+    });
+    return an_earlier_region ||
+           std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
+  }
+
+private:
+  /// Points of the CAD curves that a coarse triangle touches.
+  void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const local_id line = find_line(lines.keys, triangle[i], triangle[(i + 1) % 3]);
+      if (line != no_id && lines.keys[static_cast<std::size_t>(line)].on.dimension == 1)
+        for (const local_id v : lines.along(line, triangle[i]))
+          regions_at_[static_cast<std::size_t>(v)].push_back(region);
+      if (const local_id v = lines.number_of(triangle[i]);
+          v != no_id && lines.hosts[static_cast<std::size_t>(v)].dimension < 2)
+        regions_at_[static_cast<std::size_t>(v)].push_back(region);
+    }
+  }
+
+  std::vector<simplex<1>> edges_;                 ///< of all lines, sorted
+  std::vector<std::vector<local_id>> regions_at_; ///< per point; empty for points on no CAD curve
+};
+
+/// The regions of each part of a decomposed surface, growing.
+inline std::vector<std::vector<local_id>> regions_of_parts(const coarse_skeleton& skeleton,
+                                                           std::size_t parts) {
+  std::vector<std::vector<local_id>> regions(parts);
+  for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
+    regions[static_cast<std::size_t>(skeleton.regions[r].subdomains[0])].push_back(static_cast<local_id>(r));
+  return regions;
+}
+
+} // namespace dovetail
