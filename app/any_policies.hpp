@@ -4,6 +4,7 @@
 /// command line.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
@@ -77,13 +78,24 @@ private:
 };
 static_assert(boundary_keeping_mesher<any_mesher, 3> && has_fallbacks<any_mesher>);
 
-/// Holds any improver of tetrahedra.
+/// Holds any improver of tetrahedra; those that improve triangles too do so here.
 class any_improver {
 public:
   template <improver<3> I>
-  any_improver(std::string name, I policy) : name_(std::move(name)), call_(std::move(policy)) {}
+  any_improver(std::string name, I policy) : name_(std::move(name)), call_(policy) {
+    if constexpr (improver<I, 2>)
+      call_on_triangles_ = std::move(policy);
+  }
 
   const std::string& name() const { return name_; }
+  bool takes_triangles() const { return static_cast<bool>(call_on_triangles_); }
+  /// Throws `usage_error` when the held policy does not take triangles.
+  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen,
+                    const any_sizing& size) const {
+    if (!takes_triangles())
+      throw usage_error("the improver " + name_ + " does not take meshes of triangles; use fine");
+    return call_on_triangles_(mesh, frozen, size);
+  }
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                     const any_sizing& size) const {
     return call_(mesh, frozen, size);
@@ -92,8 +104,9 @@ public:
 private:
   std::string name_;
   std::function<report(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&)> call_;
+  std::function<report(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&)> call_on_triangles_;
 };
-static_assert(improver<any_improver, 3>);
+static_assert(improver<any_improver, 3> && improver<any_improver, 2>);
 
 /// Holds any executor.
 class any_executor {

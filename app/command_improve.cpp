@@ -9,24 +9,28 @@
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <cstdio>
+#include <string>
+#include <utility>
 
 namespace dovetail::app {
 namespace {
 
-box3 bounds_of(const simplicial_mesh<3>& mesh) {
+template <int D>
+box3 bounds_of(const simplicial_mesh<D>& mesh) {
   box3 bounds;
   for (const vec3& p : mesh.points)
     bounds.include(p);
   return bounds;
 }
 
-/// The sides between tetrahedra of different regions; they must stay.
-frozen_entities<3> material_interfaces(const simplicial_mesh<3>& mesh) {
-  frozen_entities<3> frozen;
+/// The sides between elements of different regions; they must stay.
+template <int D>
+frozen_entities<D> material_interfaces(const simplicial_mesh<D>& mesh) {
+  frozen_entities<D> frozen;
   if (mesh.tags.empty())
     return frozen;
   const auto tag = [&](local_id element) { return mesh.tags[static_cast<std::size_t>(element)]; };
-  const side_table<3> sides = build_sides(mesh);
+  const side_table<D> sides = build_sides(mesh);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [first, second] = sides.elements[s];
     if (second != no_id && tag(first) != tag(second))
@@ -35,23 +39,61 @@ frozen_entities<3> material_interfaces(const simplicial_mesh<3>& mesh) {
   return frozen;
 }
 
-void print_change(const quality_statistics& before, const quality_statistics& after, double seconds) {
+/// How the quality of elements of one dimension is named and judged.
+struct quality_terms {
+  const char* count;
+  const char* least;
+  const char* most;
+  int bad, low; ///< degrees
+};
+template <int D>
+constexpr quality_terms terms =
+    D == 3 ? quality_terms{"No. of tetrahedra", "Minimum dihedral angle (degrees)",
+                           "Maximum dihedral angle (degrees)", 12, 24}
+           : quality_terms{"No. of triangles", "Minimum angle (degrees)", "Maximum angle (degrees)", 15, 30};
+
+void print_change(const quality_terms& name, const quality_statistics& before,
+                  const quality_statistics& after, double seconds) {
   const auto row = [](const char* label, const char* format, auto old_value, auto new_value) {
     char values[2][40];
     std::snprintf(values[0], sizeof values[0], format, old_value);
     std::snprintf(values[1], sizeof values[1], format, new_value);
     std::printf("  %-32s %14s %14s\n", label, values[0], values[1]);
   };
+  const auto per_million = [&](const char* word, int degrees) {
+    const std::string label = std::string(word) + " (under " + std::to_string(degrees) + ") per million";
+    row(label.c_str(), "%.1f", before.per_million_under(degrees), after.per_million_under(degrees));
+  };
   std::printf("  %-32s %14s %14s\n", "", "before", "after");
-  row("No. of tetrahedra", "%lld", static_cast<long long>(before.elements),
-      static_cast<long long>(after.elements));
-  row("Minimum dihedral angle (degrees)", "%.3f", before.min_wedge_deg, after.min_wedge_deg);
-  row("Maximum dihedral angle (degrees)", "%.3f", before.max_wedge_deg, after.max_wedge_deg);
-  row("Bad (under 12) per million", "%.1f", before.per_million_under(12), after.per_million_under(12));
-  row("Low (under 24) per million", "%.1f", before.per_million_under(24), after.per_million_under(24));
+  row(name.count, "%lld", static_cast<long long>(before.elements), static_cast<long long>(after.elements));
+  row(name.least, "%.3f", before.min_wedge_deg, after.min_wedge_deg);
+  row(name.most, "%.3f", before.max_wedge_deg, after.max_wedge_deg);
+  per_million("Bad", name.bad);
+  per_million("Low", name.low);
   std::printf("  %-32s %14.2f\n", "Seconds", seconds);
   if (seconds > 0)
     std::printf("  %-32s %14.0f\n", "Elements per second", static_cast<double>(before.elements) / seconds);
+}
+
+/// Improves `mesh` and says what that changed; `write` saves it before anything is printed.
+template <int D, class Write>
+void improve_and_report(const any_improver& improve, simplicial_mesh<D>& mesh, const improve_options& options,
+                        const Write& write) {
+  const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(mesh));
+  const quality_statistics before = measure_quality(mesh);
+  const frozen_entities<D> frozen = material_interfaces(mesh);
+  const stopwatch clock;
+  const report made = improve(mesh, frozen, size);
+  const double seconds = clock.seconds();
+  const quality_statistics after = measure_quality(mesh);
+
+  write();
+  if (!options.report.empty())
+    write_quality_report(after, static_cast<std::int64_t>(mesh.points.size()), made, options.report);
+  if (!options.quiet)
+    print_change(terms<D>, before, after, seconds);
+  for (const auto& warning : made.warnings)
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
 }
 
 } // namespace
@@ -60,22 +102,13 @@ int run_improve(const improve_options& options) {
   const any_improver improve = make_improver(options.preset);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input);
-  const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(loaded.mesh));
-
-  const quality_statistics before = measure_quality(loaded.mesh);
-  const frozen_entities<3> frozen = material_interfaces(loaded.mesh);
-  const stopwatch clock;
-  const report made = improve(loaded.mesh, frozen, size);
-  const double seconds = clock.seconds();
-  const quality_statistics after = measure_quality(loaded.mesh);
-
-  write_mesh_file(loaded, options.out);
-  if (!options.report.empty())
-    write_quality_report(after, static_cast<std::int64_t>(loaded.mesh.points.size()), made, options.report);
-  if (!options.quiet)
-    print_change(before, after, seconds);
-  for (const auto& warning : made.warnings)
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  if (!loaded.mesh.elements.empty() || loaded.triangles.empty()) {
+    improve_and_report(improve, loaded.mesh, options, [&] { write_mesh_file(loaded, options.out); });
+    return exit_ok;
+  }
+  simplicial_mesh<2> surface{std::move(loaded.mesh.points), std::move(loaded.triangles),
+                             std::move(loaded.triangle_tags)};
+  improve_and_report(improve, surface, options, [&] { write_mesh_file(surface, options.out); });
   return exit_ok;
 }
 

@@ -33,4 +33,11 @@ void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& f
     io::write_vtu(mesh.mesh, file);
 }
 
+void write_mesh_file(const simplicial_mesh<2>& mesh, const std::filesystem::path& file) {
+  if (extension_of(file) == ".msh")
+    io::write_msh(mesh, file);
+  else
+    io::write_vtu(mesh, file);
+}
+
 } // namespace dovetail::app

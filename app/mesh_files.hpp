@@ -13,5 +13,7 @@ void check_can_write(const std::filesystem::path& file);
 
 /// Writes a VTU or MSH file; the extension decides. Throws `io_error` naming the file.
 void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file);
+/// The same for triangles.
+void write_mesh_file(const simplicial_mesh<2>& mesh, const std::filesystem::path& file);
 
 } // namespace dovetail::app

@@ -77,9 +77,10 @@ inline std::map<local_id, double> area_per_tag(const mesh_type& mesh) {
 }
 
 /// Checks all that the concept promises of a change of a valid mesh.
+/// (A removed point before a frozen one leaves a number that nothing can take.)
 inline void check_change(const mesh_type& before, const mesh_type& after, const frozen_type& frozen = {}) {
-  const auto validity =
-      dovetail::check_validity(after, {.closed_boundary = false, .non_manifold_sides = true});
+  const auto validity = dovetail::check_validity(
+      after, {.closed_boundary = false, .non_manifold_sides = true, .isolated_points = true});
   CHECK_MESSAGE(validity.valid(), validity.text());
   CHECK(dovetail::measure_quality(after).min_wedge_deg >=
         dovetail::measure_quality(before).min_wedge_deg - 1e-6);

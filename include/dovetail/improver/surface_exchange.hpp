@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/point_numbering.hpp"
 #include "dovetail/improver/surface_complex.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
@@ -288,56 +289,26 @@ inline surface_complex take_surface(const simplicial_mesh<2>& mesh, const frozen
 }
 
 /// Puts the result into `mesh` and, when `corner_uv` is given, its parameters there. Points that could not
-/// move, and those without triangles, keep their numbers; gaps of removed points are filled from the end.
+/// move, and those without triangles, keep their numbers; a gap that is left before them stays a point
+/// without triangles.
 inline void give_back(const surface_complex& made, simplicial_mesh<2>& mesh,
                       std::vector<std::array<vec2, 3>>* corner_uv = nullptr) {
   const auto& table = made.table;
-  const auto given = static_cast<local_id>(mesh.points.size());
-  std::vector<local_id> number(made.point.size(), no_id);
-  std::vector<bool> is_gap(mesh.points.size(), false);
-  std::vector<local_id> holders; // vertex of each point that may be renumbered
-  for (local_id v = 0; v < static_cast<local_id>(made.point.size()); ++v) {
-    const local_id source = made.source[made.at(v)];
-    const bool is_alive = table.corner_of[made.at(v)] != no_id;
-    if (source == no_id && is_alive)
-      holders.push_back(v);
-    else if (source != no_id && !is_alive)
-      is_gap[made.at(source)] = true;
-    else
-      number[made.at(v)] = source;
+  std::vector<bool> is_fixed(mesh.points.size(), true);
+  std::vector<local_id> number(made.source);
+  std::vector<local_id> free;
+  for (local_id v = made.frozen; v < static_cast<local_id>(made.point.size()); ++v) {
+    if (made.source[made.at(v)] != no_id)
+      is_fixed[made.at(made.source[made.at(v)])] = false;
+    if (table.corner_of[made.at(v)] != no_id)
+      free.push_back(v);
   }
-  // New points fill the gaps, then follow; gaps that are left take the last points that may move.
-  std::size_t next = 0;
-  std::vector<local_id> at_point(mesh.points.size(), no_id); // the free vertex at each given point
-  for (local_id v = made.frozen; v < static_cast<local_id>(made.point.size()); ++v)
-    if (number[made.at(v)] != no_id)
-      at_point[made.at(number[made.at(v)])] = v;
-  local_id end = given;
-  for (local_id hole = 0; hole < end; ++hole) {
-    if (!is_gap[made.at(hole)])
-      continue;
-    if (next < holders.size()) {
-      number[made.at(holders[next++])] = hole;
-      is_gap[made.at(hole)] = false;
-      continue;
-    }
-    while (end > hole && is_gap[made.at(end - 1)])
-      --end;
-    if (end <= hole || at_point[made.at(end - 1)] == no_id)
-      break;
-    --end;
-    number[made.at(at_point[made.at(end)])] = hole;
-    is_gap[made.at(hole)] = false;
+  const point_numbering numbers(is_fixed, free.size());
+  mesh.points.resize(numbers.size);
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    number[made.at(free[k])] = numbers.of_free[k];
+    mesh.points[made.at(numbers.of_free[k])] = made.point[made.at(free[k])];
   }
-  while (end > 0 && is_gap[made.at(end - 1)])
-    --end;
-  for (; next < holders.size(); ++next)
-    number[made.at(holders[next])] = end++;
-
-  mesh.points.resize(made.at(end));
-  for (local_id v = made.frozen; v < static_cast<local_id>(made.point.size()); ++v)
-    if (number[made.at(v)] != no_id)
-      mesh.points[made.at(number[made.at(v)])] = made.point[made.at(v)];
   const bool has_tags = !mesh.tags.empty();
   mesh.elements.clear();
   mesh.tags.clear();

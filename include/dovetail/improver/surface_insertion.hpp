@@ -4,7 +4,7 @@
 
 #include "dovetail/mesh/surface_smoothing.hpp"
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 namespace dovetail::improvement {
@@ -15,18 +15,20 @@ class surface_insertion {
 public:
   surface_insertion(State& state, dovetail::detail::smoother<State>& smooth) : s_(state), smooth_(smooth) {}
 
-  /// Splits the free side opposite c. Kept when the worst triangle around the new vertex, after flips of the
-  /// sides around it and moves, is better than the worse of the two that were split by more than
-  /// `least_gain`. Only triangles that have the new vertex change: the others cannot get worse.
-  bool improve(local_id c, double least_gain) {
+  /// Splits the free side opposite c. Kept when, after flips of the sides around the new vertex and moves,
+  /// the worst triangle around it is better than the worse of the two that were split by more than
+  /// `least_gain`, and all together lack less of `target` than those they replace (else one poor triangle
+  /// would become several). Only triangles that have the new vertex change: the others cannot get worse.
+  bool improve(local_id c, double target, double least_gain) {
     const local_id d = s_.table.twin[s_.at(c)];
-    const double before =
-        std::min(s_.quality(corner_table::triangle_of(c)), s_.quality(corner_table::triangle_of(d)));
+    const double q = s_.quality(corner_table::triangle_of(c)), r = s_.quality(corner_table::triangle_of(d));
     const local_id tail = s_.table.tail(c);
     const local_id v = s_.add_middle(c);
     if (v == no_id)
       return false;
     s_.table.split_side(c, v);
+    target_ = target;
+    lacked_ = lack_of(q) + lack_of(r);
     flipped_.clear();
     for (int round = 0; round < rounds; ++round) {
       const bool is_flipped = flip_around(v);
@@ -34,7 +36,13 @@ public:
       if (!is_flipped && !is_moved)
         break;
     }
-    if (dovetail::detail::star_quality(s_, v) > before + least_gain)
+    double worst = 1, lack = 0;
+    s_.table.for_each_corner(v, [&](local_id at) {
+      const double quality = s_.quality(corner_table::triangle_of(at));
+      worst = std::min(worst, quality);
+      lack += lack_of(quality);
+    });
+    if (worst > std::min(q, r) + least_gain && lack < lacked_)
       return true;
     take_back(v, tail);
     return false;
@@ -55,7 +63,9 @@ private:
       do {
         if (s_.table.free_side(c) && dovetail::detail::flip_queue::flip_raises_quality(s_, c) &&
             s_.may_flip(c)) {
-          flipped_.push_back(s_.table.vertex[s_.at(s_.table.twin[s_.at(c)])]);
+          const local_id d = s_.table.twin[s_.at(c)];
+          flipped_.push_back(s_.table.vertex[s_.at(d)]);
+          lacked_ += lack_of(s_.quality(corner_table::triangle_of(d)));
           s_.table.flip(c);
           ++valence;
           any = again = true;
@@ -84,8 +94,12 @@ private:
     return facing;
   }
 
+  double lack_of(double quality) const { return std::max(target_ - quality, 0.0); }
+
   State& s_;
   dovetail::detail::smoother<State>& smooth_;
+  double target_ = 0;
+  double lacked_ = 0;             ///< by the triangles that are replaced
   std::vector<local_id> flipped_; ///< the far ends of the edges that flips gave to v
 };
 

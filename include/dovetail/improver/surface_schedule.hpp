@@ -136,8 +136,9 @@ private:
     for (const auto& side : sides) {
       const local_id c = side.second;
       const local_id v = s_.table.tail(c), w = s_.table.head(c);
-      if (s_.table.free_side(c) &&
-          log_.record(operation::insertion, [&] { return insertion_.improve(c, least_step); }))
+      if (s_.table.free_side(c) && log_.record(operation::insertion, [&] {
+            return insertion_.improve(c, limits_.target, least_step);
+          }))
         return true;
       // An attempt that was taken back may have renamed the corners of t.
       if (!s_.table.alive(t) || s_.table.tail(c) != v || s_.table.head(c) != w)
