@@ -3,9 +3,9 @@
 #pragma once
 
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/fiedler.hpp"
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
+#include "dovetail/partition/spectral_fiedler.hpp"
 
 #include <cstddef>
 #include <cstdint>
