@@ -37,6 +37,10 @@ struct graph_edge {
 ///   std::size_t edge_slots(const G&)                                  slots of the edge list
 ///   bool list_edge(const G&, std::size_t slot, graph_edge&)           false for an empty slot
 ///   using edge_parallel_category = ...                                of Boost
+///   local_id row_neighbour(const G&, local_id v, std::size_t slot)    optional, where no slot is empty and
+///   the
+///                                                                     neighbour is cheaper to read than the
+///                                                                     edge
 template <class G>
 struct graph_access;
 
@@ -74,10 +78,15 @@ struct neighbour_slots {
 
   std::size_t size() const { return graph_access<G>::row_slots(*graph, vertex); }
   bool read(std::size_t slot, value_type& v) const {
-    graph_edge e;
-    const bool filled = graph_access<G>::row_edge(*graph, vertex, slot, e);
-    v = e.target;
-    return filled;
+    if constexpr (requires { graph_access<G>::row_neighbour(*graph, vertex, slot); }) {
+      v = graph_access<G>::row_neighbour(*graph, vertex, slot);
+      return true;
+    } else {
+      graph_edge e;
+      const bool filled = graph_access<G>::row_edge(*graph, vertex, slot, e);
+      v = e.target;
+      return filled;
+    }
   }
 };
 
