@@ -27,6 +27,7 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindMETIS.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindTetGen.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindNetgen.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindScotch.cmake"
   DESTINATION "${config_directory}")
 

@@ -55,6 +55,9 @@ dovetail_adapter(cgal FOUND "${CGAL_FOUND}" LIBRARIES CGAL::CGAL)
 find_package(Gmsh 4.8 QUIET)
 dovetail_adapter(gmsh FOUND "${Gmsh_FOUND}" LIBRARIES Gmsh::Gmsh)
 
+find_package(Netgen QUIET)
+dovetail_adapter(netgen FOUND "${Netgen_FOUND}" LIBRARIES Netgen::nglib)
+
 find_package(Eigen3 3.3 QUIET CONFIG)
 dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
 
