@@ -1,4 +1,7 @@
 #include "commands.hpp"
+#include "compare_groups.hpp"
+#include "compare_page.hpp"
+#include "compare_pictures.hpp"
 #include "compare_runs.hpp"
 #include "compare_table.hpp"
 #include "failure.hpp"
@@ -9,6 +12,7 @@
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/io/png_output.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +20,34 @@
 
 namespace dovetail::app {
 namespace {
+
+/// Makes the pictures of a comparison while its results are there: of each decomposition the first that went
+/// well, and of the worst elements one for each mesher and improver.
+class picture_album {
+public:
+  void add(const comparison_row& row, const generate_result& result) {
+    const combination& by = row.policies;
+    const std::string decomposition = by.partitioner + ", " + simplification_of(by) + " simplification";
+    if (is_new(pictures_.decompositions, decomposition)) {
+      pictures_.decompositions.push_back(
+          {decomposition, io::encode_png(picture_of_decomposition(result.mesh.skeleton))});
+      pictures_.interfaces.push_back(
+          {decomposition, io::encode_png(picture_of_interfaces(result.mesh.skeleton, result.fine_contract))});
+    }
+    const std::string meshing = meshing_of(row).name();
+    if (is_new(pictures_.worst_elements, meshing))
+      pictures_.worst_elements.push_back({meshing, io::encode_png(picture_of_worst_elements(result.mesh))});
+  }
+  const comparison_pictures& pictures() const { return pictures_; }
+
+private:
+  static bool is_new(const std::vector<captioned_picture>& pictures, const std::string& caption) {
+    return std::none_of(pictures.begin(), pictures.end(),
+                        [&](const captioned_picture& known) { return known.caption == caption; });
+  }
+
+  comparison_pictures pictures_;
+};
 
 /// One run of `dovetail compare`.
 class compare_run {
@@ -64,8 +96,9 @@ private:
       const std::string label = std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " +
                                 name_of(each) + (each.simplified ? "" : ", plain");
       parameters_.on_progress = progress_of(label);
-      compared_.rows.push_back(run_combination(source, each, policies_[k], parameters_,
-                                               [](const comparison_row&, const generate_result&) {}));
+      compared_.rows.push_back(run_combination(
+          source, each, policies_[k], parameters_,
+          [this](const comparison_row& row, const generate_result& result) { album_.add(row, result); }));
     }
   }
 
@@ -83,6 +116,7 @@ private:
   void write(const std::filesystem::path& folder) const {
     output_batch files;
     files.open(folder / "compare.csv").text(csv_text(compared_));
+    files.open(folder / "compare.html").text(page_html(compared_, album_.pictures()));
     files.commit();
   }
 
@@ -102,6 +136,7 @@ private:
   generate_options parameters_;
   std::optional<terminal_progress> lines_;
   comparison compared_;
+  picture_album album_;
 };
 
 } // namespace

@@ -1,0 +1,211 @@
+#include "compare_pictures.hpp"
+
+#include "dovetail/io/raster_render.hpp"
+#include "dovetail/mesh/quality.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+namespace dovetail::app {
+namespace {
+
+constexpr int width = 560;
+constexpr int height = 400;
+constexpr io::rgb red{205, 40, 40};
+constexpr io::rgb orange{240, 150, 30};
+constexpr io::rgb grey{150, 150, 150};
+constexpr io::rgb outline{120, 125, 135};
+
+io::raster_image rendered(const io::raster_scene& scene) {
+  const io::raster_view view = io::fitted(io::view_from({0.8, -1, 0.65}), scene, width, height);
+  return io::render(scene, view, width, height);
+}
+
+/// Soft colours, neighbours in number far apart in hue: hues go round by the golden ratio.
+io::rgb colour_of_subdomain(local_id s) {
+  const double turn = 0.58 + 0.6180339887498949 * s;
+  const double hue = 6 * (turn - std::floor(turn));
+  const double light = 0.85 + 0.1 * (s % 2);
+  const auto part = [&](double offset) {
+    const double k = std::fmod(offset + hue, 6.0);
+    const double saturation = 0.5 * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+    return static_cast<std::uint8_t>(255 * light * (1 - saturation));
+  };
+  return {part(5), part(3), part(1)};
+}
+
+vec3 center_of(const std::array<vec3, 3>& p) {
+  return (p[0] + p[1] + p[2]) / 3;
+}
+
+/// The middle of each subdomain's boundary.
+std::vector<vec3> centers_of_subdomains(const fine_skeleton& skeleton) {
+  std::vector<vec3> sums;
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+    const auto p = corners(std::span(skeleton.points), skeleton.triangles[t]);
+    const double area = norm(cross(p[1] - p[0], p[2] - p[0]));
+    for (const local_id s : skeleton.subdomains[t]) {
+      if (s == no_id)
+        continue;
+      const auto at = static_cast<std::size_t>(s);
+      if (at >= sums.size()) {
+        sums.resize(at + 1);
+        areas.resize(at + 1, 0);
+      }
+      sums[at] += area * center_of(p);
+      areas[at] += area;
+    }
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    sums[s] = areas[s] > 0 ? sums[s] / areas[s] : vec3{};
+  return sums;
+}
+
+void add_edges(io::raster_scene& scene, const std::array<vec3, 3>& p) {
+  for (std::size_t k = 0; k < 3; ++k)
+    scene.lines.push_back({{p[k], p[(k + 1) % 3]}, {70, 70, 80}, 0.5});
+}
+
+/// The edges on CAD curves.
+void add_outline(io::raster_scene& scene, const fine_skeleton& skeleton) {
+  for (const auto& [a, b] : skeleton.curve_edges)
+    scene.lines.push_back(
+        {{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
+         outline,
+         0.8});
+}
+
+/// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.
+io::raster_line lifted(io::raster_line line, vec3 towards) {
+  for (vec3& p : line.ends)
+    p += towards;
+  return line;
+}
+
+struct ranked_element {
+  double angle;
+  local_id piece;
+  local_id element;
+  std::array<vec3, 4> corners;
+
+  friend bool operator<(const ranked_element& a, const ranked_element& b) {
+    return std::tie(a.angle, a.piece, a.element) < std::tie(b.angle, b.piece, b.element);
+  }
+};
+
+/// The elements with the smallest angles, the worst first.
+std::vector<ranked_element> worst_elements(const distributed_mesh& mesh) {
+  std::vector<ranked_element> worst; // a heap, the best of them on top
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+    const auto piece = mesh.load(static_cast<local_id>(p));
+    for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
+      const auto at = corners(std::span(piece.mesh.points), piece.mesh.elements[e]);
+      const auto angles = wedge_angles(at);
+      const ranked_element here{*std::min_element(angles.begin(), angles.end()), static_cast<local_id>(p),
+                                static_cast<local_id>(e), at};
+      if (worst.size() == worst_elements_shown) {
+        if (!(here < worst.front()))
+          continue;
+        std::pop_heap(worst.begin(), worst.end());
+        worst.pop_back();
+      }
+      worst.push_back(here);
+      std::push_heap(worst.begin(), worst.end());
+    }
+  }
+  std::sort(worst.begin(), worst.end());
+  return worst;
+}
+
+/// An element, scaled about its middle if it is smaller than `least` across.
+void add_element(io::raster_scene& scene, const ranked_element& element, double least) {
+  const auto& p = element.corners;
+  const vec3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
+  double radius = 0;
+  for (const vec3 corner : p)
+    radius = std::max(radius, distance(corner, middle));
+  const double factor = std::max(1.0, least / std::max(2 * radius, 1e-300));
+  const io::rgb colour = element.angle < 12 ? red : element.angle < 24 ? orange : grey;
+  for (const auto& side : numbering::sides<3>) {
+    io::raster_triangle triangle{{}, colour};
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle.corners[k] = middle + factor * (p[static_cast<std::size_t>(side[k])] - middle);
+    scene.triangles.push_back(triangle);
+  }
+}
+
+} // namespace
+
+io::raster_image picture_of_decomposition(const fine_skeleton& skeleton) {
+  constexpr double explosion = 0.35;           // of the way from the middle of all to one's own
+  constexpr std::size_t few_triangles = 12000; // so many have edges that can be told apart
+  box3 box;
+  for (const vec3 p : skeleton.points)
+    box.include(p);
+  const std::vector<vec3> centers = centers_of_subdomains(skeleton);
+  io::raster_scene scene;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
+    for (const local_id s : skeleton.subdomains[t]) {
+      if (s == no_id)
+        continue;
+      auto p = corners(std::span(skeleton.points), skeleton.triangles[t]);
+      for (vec3& corner : p)
+        corner += explosion * (centers[static_cast<std::size_t>(s)] - box.center());
+      scene.triangles.push_back({p, colour_of_subdomain(s)});
+      if (skeleton.triangles.size() < few_triangles)
+        add_edges(scene, p);
+    }
+  return rendered(scene);
+}
+
+io::raster_image picture_of_interfaces(const fine_skeleton& skeleton, const interface_contract& contract) {
+  constexpr std::size_t few_triangles = 12000;
+  io::raster_scene scene;
+  add_outline(scene, skeleton);
+  std::vector<std::array<vec3, 3>> interfaces;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
+    if (skeleton.cad_faces[t] == no_id) {
+      interfaces.push_back(corners(std::span(skeleton.points), skeleton.triangles[t]));
+      const auto& [first, second] = skeleton.subdomains[t];
+      scene.triangles.push_back({interfaces.back(), colour_of_subdomain(first + 3 * second)});
+    }
+  if (interfaces.size() < few_triangles)
+    for (const auto& triangle : interfaces)
+      add_edges(scene, triangle);
+  const vec3 before_all = 2 * scene.bounds().diagonal() * normalized({0.8, -1, 0.65});
+  const auto mark = [&](local_id a, local_id b) {
+    scene.lines.push_back(
+        lifted({{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
+                red,
+                2.5},
+               before_all));
+  };
+  for (const contract_violation& violation : contract.violations) {
+    if (violation.is_wedge()) {
+      mark(violation.edge[0], violation.edge[1]);
+      continue;
+    }
+    const auto& triangle = skeleton.triangles[static_cast<std::size_t>(violation.triangles[0])];
+    for (std::size_t k = 0; k < 3; ++k)
+      mark(triangle[k], triangle[(k + 1) % 3]);
+  }
+  return rendered(scene);
+}
+
+io::raster_image picture_of_worst_elements(const distributed_mesh& mesh) {
+  constexpr double least_across = 0.012; // of the model's diagonal
+  io::raster_scene scene;
+  add_outline(scene, mesh.skeleton);
+  box3 box;
+  for (const vec3 p : mesh.skeleton.points)
+    box.include(p);
+  for (const ranked_element& element : worst_elements(mesh))
+    add_element(scene, element, least_across * box.diagonal());
+  return rendered(scene);
+}
+
+} // namespace dovetail::app
