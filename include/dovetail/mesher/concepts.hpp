@@ -24,6 +24,7 @@
 #include "dovetail/mesher/surface_region.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
+#include <array>
 #include <concepts>
 #include <vector>
 
@@ -58,6 +59,13 @@ template <int D>
 struct mesher_result {
   simplicial_mesh<D> mesh; ///< the input's points first, unchanged; then the new ones
   report summary;
+};
+
+template <>
+struct mesher_result<2> {
+  simplicial_mesh<2> mesh; ///< as above; tags are faces
+  report summary;
+  std::vector<std::array<vec2, 3>> corner_uv = {}; ///< per triangle: parameters on its face; may be empty
 };
 
 template <class M, int D>

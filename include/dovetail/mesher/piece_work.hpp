@@ -9,6 +9,7 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/piece_improvement.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/parallel/piece_codec.hpp"
 
@@ -74,16 +75,13 @@ simplicial_piece<D> piece_of(const byte_buffer& finished) {
 
 /// Improves a mesh inside its frozen boundary and checks that the boundary is still there.
 template <int D, improver<D> I>
-report improve_inside(simplicial_mesh<D>& mesh, const mesher_input<D>& input, const I& improve,
+report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, const I& improve,
                       const any_sizing& size) {
-  frozen_entities<D> frozen;
-  frozen.points = static_cast<local_id>(input.boundary.points.size());
-  frozen.sides = input.boundary.elements;
   const stopwatch clock;
-  report summary = improve(mesh, frozen, size);
+  report summary = improve_piece(made, input, improve, size);
   summary.name = "improver";
   summary.seconds = clock.seconds();
-  check_mesher_result(input, mesh);
+  check_mesher_result(input, made.mesh);
   return summary;
 }
 
@@ -94,15 +92,15 @@ byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const M&
                        const any_sizing& size, std::size_t rung) {
   const stopwatch clock;
   auto made = mesh_it(input.boundary, size);
-  made.summary.name = "mesher";
   piece_summary summary;
   summary.summary.name = piece_name(subdomain);
   summary.summary.set("rung", static_cast<double>(rung));
+  made.summary.name = "mesher";
   summary.summary.children.push_back(std::move(made.summary));
   if constexpr (!improver<I, D>)
     check_mesher_result(input.boundary, made.mesh);
   else if (improve != nullptr)
-    summary.summary.children.push_back(improve_inside<D>(made.mesh, input.boundary, *improve, size));
+    summary.summary.children.push_back(improve_inside<D>(made, input.boundary, *improve, size));
   else
     summary.summary.warnings.push_back("left unimproved, since every attempt to improve it failed");
   summary.counts.material = input.boundary.material;

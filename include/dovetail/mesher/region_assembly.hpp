@@ -16,17 +16,23 @@ namespace dovetail {
 namespace detail {
 
 /// Appends a region's own points and its triangles.
-inline void append_region(const surface_region& region, const patch_mesh& made, simplicial_mesh<2>& mesh) {
+inline void append_region(const surface_region& region, const patch_mesh& made, mesher_result<2>& result) {
+  simplicial_mesh<2>& mesh = result.mesh;
   const auto& labels = region.boundary.labels;
   const auto frozen = static_cast<local_id>(labels.size());
   const auto first_inner = static_cast<local_id>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), made.inner_points.begin(), made.inner_points.end());
   mesh.elements.reserve(mesh.elements.size() + made.triangles.size());
+  result.corner_uv.reserve(mesh.elements.size() + made.triangles.size());
   for (simplex<2> triangle : made.triangles) {
-    for (local_id& v : triangle)
-      v = v < frozen ? labels[static_cast<std::size_t>(v)] : first_inner + v - frozen;
     if (region.reversed)
       std::swap(triangle[1], triangle[2]);
+    auto& uv = result.corner_uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      uv[k] = triangle[k] < frozen ? region.boundary.uv[static_cast<std::size_t>(triangle[k])]
+                                   : made.inner_uv[static_cast<std::size_t>(triangle[k] - frozen)];
+    for (local_id& v : triangle)
+      v = v < frozen ? labels[static_cast<std::size_t>(v)] : first_inner + v - frozen;
     mesh.elements.push_back(triangle);
     mesh.tags.push_back(region.face);
   }
@@ -85,7 +91,7 @@ mesher_result<2> assemble_regions(const mesher_input<2>& input, const MeshRegion
       throw mesher_error("a region of face " + std::to_string(region.face) +
                          ": its boundary lines cross in the parameter plane");
     folded += made.folded.size();
-    dovetail::detail::append_region(region, made, result.mesh);
+    dovetail::detail::append_region(region, made, result);
   }
   result.summary.set("regions", static_cast<double>(input.regions.size()));
   if (folded > 0)

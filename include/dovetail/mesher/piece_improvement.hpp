@@ -1,0 +1,90 @@
+/// @file
+/// Improves a meshed piece inside its frozen boundary: tetrahedra, or triangles that stay on their surfaces.
+#pragma once
+
+#include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/surface_host.hpp"
+#include "dovetail/mesher/concepts.hpp"
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// The surfaces of a piece as the host of its triangles; it keeps what it needs of `input`.
+inline surface_host host_of_piece(const mesher_input<2>& input, std::vector<std::array<vec2, 3>> corner_uv) {
+  struct face {
+    any_surface surface;
+    bool reversed;
+  };
+  auto faces = std::make_shared<std::map<local_id, face>>();
+  for (const surface_region& region : input.regions)
+    faces->try_emplace(region.face, face{region.surface, region.reversed});
+  const auto point_at = [](const face& on, vec2 uv) {
+    const surface_frame f = on.surface.plane ? on.surface.plane->frame(uv) : on.surface.frame(uv);
+    const vec3 normal = normalized(cross(f.du, f.dv));
+    return host_point{f.point, on.reversed ? -normal : normal, uv};
+  };
+  return {
+      [faces, point_at](local_id id, vec3 p, vec2 near) {
+        const face& on = faces->at(id);
+        return point_at(on, on.surface.plane ? on.surface.plane->project(p) : on.surface.project(p, near));
+      },
+      [faces, point_at](local_id id, vec2 uv) { return point_at(faces->at(id), uv); }, std::move(corner_uv)};
+}
+
+/// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
+/// triangles are left alone.
+inline std::vector<simplex<1>> sides_at_poles(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
+  std::vector<bool> is_pole(mesh.points.size(), false);
+  bool any = false;
+  for (const surface_region& region : input.regions)
+    for (const auto& [a, b] : region.boundary.segments)
+      if (const local_id label = region.boundary.labels[static_cast<std::size_t>(a)];
+          label == region.boundary.labels[static_cast<std::size_t>(b)])
+        is_pole[static_cast<std::size_t>(label)] = any = true;
+  std::vector<simplex<1>> sides;
+  const auto at_pole = [&](const simplex<2>& t) {
+    return is_pole[static_cast<std::size_t>(t[0])] || is_pole[static_cast<std::size_t>(t[1])] ||
+           is_pole[static_cast<std::size_t>(t[2])];
+  };
+  for (const simplex<2>& t : mesh.elements)
+    if (any && at_pole(t))
+      sides.insert(sides.end(), {{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}});
+  return sides;
+}
+
+/// Improves tetrahedra inside their frozen boundary.
+template <improver<3> I>
+report improve_piece(mesher_result<3>& made, const mesher_input<3>& input, const I& improve,
+                     const any_sizing& size) {
+  frozen_entities<3> frozen;
+  frozen.points = static_cast<local_id>(input.boundary.points.size());
+  frozen.sides = input.boundary.elements;
+  return improve(made.mesh, frozen, size);
+}
+
+/// Improves triangles inside their frozen lines. An improver that takes no host cannot know the surface: it
+/// may move points of planes in z = 0 only.
+template <improver<2> I>
+report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const I& improve,
+                     const any_sizing& size) {
+  frozen_entities<2> frozen;
+  frozen.points = static_cast<local_id>(input.boundary.points.size());
+  frozen.sides = input.boundary.elements;
+  const auto at_poles = sides_at_poles(input, made.mesh);
+  frozen.sides.insert(frozen.sides.end(), at_poles.begin(), at_poles.end());
+  constexpr bool takes_host = requires(const surface_host& host) {
+    improve(made.mesh, frozen, size, host);
+  };
+  if constexpr (takes_host)
+    return improve(made.mesh, frozen, size, host_of_piece(input, std::move(made.corner_uv)));
+  for (const surface_region& region : input.regions)
+    if (!region.surface.plane)
+      frozen.points = static_cast<local_id>(made.mesh.points.size());
+  return improve(made.mesh, frozen, size);
+}
+
+} // namespace dovetail::detail
