@@ -4,10 +4,10 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/geometry/discrete_nesting.hpp"
 #include "dovetail/geometry/discrete_soup.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
 
 #include <algorithm>
@@ -318,83 +318,22 @@ private:
     return (v[0] == from && v[1] == to) || (v[1] == from && v[2] == to) || (v[2] == from && v[0] == to);
   }
 
-  /// Finds which shells lie in which: even depth bounds a solid from outside, odd depth is a void of the
-  /// solid around it.
+  /// Finds which shells lie in which, and turns each so that its normals point out of its solid.
   void nest() {
-    const auto shells = shell_meshes();
-    std::vector<inside_surface> inside;
-    std::vector<double> volumes;
-    for (const auto& shell : shells) {
-      inside.emplace_back(shell);
-      volumes.push_back(inside.back().signed_volume_inside());
-    }
-    // A point of the shell, off symmetric places, is inside the shells around it.
-    std::vector<std::vector<std::size_t>> around(shells.size());
-    for (std::size_t i = 0; i < shells.size(); ++i)
-      for (std::size_t j = 0; j < shells.size(); ++j)
-        if (i != j && inside[j].bounds().overlaps(inside[i].bounds()) && inside[j](sample_of(shells[i])))
-          around[i].push_back(j);
-
-    std::vector<local_id> solid(shells.size(), no_id);
-    for (std::size_t i = 0; i < shells.size(); ++i)
-      if (around[i].size() % 2 == 0)
-        solid[i] = result_.solids++;
-    double voids = 0;
-    for (std::size_t i = 0; i < shells.size(); ++i)
-      if (around[i].size() % 2 == 1) {
-        ++voids;
-        for (const std::size_t j : around[i]) // the innermost around it has one less around itself
-          if (around[j].size() + 1 == around[i].size())
-            solid[i] = solid[j];
-      }
-
+    const shell_nesting nesting = nested(shell_meshes(result_.mesh, shell_of_, shells_));
+    result_.solids = nesting.solids;
     result_.solid_of.resize(triangles().size());
     for (std::size_t t = 0; t < triangles().size(); ++t) {
       const auto shell = static_cast<std::size_t>(shell_of_[t]);
-      const bool is_void = around[shell].size() % 2 == 1;
-      if ((volumes[shell] < 0) != is_void) {
+      if (nesting.is_inside_out[shell]) {
         std::swap(triangles()[t][1], triangles()[t][2]);
         result_.repairs.add("turned", 1);
       }
-      result_.solid_of[t] = solid[shell];
+      result_.solid_of[t] = nesting.solid_of[shell];
     }
     result_.repairs.set("shells", shells_);
-    result_.repairs.set("solids", result_.solids);
-    result_.repairs.set("voids", voids);
-  }
-
-  /// Each shell with points of its own; a shell's triangles are connected, so their points have one shell at
-  /// a time.
-  std::vector<simplicial_mesh<2>> shell_meshes() {
-    std::vector<simplicial_mesh<2>> shells(static_cast<std::size_t>(shells_));
-    std::vector<std::pair<local_id, local_id>> place_of(points().size(),
-                                                        {no_id, no_id}); // shell, index in it
-    std::vector<std::size_t> order(triangles().size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return shell_of_[a] < shell_of_[b]; });
-    for (const std::size_t t : order) {
-      auto& shell = shells[static_cast<std::size_t>(shell_of_[t])];
-      simplex<2> renamed = triangles()[t];
-      for (local_id& v : renamed) {
-        auto& [of_shell, index] = place_of[static_cast<std::size_t>(v)];
-        if (of_shell != shell_of_[t]) {
-          of_shell = shell_of_[t];
-          index = static_cast<local_id>(shell.points.size());
-          shell.points.push_back(point(v));
-        }
-        v = index;
-      }
-      shell.elements.push_back(renamed);
-    }
-    return shells;
-  }
-
-  static vec3 sample_of(const simplicial_mesh<2>& shell) {
-    const auto& t = shell.elements.front();
-    return 0.29 * shell.points[static_cast<std::size_t>(t[0])] +
-           0.33 * shell.points[static_cast<std::size_t>(t[1])] +
-           0.38 * shell.points[static_cast<std::size_t>(t[2])];
+    result_.repairs.set("solids", nesting.solids);
+    result_.repairs.set("voids", nesting.voids);
   }
 
   /// Crossings of slivers, which the rounding of a file can fold over their neighbours, are only warned of.
