@@ -2,9 +2,9 @@
 /// Bisection by greedy graph growing: the start of the multilevel partitioner.
 #pragma once
 
+#include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/graph/contraction.hpp"
-#include "dovetail/graph/csr_boost.hpp"
-#include "dovetail/graph/traversal.hpp"
+#include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/refinement.hpp"
 
 #include <cstddef>
@@ -19,7 +19,12 @@ namespace detail {
 
 /// The node that a breadth-first search from `start` reaches last.
 inline local_id farthest_node(const csr_graph& graph, local_id start) {
-  return breadth_first_order(graph, start).back();
+  return breadth_first_order(graph.node_weights.size(), start,
+                             [&graph](local_id node, const auto& visit) {
+                               for (const local_id next : graph.row(node))
+                                 visit(next);
+                             })
+      .back();
 }
 
 /// Grows part 0 from `start`, always by the node whose move costs the cut least, to the weight `target`; all
