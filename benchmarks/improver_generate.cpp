@@ -1,9 +1,11 @@
 /// @file
-/// Makes an input for `improver.cpp`: fills the closed surface of a Gmsh 2.2 ASCII mesh with tetrahedra by
-/// TetGen (`pYqm`, the boundary kept, sizes graded from the surface's own edge lengths) and writes raw
-/// arrays.
+/// Makes an input for `improver.cpp`, raw arrays, from a mesh file:
+///   improver_generate fill SURFACE OUT.raw   fills a closed surface with tetrahedra by TetGen
+///   improver_generate copy VOLUME OUT.raw    takes the tetrahedra as they are
+/// SURFACE and VOLUME are MSH or VTU files. The surface consists of the file's triangles or, when it has
+/// tetrahedra, of their boundary. TetGen is run as its users run it, `pYqm`: the surface kept, sizes graded
+/// from the surface's own edge lengths. Inner shells bound voids.
 ///
-/// Usage: improver_generate SURFACE.msh OUT.raw
 /// The raw file holds three int64 (points, elements, frozen points), the points (3 doubles each) and the
 /// elements (4 int32 each). A benchmark tool, not part of the library.
 #ifndef TETLIBRARY
@@ -11,79 +13,56 @@
 #endif
 #include <tetgen.h>
 
+#include "dovetail/improver/tet_adjacency.hpp"
+#include "dovetail/io/read_mesh.hpp"
+
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace {
 
-struct surface {
-  std::vector<std::array<double, 3>> points;
-  std::vector<std::array<int, 3>> triangles;
-};
+using namespace dovetail;
+using improvement::match_sides;
+using improvement::sorted_side;
 
-surface read_msh2(const char* path) {
-  std::ifstream in(path);
-  std::string line;
-  surface s;
-  std::map<long, int> index_of;
-  std::map<long, std::array<double, 3>> nodes;
-  while (in >> line) {
-    if (line == "$Nodes") {
-      std::size_t n = 0;
-      in >> n;
-      for (std::size_t i = 0; i < n; ++i) {
-        long id = 0;
-        std::array<double, 3> p{};
-        in >> id >> p[0] >> p[1] >> p[2];
-        nodes[id] = p;
-      }
-    } else if (line == "$Elements") {
-      std::size_t n = 0;
-      in >> n;
-      for (std::size_t i = 0; i < n; ++i) {
-        long id = 0;
-        int type = 0, tags = 0;
-        in >> id >> type >> tags;
-        for (int k = 0, t = 0; k < tags; ++k)
-          in >> t;
-        const int count = type == 15 ? 1 : type == 1 ? 2 : 3;
-        std::array<long, 3> v{};
-        for (int k = 0; k < count; ++k)
-          in >> v[static_cast<std::size_t>(k)];
-        if (type != 2)
-          continue;
-        std::array<int, 3> triangle{};
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto [it, is_new] = index_of.try_emplace(v[k], static_cast<int>(s.points.size()));
-          if (is_new)
-            s.points.push_back(nodes.at(v[k]));
-          triangle[k] = it->second;
-        }
-        s.triangles.push_back(triangle);
-      }
-    }
+/// The boundary of the tetrahedra if there are any, else the file's triangles; on points of their own.
+simplicial_mesh<2> surface_of(const io::loaded_mesh& file) {
+  simplicial_mesh<2> surface;
+  surface.elements = file.triangles;
+  if (!file.mesh.elements.empty()) {
+    surface.elements.clear();
+    const auto across = match_sides(file.mesh.elements, file.mesh.points.size());
+    for (std::size_t e = 0; e < across.size(); ++e)
+      for (std::size_t side = 0; side < 4; ++side)
+        if (across[e][side] == no_id)
+          surface.elements.push_back(sorted_side(file.mesh.elements[e], static_cast<int>(side)));
   }
-  return s;
+  std::vector<local_id> place(file.mesh.points.size(), no_id);
+  for (auto& triangle : surface.elements)
+    for (auto& v : triangle) {
+      auto& own = place[static_cast<std::size_t>(v)];
+      if (own == no_id) {
+        own = static_cast<local_id>(surface.points.size());
+        surface.points.push_back(file.mesh.points[static_cast<std::size_t>(v)]);
+      }
+      v = own;
+    }
+  return surface;
 }
 
 /// The mean length of the edges at each point, TetGen's target size there.
-std::vector<double> sizes_of(const surface& s) {
-  std::vector<double> sum(s.points.size(), 0.0), count(s.points.size(), 0.0);
-  for (const auto& t : s.triangles)
+std::vector<double> sizes_of(const simplicial_mesh<2>& surface) {
+  std::vector<double> sum(surface.points.size(), 0.0), count(surface.points.size(), 0.0);
+  for (const auto& t : surface.elements)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
-      const auto &p = s.points[a], &q = s.points[b];
-      const double length = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
       for (const auto v : {a, b}) {
-        sum[v] += length;
+        sum[v] += distance(surface.points[a], surface.points[b]);
         count[v] += 1;
       }
     }
@@ -92,63 +71,144 @@ std::vector<double> sizes_of(const surface& s) {
   return sum;
 }
 
-void fill_with_tetrahedra(const surface& s, tetgenio& out) {
-  tetgenio in;
-  in.numberofpoints = static_cast<int>(s.points.size());
-  in.pointlist = new double[3 * s.points.size()];
+/// Everything inside the outermost shell, voids too.
+simplicial_mesh<3> fill_hull(const simplicial_mesh<2>& surface) {
+  tetgenio in, out;
+  in.numberofpoints = static_cast<int>(surface.points.size());
+  in.pointlist = new double[3 * surface.points.size()];
   in.numberofpointmtrs = 1;
-  in.pointmtrlist = new double[s.points.size()];
-  const auto sizes = sizes_of(s);
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      in.pointlist[3 * i + k] = s.points[i][k];
+  in.pointmtrlist = new double[surface.points.size()];
+  const auto sizes = sizes_of(surface);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    for (int k = 0; k < 3; ++k)
+      in.pointlist[3 * i + static_cast<std::size_t>(k)] = surface.points[i][k];
     in.pointmtrlist[i] = sizes[i];
   }
-  in.numberoffacets = static_cast<int>(s.triangles.size());
-  in.facetlist = new tetgenio::facet[s.triangles.size()];
-  for (std::size_t i = 0; i < s.triangles.size(); ++i) {
+  in.numberoffacets = static_cast<int>(surface.elements.size());
+  in.facetlist = new tetgenio::facet[surface.elements.size()];
+  for (std::size_t i = 0; i < surface.elements.size(); ++i) {
     auto& facet = in.facetlist[i];
     tetgenio::init(&facet);
     facet.numberofpolygons = 1;
     facet.polygonlist = new tetgenio::polygon[1];
     tetgenio::init(facet.polygonlist);
+    const auto& t = surface.elements[i];
     facet.polygonlist->numberofvertices = 3;
-    facet.polygonlist->vertexlist = new int[3]{s.triangles[i][0], s.triangles[i][1], s.triangles[i][2]};
+    facet.polygonlist->vertexlist = new int[3]{t[0], t[1], t[2]};
   }
   char switches[] = "pYqmQ";
   tetrahedralize(switches, &in, &out);
+  simplicial_mesh<3> mesh;
+  for (int v = 0; v < out.numberofpoints; ++v)
+    mesh.points.push_back({out.pointlist[3 * v], out.pointlist[3 * v + 1], out.pointlist[3 * v + 2]});
+  for (int e = 0; e < out.numberoftetrahedra; ++e) {
+    const int* v = out.tetrahedronlist + 4 * e;
+    mesh.elements.push_back({v[0], v[1], v[2], v[3]});
+  }
+  return mesh;
 }
 
-void write_raw(const char* path, const tetgenio& mesh, std::size_t frozen) {
+/// Keeps the elements that are reached from outside through an odd number of shells.
+void empty_voids(simplicial_mesh<3>& mesh, const simplicial_mesh<2>& surface) {
+  auto walls = surface.elements;
+  for (auto& wall : walls)
+    std::sort(wall.begin(), wall.end());
+  std::sort(walls.begin(), walls.end());
+  const auto across = match_sides(mesh.elements, mesh.points.size());
+  std::vector<int> shells(mesh.elements.size(), 0); // passed on the way from outside; 0: not reached yet
+  std::vector<local_id> reached;
+  for (std::size_t e = 0; e < shells.size(); ++e)
+    if (std::count(across[e].begin(), across[e].end(), no_id) > 0) {
+      shells[e] = 1;
+      reached.push_back(static_cast<local_id>(e));
+    }
+  // Elements behind a wall wait until all that is before it is done.
+  for (int depth = 1; !reached.empty(); ++depth) {
+    std::vector<local_id> behind;
+    while (!reached.empty()) {
+      const local_id e = reached.back();
+      reached.pop_back();
+      for (int side = 0; side < 4; ++side) {
+        const auto half = across[static_cast<std::size_t>(e)][static_cast<std::size_t>(side)];
+        if (half == no_id || shells[static_cast<std::size_t>(improvement::element_of(half))] != 0)
+          continue;
+        const local_id other = improvement::element_of(half);
+        const auto key = sorted_side(mesh.elements[static_cast<std::size_t>(e)], side);
+        if (std::binary_search(walls.begin(), walls.end(), key)) {
+          behind.push_back(other);
+        } else {
+          shells[static_cast<std::size_t>(other)] = depth;
+          reached.push_back(other);
+        }
+      }
+    }
+    for (const local_id e : behind)
+      if (shells[static_cast<std::size_t>(e)] == 0) {
+        shells[static_cast<std::size_t>(e)] = depth + 1;
+        reached.push_back(e);
+      }
+  }
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < shells.size(); ++e)
+    if (shells[e] % 2 == 1)
+      mesh.elements[kept++] = mesh.elements[e];
+  mesh.elements.resize(kept);
+}
+
+/// Leaves out points after the first `kept` that no element uses.
+void drop_unused_points(simplicial_mesh<3>& mesh, std::size_t kept) {
+  std::vector<local_id> place(mesh.points.size(), no_id);
+  for (const auto& element : mesh.elements)
+    for (const local_id v : element)
+      place[static_cast<std::size_t>(v)] = 0;
+  std::size_t used = 0;
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (v < kept || place[v] != no_id) {
+      mesh.points[used] = mesh.points[v];
+      place[v] = static_cast<local_id>(used++);
+    }
+  mesh.points.resize(used);
+  for (auto& element : mesh.elements)
+    for (auto& v : element)
+      v = place[static_cast<std::size_t>(v)];
+}
+
+void write_raw(const char* path, const simplicial_mesh<3>& mesh, std::size_t frozen) {
   std::ofstream out(path, std::ios::binary);
-  const std::int64_t header[3] = {mesh.numberofpoints, mesh.numberoftetrahedra,
+  const std::int64_t header[3] = {static_cast<std::int64_t>(mesh.points.size()),
+                                  static_cast<std::int64_t>(mesh.elements.size()),
                                   static_cast<std::int64_t>(frozen)};
   out.write(reinterpret_cast<const char*>(header), sizeof header);
-  out.write(reinterpret_cast<const char*>(mesh.pointlist),
-            static_cast<std::streamsize>(sizeof(double)) * 3 * mesh.numberofpoints);
-  for (int t = 0; t < mesh.numberoftetrahedra; ++t) {
-    const int* v = mesh.tetrahedronlist + 4 * t;
-    const std::int32_t element[4] = {v[0], v[1], v[2], v[3]};
-    out.write(reinterpret_cast<const char*>(element), sizeof element);
-  }
+  out.write(reinterpret_cast<const char*>(mesh.points.data()),
+            static_cast<std::streamsize>(mesh.points.size() * sizeof(vec3)));
+  out.write(reinterpret_cast<const char*>(mesh.elements.data()),
+            static_cast<std::streamsize>(mesh.elements.size() * sizeof(simplex<3>)));
 }
 
 } // namespace
 
-int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::cerr << "usage: improver_generate SURFACE.msh OUT.raw\n";
+int main(int argc, char** argv) try {
+  const std::string what = argc == 4 ? argv[1] : "";
+  if (what != "fill" && what != "copy") {
+    std::cerr << "usage: improver_generate fill|copy MESH OUT.raw\n";
     return 2;
   }
-  const auto s = read_msh2(argv[1]);
-  tetgenio mesh;
-  try {
-    fill_with_tetrahedra(s, mesh);
-  } catch (...) {
-    std::cerr << "TetGen failed on " << argv[1] << '\n';
-    return 1;
+  const auto file = io::read_mesh(argv[2]);
+  if (what == "copy") {
+    write_raw(argv[3], file.mesh, 0);
+    std::cout << file.mesh.elements.size() << " tetrahedra\n";
+    return 0;
   }
-  write_raw(argv[2], mesh, s.points.size());
-  std::cout << s.triangles.size() << " triangles, " << mesh.numberoftetrahedra << " tetrahedra\n";
-  return 0;
+  const auto surface = surface_of(file);
+  auto mesh = fill_hull(surface);
+  empty_voids(mesh, surface);
+  drop_unused_points(mesh, surface.points.size());
+  write_raw(argv[3], mesh, surface.points.size());
+  std::cout << surface.elements.size() << " triangles, " << mesh.elements.size() << " tetrahedra\n";
+} catch (const dovetail::error& problem) {
+  std::cerr << problem.what() << '\n';
+  return 1;
+} catch (...) {
+  std::cerr << "TetGen failed on " << argv[2] << '\n';
+  return 1;
 }

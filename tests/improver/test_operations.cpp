@@ -39,6 +39,7 @@ void evaluate(tet_complex& mesh) {
     mesh.set_value(e, static_cast<float>(measure_of<measure>(mesh.point(v[0]), mesh.point(v[1]),
                                                              mesh.point(v[2]), mesh.point(v[3]))));
   }
+  mesh.set_target(static_cast<float>(measure::from_angle(35)));
 }
 
 /// The worst value of the best triangulation of the ring, by trying all of them.

@@ -83,6 +83,13 @@ inline bool is_sound(const tet_complex& mesh, const local_change& change) {
   return !mesh.is_tangled() || !repeats_a_side(mesh, change);
 }
 
+/// Replaces the old elements by the fresh ones.
+inline void execute(tet_complex& mesh, const local_change& change) {
+  std::array<local_id, static_cast<std::size_t>(max_cavity)> ids;
+  mesh.replace(change.old.view(), change.fresh.view(), change.values.view(),
+               {ids.data(), static_cast<std::size_t>(change.fresh.size)});
+}
+
 /// The worst value among the elements.
 inline float worst_value(const tet_complex& mesh, std::span<const local_id> elements) {
   float worst = 2;

@@ -103,16 +103,19 @@ private:
     lap("adjacency");
     const std::size_t tangled = evaluate<Measure>(complex);
     lap("evaluation");
+    const surface_limits surface(complex); // fixed sides stay, so it holds to the end
     if (statistics)
-      count_quality(complex, surface_limits(complex)).write_to(result, "before");
+      count_quality(complex, surface).write_to(result, "before");
     lap("statistics before");
+    if (!size)
+      complex.set_sizes(present_sizes(complex));
     if (tangled == 0) {
-      raise<Measure>(complex, size, result);
+      raise<Measure>(complex, surface, size, result);
     } else {
       const simplicial_mesh<3> original{complex.points(), complex.elements(), complex.tags()};
-      untangle(complex, size);
+      untangle(complex, surface, size);
       evaluate<Measure>(complex);
-      raise<Measure>(complex, size, result);
+      raise<Measure>(complex, surface, size, result);
       if (!has_distinct_sides(complex)) {
         mesh = original;
         complex = take_mesh(mesh, frozen);
@@ -122,7 +125,7 @@ private:
     }
     lap("schedule");
     if (statistics)
-      count_quality(complex, surface_limits(complex)).write_to(result, "after");
+      count_quality(complex, surface).write_to(result, "after");
     lap("statistics after");
     give_back(complex, mesh);
     lap("give back");
@@ -132,16 +135,19 @@ private:
   }
 
   template <shape_measure Measure>
-  void raise(tet_complex& complex, const any_sizing& size, report& result) const {
+  void raise(tet_complex& complex, const surface_limits& surface, const any_sizing& size,
+             report& result) const {
     schedule_limits limits = limits_for(size);
-    limits.target = static_cast<float>(Measure::from_angle(target_angle));
-    schedule<Measure> plan(complex, limits);
+    auto& mender = limits.mender;
+    mender.target = static_cast<float>(Measure::from_angle(target_angle));
+    schedule<Measure> plan(complex, surface, limits);
     plan.run();
     // The few elements that are still really poor: wider cavities, more patience.
-    limits.target = std::min(limits.target, static_cast<float>(Measure::from_angle(stubborn_angle)));
-    limits.search.iterations *= 2;
-    limits.insertion = {.growth = 30, .patience = 12};
-    limits.hard_share = 0.02; // where they are not few, they are beyond help
+    mender.target = std::min(mender.target, static_cast<float>(Measure::from_angle(stubborn_angle)));
+    mender.search.iterations *= 2;
+    mender.insertion = {.growth = 30, .patience = 12};
+    limits.hard_effort.open.share = 0.01;
+    limits.hard_effort.narrow.share = 0.0005;
     plan.set_limits(limits);
     plan.run();
     plan.log().write_to(result);
@@ -152,19 +158,19 @@ private:
     limits.passes = passes;
     limits.hard_passes = hard_passes;
     limits.least_gain = least_gain;
-    limits.search.iterations = search_iterations;
-    limits.band = {&size, shortest_edge, longest_edge};
+    limits.mender.search.iterations = search_iterations;
+    limits.mender.band = {&size, shortest_edge, longest_edge};
     return limits;
   }
 
   /// Turns flat and inverted elements positive where it can.
-  void untangle(tet_complex& complex, const any_sizing& size) const {
+  void untangle(tet_complex& complex, const surface_limits& surface, const any_sizing& size) const {
     complex.set_tangled(true);
     evaluate<oriented_volume>(complex);
     schedule_limits limits = limits_for(size);
-    limits.target = static_cast<float>(oriented_volume::from_angle(2));
+    limits.mender.target = static_cast<float>(oriented_volume::from_angle(2));
     limits.least_gain = 0;
-    schedule<oriented_volume>(complex, limits).run();
+    schedule<oriented_volume>(complex, surface, limits).run();
   }
   /// No side belongs to more than two elements.
   static bool has_distinct_sides(tet_complex& complex) {

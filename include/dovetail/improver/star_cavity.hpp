@@ -68,9 +68,28 @@ inline bool may_lose_inside(const tet_complex& mesh, const star_cavity& cavity, 
          std::all_of(inside.begin(), inside.end(), [&mesh](local_id v) { return mesh.is_free(v); });
 }
 
-/// Joins the outline to `apex`, whose place is set, if all values beat `bar` and the edges stay in the
-/// band; releases the vertices that are
-/// left without elements. False, and nothing changed, otherwise.
+/// Fewer of the fresh elements are bad than of the old ones or, if as many, they together lack less. Without
+/// this a cavity between fixed surfaces that lie too close is filled with ever more elements, each a little
+/// better than the worst one before.
+inline bool pays(const tet_complex& mesh, const local_change& change, float bad) {
+  struct sums {
+    int bad = 0;
+    double lacking = 0;
+  } before, after;
+  for (const local_id e : change.old) {
+    before.bad += mesh.value(e) < bad;
+    before.lacking += mesh.deficit(mesh.value(e));
+  }
+  for (const float value : change.values) {
+    after.bad += value < bad;
+    after.lacking += mesh.deficit(value);
+  }
+  return after.bad != before.bad ? after.bad < before.bad : after.lacking < before.lacking;
+}
+
+/// Joins the outline to `apex`, whose place is set, if all values beat `bar`, the elements together lack less
+/// and the edges stay in the band; releases the vertices that are left without elements. False, and nothing
+/// changed, otherwise.
 template <shape_measure Measure>
 bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, float bar, const size_band& band,
                local_change& change) {
@@ -83,7 +102,8 @@ bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, floa
     if (!(value > bar) || !change.add({apex, side[0], side[1], side[2]}, value))
       return false;
   }
-  if (change.fresh.size == 0 || !is_sound(mesh, change) || !band.admits(mesh, change))
+  if (change.fresh.size == 0 || !pays(mesh, change, static_cast<float>(Measure::from_angle(12))) ||
+      !is_sound(mesh, change) || !band.admits(mesh, change))
     return false;
   bounded_list<local_id, 4 * max_cavity> inside;
   find_inside(mesh, cavity, apex, inside);

@@ -8,6 +8,7 @@
 #include "dovetail/improver/tet_adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -61,6 +62,18 @@ public:
   local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
   float value(local_id e) const { return values_[index(e)]; }
   std::span<const float> values() const { return values_; }
+  /// The sum over all elements of what they lack to the target; kept up to date, O(1).
+  double lacking() const { return lacking_; }
+  /// What an element of this value lacks to the target, cubed: one really poor element weighs more than
+  /// several that nearly reach it.
+  double deficit(float value) const {
+    if (!(value < target_))
+      return 0;
+    const auto missing = static_cast<double>(target_ - value);
+    return missing * missing * missing;
+  }
+  /// The size that edges at `v` should have; 0 while there are no sizes.
+  float size_at(local_id v) const { return sizes_.empty() ? 0.0F : sizes_[index(v)]; }
 
   /// The corner of `e` at which `v` lies; `v` must be one of its vertices.
   int corner_of(local_id e, local_id v) const {
@@ -101,7 +114,19 @@ public:
   void touch(local_id v) { changed_at_[index(v)] = now_; }
 
   // -- changes ---------------------------------------------------------------------------------------------
-  void set_value(local_id e, float value) { values_[index(e)] = value; }
+  void set_value(local_id e, float value) {
+    lacking_ += deficit(value) - deficit(values_[index(e)]);
+    values_[index(e)] = value;
+  }
+  /// Elements with a smaller value lack something. O(elements).
+  void set_target(float target) {
+    target_ = target;
+    lacking_ = 0;
+    for (const float value : values_)
+      lacking_ += deficit(value);
+  }
+  /// Takes the sizes over, one per vertex.
+  void set_sizes(std::vector<float> sizes) { sizes_ = std::move(sizes); }
   void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
   void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
   /// To be called once when all fixed vertices are known.
@@ -116,20 +141,24 @@ public:
   void fix_side(local_id e, int side) {
     fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
   }
-  /// A new free vertex that is in no element yet.
-  local_id add_vertex(vec3 p) {
+  /// A new free vertex that is in no element yet; `size` counts only where there are sizes.
+  local_id add_vertex(vec3 p, float size = 0) {
     if (!free_vertices_.empty()) {
       const local_id v = free_vertices_.back();
       free_vertices_.pop_back();
       count_vertex(v, 1);
       points_[index(v)] = p;
       kinds_[index(v)] = vertex_kind::free;
+      if (!sizes_.empty())
+        sizes_[index(v)] = size;
       return v;
     }
     points_.push_back(p);
     element_at_.push_back(no_id);
     changed_at_.push_back(now_);
     kinds_.push_back(vertex_kind::free);
+    if (!sizes_.empty())
+      sizes_.push_back(size);
     count_vertex(vertex_slots() - 1, 1);
     return vertex_slots() - 1;
   }
@@ -167,7 +196,7 @@ public:
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       const local_id e = ids[i];
       elements_[index(e)] = fresh[i];
-      values_[index(e)] = values[i];
+      set_value(e, values[i]);
       fixed_sides_[index(e)] = 0;
       if (has_tags())
         tags_[index(e)] = tag_of_cavity;
@@ -213,6 +242,7 @@ public:
   std::vector<local_id>& tags() { return tags_; }
 
 private:
+  static constexpr float gone = 2; ///< the value of a dead element
   static constexpr std::size_t index(local_id i) { return static_cast<std::size_t>(i); }
 
   void join(local_id e, int side, cavity_side other) {
@@ -236,7 +266,7 @@ private:
     }
     elements_.emplace_back();
     across_.emplace_back();
-    values_.push_back(0);
+    values_.push_back(gone);
     fixed_sides_.push_back(0);
     element_marks_.push_back(0);
     if (has_tags())
@@ -245,7 +275,7 @@ private:
   }
   void kill(local_id e) {
     elements_[index(e)][0] = no_id;
-    values_[index(e)] = 2;
+    set_value(e, gone);
     dead_elements_.push_back(e);
   }
 
@@ -253,7 +283,9 @@ private:
   std::vector<simplex<3>> elements_;
   std::vector<local_id> tags_;
   std::vector<std::array<half_side, 4>> across_;
-  std::vector<float> values_;
+  std::vector<float> values_, sizes_;
+  float target_ = -2;
+  double lacking_ = 0;
   std::vector<std::uint8_t> fixed_sides_;
   std::vector<std::uint32_t> element_marks_;
   std::uint32_t current_mark_ = 0;

@@ -97,11 +97,20 @@ private:
            cavity_.elements.push(element_of(mesh.across(element_of(worst_side), side_of(worst_side))));
   }
   bool commit(tet_complex& mesh, const size_band& band) {
-    const local_id v = mesh.add_vertex(best_place_);
+    const local_id v = mesh.add_vertex(best_place_, mean_size(mesh));
     if (fill_from<Measure>(mesh, best_, v, best_bar_, band, change_))
       return true;
     mesh.release_vertex(v);
     return false;
+  }
+
+  /// Of the vertices that the new one is joined to.
+  float mean_size(const tet_complex& mesh) const {
+    float sum = 0;
+    for (const auto& side : best_.outline)
+      for (const local_id v : side)
+        sum += mesh.size_at(v);
+    return sum / static_cast<float>(3 * best_.outline.size);
   }
 
   star_cavity cavity_, best_;

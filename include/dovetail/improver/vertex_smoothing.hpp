@@ -48,7 +48,7 @@ private:
           before.add(mesh.point(v), mesh.point(other));
           after.add(place, mesh.point(other));
         }
-    return band.admits(before, after, place);
+    return band.admits(mesh, before, after, mesh.vertices(star_[0]), place);
   }
 
   /// Verifies the new position in double precision and keeps it only if it is better.
