@@ -91,13 +91,14 @@ private:
     compared_.model = source.name;
     compared_.workers = policies_.front().executor.workers();
     compared_.angle_threshold = parameters_.interface_angle_deg;
+    background_store backgrounds;
     for (std::size_t k = 0; k < combinations_.size(); ++k) {
       const combination& each = combinations_[k];
       const std::string label = std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " +
                                 name_of(each) + (each.simplified ? "" : ", plain");
       parameters_.on_progress = progress_of(label);
       compared_.rows.push_back(run_combination(
-          source, each, policies_[k], parameters_,
+          source, each, policies_[k], parameters_, backgrounds,
           [this](const comparison_row& row, const generate_result& result) { album_.add(row, result); }));
     }
   }

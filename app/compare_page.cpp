@@ -272,7 +272,7 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
   body += gallery(
       "Worst elements",
       "The 200 elements with the smallest dihedral angles, enlarged where they are too small to be seen. "
-      "Red: under 12 degrees; orange: under 24; grey: better.",
+      "Red: under 12 degrees; orange: under 24; blue: better.",
       pictures.worst_elements);
   body += element("script", script);
   const std::string head = "<meta charset=\"utf-8\"/>\n" +

@@ -16,7 +16,7 @@ constexpr int width = 560;
 constexpr int height = 400;
 constexpr io::rgb red{205, 40, 40};
 constexpr io::rgb orange{240, 150, 30};
-constexpr io::rgb grey{150, 150, 150};
+constexpr io::rgb blue{70, 120, 200};
 constexpr io::rgb outline{120, 125, 135};
 
 io::raster_image rendered(const io::raster_scene& scene) {
@@ -129,7 +129,7 @@ void add_element(io::raster_scene& scene, const ranked_element& element, double 
   for (const vec3 corner : p)
     radius = std::max(radius, distance(corner, middle));
   const double factor = std::max(1.0, least / std::max(2 * radius, 1e-300));
-  const io::rgb colour = element.angle < 12 ? red : element.angle < 24 ? orange : grey;
+  const io::rgb colour = element.angle < 12 ? red : element.angle < 24 ? orange : blue;
   for (const auto& side : numbering::sides<3>) {
     io::raster_triangle triangle{{}, colour};
     for (std::size_t k = 0; k < 3; ++k)
@@ -197,7 +197,7 @@ io::raster_image picture_of_interfaces(const fine_skeleton& skeleton, const inte
 }
 
 io::raster_image picture_of_worst_elements(const distributed_mesh& mesh) {
-  constexpr double least_across = 0.012; // of the model's diagonal
+  constexpr double least_across = 0.016; // of the model's diagonal
   io::raster_scene scene;
   add_outline(scene, mesh.skeleton);
   box3 box;

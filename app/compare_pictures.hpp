@@ -16,7 +16,7 @@ io::raster_image picture_of_decomposition(const fine_skeleton& skeleton);
 io::raster_image picture_of_interfaces(const fine_skeleton& skeleton, const interface_contract& contract);
 
 /// The elements with the smallest dihedral angles, drawn large enough to be seen, and the model's curves.
-/// Red: under 12 degrees; orange: under 24; grey: better. Loads one piece after the other.
+/// Red: under 12 degrees; orange: under 24; blue: better. Loads one piece after the other.
 io::raster_image picture_of_worst_elements(const distributed_mesh& mesh);
 
 /// How many elements that picture shows at most.

@@ -85,7 +85,7 @@ interface_row row_of(const interface_contract& contract) {
 }
 
 void add_figures(const generate_result& result, comparison_row& row) {
-  row.background_elements = static_cast<std::int64_t>(result.background.volume.elements.size());
+  row.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   row.subdomains = static_cast<int>(result.mesh.counts.size());
   std::int64_t largest = 0;
   for (const auto& piece : result.mesh.counts) {
@@ -125,15 +125,35 @@ mesh_options options_of_run(const compare_options& options, const combination& p
   return run;
 }
 
+background_store::entry background_store::get(const model_source& source, const chosen_policies& policies,
+                                              const generate_options& options) {
+  const std::string& mesher = policies.mesher.name();
+  const bool reused = made_.contains(mesher);
+  if (!reused) {
+    try {
+      made_[mesher] = make_background_mesh(source.geometry, source.size, policies, options);
+    } catch (const cancelled&) {
+      throw;
+    } catch (const error&) {
+      made_[mesher] = std::current_exception();
+    }
+  }
+  if (const auto* failure = std::get_if<std::exception_ptr>(&made_[mesher]))
+    std::rethrow_exception(*failure);
+  return {std::get<background_result<3>>(made_[mesher]), reused};
+}
+
 comparison_row run_combination(const model_source& source, const combination& policies,
                                const chosen_policies& chosen, const generate_options& options,
-                               const result_observer& observe) {
+                               background_store& backgrounds, const result_observer& observe) {
   comparison_row row;
   row.policies = policies;
   try {
     generate_options plain_or_not = options;
     plain_or_not.simplify = policies.simplified;
-    const auto result = generate_mesh(source.geometry, source.size, chosen, plain_or_not);
+    const auto [background, reused] = backgrounds.get(source, chosen, options);
+    row.background_reused = reused;
+    const auto result = generate_mesh_from(background, source.geometry, source.size, chosen, plain_or_not);
     if (!result.failures.empty()) {
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +

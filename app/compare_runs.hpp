@@ -7,8 +7,11 @@
 #include "model_source.hpp"
 #include "pipeline.hpp"
 
+#include <exception>
 #include <functional>
+#include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace dovetail::app {
@@ -20,13 +23,29 @@ std::vector<combination> combinations_of(const compare_options& options);
 /// The options of `dovetail mesh` that run one of them.
 mesh_options options_of_run(const compare_options& options, const combination& policies);
 
+/// The background meshes of one model, made when they are first asked for: one for each mesher, since neither
+/// partitioner nor improver nor simplification matters.
+class background_store {
+public:
+  struct entry {
+    const background_result<3>& background;
+    bool reused; ///< it was there already
+  };
+
+  /// Throws what making it throws, every time it is asked for.
+  entry get(const model_source& source, const chosen_policies& policies, const generate_options& options);
+
+private:
+  std::map<std::string, std::variant<background_result<3>, std::exception_ptr>> made_;
+};
+
 /// What is given to whoever wants more of a result than its figures; the result ends with the call.
 using result_observer = std::function<void(const comparison_row&, const generate_result&)>;
 
 /// Runs one combination. An error of the pipeline is a row with its text; `cancelled` is passed on.
 comparison_row run_combination(const model_source& source, const combination& policies,
                                const chosen_policies& chosen, const generate_options& options,
-                               const result_observer& observe);
+                               background_store& backgrounds, const result_observer& observe);
 
 /// The sizes of the model, scaled such that about `elements` elements are predicted. Throws
 /// `command_line_error` for a number that is not positive, and what planning throws.

@@ -143,6 +143,9 @@ std::vector<table_column> time_columns() {
 std::string terminal_text(const comparison& compared) {
   std::string text = "Results\n" + aligned_table(compared, result_columns()) + "\nSeconds\n" +
                      aligned_table(compared, time_columns());
+  if (std::any_of(compared.rows.begin(), compared.rows.end(),
+                  [](const comparison_row& row) { return row.background_reused; }))
+    text += "The background mesh was made once for each mesher; its time is repeated and in every total.\n";
   for (const auto& row : compared.rows)
     if (row.failed())
       text += name_of(row.policies) + ", " + simplification_of(row.policies) +

@@ -15,6 +15,17 @@ generate_result generate_mesh(const any_geometry& geometry, const any_sizing& si
   return generate<3>(geometry, size, composed(policies, options));
 }
 
+background_result<3> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
+                                          const chosen_policies& policies, const generate_options& options) {
+  return make_background<3>(geometry, size, composed(policies, options));
+}
+
+generate_result generate_mesh_from(const background_result<3>& background, const any_geometry& geometry,
+                                   const any_sizing& size, const chosen_policies& policies,
+                                   const generate_options& options) {
+  return generate_from_background<3>(geometry, background, size, composed(policies, options));
+}
+
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
                           const chosen_policies& policies, const generate_options& options) {
   return plan_background(geometry, size, composed(policies, options));

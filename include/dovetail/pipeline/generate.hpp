@@ -76,25 +76,17 @@ distributed_simplicial_mesh<D> assemble_mesh(const G& model, simplicial_skeleton
 
 } // namespace detail
 
-/// Generates a mesh sized by `size`: for D = 3 tetrahedra of all solids of `model`, for D = 2 triangles of
-/// all its faces.
-///
-///     auto solid = generate<3>(model, uniform_size(2.0), parameters<>{}.with_mesher(mesher::tetgen{}));
-///     auto shell = generate<2>(model, uniform_size(2.0), parameters<>{});
-///
-/// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
-/// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could
-/// mesh is data.
+/// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
+/// for the same model, field, mesher and options but `simplify`. For runs that differ in the partitioner or
+/// the improver alone.
 template <int D, geometry_model G, sizing_field H, class Parameters>
   requires(D == 2 || D == 3)
-generated<D> generate(const G& model, const H& size, const Parameters& given) {
-  detail::require_mesher<D, Parameters>();
+generated<D> generate_from_background(const G& model, background_result<D> background, const H& size,
+                                      const Parameters& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
   generated<D> result;
   result.summary.name = "generate";
-
-  auto background = make_background<D>(model, size, given);
   result.background = std::move(background.mesh);
   result.plan = background.plan;
   const simplicial_background<D>& coarse = result.background;
@@ -131,8 +123,24 @@ generated<D> generate(const G& model, const H& size, const Parameters& given) {
                              std::move(skeleton.skeleton_summary),
                              std::move(skeleton.intersection_summary),
                              std::move(meshed.summary)};
-  result.summary.seconds = clock.seconds();
+  result.summary.seconds = result.summary.children.front().seconds + clock.seconds();
   return result;
+}
+
+/// Generates a mesh sized by `size`: for D = 3 tetrahedra of all solids of `model`, for D = 2 triangles of
+/// all its faces.
+///
+///     auto solid = generate<3>(model, uniform_size(2.0), parameters<>{}.with_mesher(mesher::tetgen{}));
+///     auto shell = generate<2>(model, uniform_size(2.0), parameters<>{});
+///
+/// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
+/// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could
+/// mesh is data.
+template <int D, geometry_model G, sizing_field H, class Parameters>
+  requires(D == 2 || D == 3)
+generated<D> generate(const G& model, const H& size, const Parameters& given) {
+  detail::require_mesher<D, Parameters>();
+  return generate_from_background<D>(model, make_background<D>(model, size, given), size, given);
 }
 
 } // namespace dovetail
