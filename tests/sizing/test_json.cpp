@@ -128,3 +128,36 @@ TEST_CASE("a background mesh comes through the caller's reader, relative to the 
   CHECK(h({0, 1, 0}) == doctest::Approx(30));
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("sizes from the model are asked for with the options given") {
+  std::vector<automatic_options> asked;
+  const sizing::json_options options{.size_from_model = [&](const automatic_options& o) {
+    asked.push_back(o);
+    return point_sizes({{{0, 0, 0}, 0.1}}, 0.5, 1.0);
+  }};
+  const auto h = parse_sizing(R"({"size": 0.8, "curvature": 30, "proximity": {"elements_across": 1.5,
+    "where": "both", "smallest": 0.01, "growth": 0.4}})",
+                              "a", options);
+  CHECK(h({0, 0, 0}) == doctest::Approx(0.1));
+  CHECK(h({9, 0, 0}) == 0.8);
+  REQUIRE(asked.size() == 2);
+  CHECK(asked[0].elements_per_circle == 30);
+  CHECK(asked[0].elements_across == 0);
+  CHECK(asked[0].range.largest == 0.8);
+  CHECK(asked[1].elements_per_circle == 0);
+  CHECK(asked[1].elements_across == 1.5);
+  CHECK((asked[1].inside && asked[1].outside));
+  CHECK(asked[1].range.smallest == 0.01);
+  CHECK(asked[1].range.growth == 0.4);
+  (void)parse_sizing(R"({"automatic": true})", "a", options);
+  REQUIRE(asked.size() == 3);
+  CHECK(asked[2].elements_per_circle == automatic_options{}.elements_per_circle);
+  CHECK(asked[2].range.largest == 0);
+}
+
+TEST_CASE("faults of sizes from the model name line and key") {
+  CHECK(has(message_of("{\"size\": 1,\n\"curvature\": 20}"), "sizes.json:2: \"curvature\" needs a model"));
+  CHECK(has(message_of(R"({"proximity": -2})"), "\"proximity\" is -2"));
+  CHECK(has(message_of(R"({"automatic": {"where": "beside"}})"), "unknown place \"beside\""));
+  CHECK(has(message_of(R"({"automatic": {"elements": 2}})"), "unknown key \"elements\""));
+}

@@ -2,6 +2,7 @@
 /// Sizing fields from JSON files (docs/sizing.md describes the format). An adapter for nlohmann-json.
 #pragma once
 
+#include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/graded.hpp"
@@ -33,6 +34,10 @@ struct json_options {
   /// name of the point array. Without it such a member is refused: this header reads no meshes.
   std::function<background_field(const std::filesystem::path& file, const std::string& array)>
       load_background = {};
+  /// Makes the field of a "curvature", "proximity" or "automatic" member, which come from the model, such as
+  /// `[&](const automatic_options& o) { return automatic_size(model, o); }`. Without it such members are
+  /// refused.
+  std::function<point_sizes(const automatic_options&)> size_from_model = {};
 };
 
 namespace detail {
@@ -219,6 +224,62 @@ private:
     parts.emplace_back(at_line(*member, [&] { return options_.load_background(path, name); }));
   }
 
+  /// Members that ask for sizes from the model; the largest of these is "size", if that is given.
+  void append_from_model(const json_value& v, std::vector<erased_sizing>& parts, bool& exact) const {
+    for (const char* key : {"curvature", "proximity", "automatic"}) {
+      const json_value* member = v.find(key);
+      if (!member || (member->type == json_value::kind::boolean && !member->boolean))
+        continue;
+      automatic_options options = options_from_model(*member, key);
+      if (options.range.largest == 0 && v.find("size"))
+        options.range.largest = positive(v, "size");
+      if (!options_.size_from_model)
+        fail(*member, std::string("\"") + key +
+                          "\" needs a model, and there is none here; give the sizes another way");
+      exact = false;
+      parts.emplace_back(at_line(*member, [&] { return options_.size_from_model(options); }));
+    }
+  }
+
+  /// true, the number of elements, or an object with all options.
+  automatic_options options_from_model(const json_value& v, const std::string& key) const {
+    automatic_options options;
+    const bool curvature = key != "proximity";
+    const bool proximity = key != "curvature";
+    if (!curvature)
+      options.elements_per_circle = 0;
+    if (!proximity)
+      options.elements_across = 0;
+    if (v.type == json_value::kind::boolean)
+      return options;
+    if (v.type == json_value::kind::number && curvature != proximity) {
+      if (!(v.number > 0) || !std::isfinite(v.number))
+        fail(v, "\"" + key + "\" is " + std::to_string(v.number) + "; give a positive number of elements");
+      (curvature ? options.elements_per_circle : options.elements_across) = v.number;
+      return options;
+    }
+    require_keys(v, {"elements_per_circle", "elements_across", "where", "smallest", "largest", "growth"},
+                 "\"" + key + "\"");
+    if (v.find("elements_per_circle"))
+      options.elements_per_circle = positive(v, "elements_per_circle");
+    if (v.find("elements_across"))
+      options.elements_across = positive(v, "elements_across");
+    if (v.find("where")) {
+      const std::string where = text(v, "where");
+      if (where != "inside" && where != "outside" && where != "both")
+        fail(*v.find("where"), "unknown place \"" + where + "\"; known are inside, outside, both");
+      options.inside = where != "outside";
+      options.outside = where != "inside";
+    }
+    if (v.find("smallest"))
+      options.range.smallest = positive(v, "smallest");
+    if (v.find("largest"))
+      options.range.largest = positive(v, "largest");
+    if (v.find("growth"))
+      options.range.growth = positive(v, "growth");
+    return options;
+  }
+
   void append_minimum(const json_value& v, std::vector<erased_sizing>& parts, bool& exact) const {
     if (!v.find("minimum"))
       return;
@@ -261,7 +322,9 @@ private:
 public:
   /// Exact limits are handed down to where they are exact: `slope` is the limit asked for above this value.
   erased_sizing field(const json_value& v) const {
-    require_keys(v, {"size", "sources", "background", "minimum", "scale", "smallest", "largest", "gradation"},
+    require_keys(v,
+                 {"size", "sources", "background", "curvature", "proximity", "automatic", "minimum", "scale",
+                  "smallest", "largest", "gradation"},
                  "a sizing field");
     const double scale = v.find("scale") ? positive(v, "scale") : 1.0;
     const auto gradation = gradation_of(v);
@@ -270,9 +333,11 @@ public:
     const double slope = gradation ? gradation->slope / scale : std::numeric_limits<double>::infinity();
     append_sources(v, slope, parts, exactly_limited);
     append_background(v, parts, exactly_limited);
+    append_from_model(v, parts, exactly_limited);
     append_minimum(v, parts, exactly_limited);
     if (parts.empty())
-      fail(v, "a sizing field needs \"size\", \"background\" or \"minimum\"");
+      fail(v, "a sizing field needs \"size\", \"background\", \"curvature\", \"proximity\", \"automatic\" or "
+              "\"minimum\"");
     erased_sizing result = parts.size() == 1 ? parts.front() : erased_sizing(minimum_of(std::move(parts)));
     if (scale != 1)
       result = scaled(result, scale);

@@ -1,0 +1,75 @@
+/// @file
+/// Sizes from the curvature of a CAD model: so many elements per full circle.
+#pragma once
+
+#include "dovetail/sizing/point_sizes.hpp"
+#include "dovetail/sizing/surface_samples.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace dovetail {
+
+/// What the fields that come from a model have in common. Lengths are in the model's unit.
+struct model_size_range {
+  double smallest = 0;  ///< no size is below; 0: a thousandth of the model's diagonal
+  double largest = 0;   ///< nor above; 0: a tenth of the diagonal
+  double growth = 0.25; ///< of the size per length, away from where it is small
+};
+
+struct curvature_options {
+  double elements_per_circle = 24;
+  model_size_range range = {};
+};
+
+namespace sizing {
+
+/// The range with its defaults filled in. Throws `sizing_error` when it is empty.
+inline model_size_range range_for(const box3& bounds, model_size_range range) {
+  const double diagonal = checked_size(bounds.diagonal(), "the diagonal of the model");
+  checked_length(range.smallest, "the smallest size");
+  checked_length(range.largest, "the largest size");
+  if (range.largest == 0)
+    range.largest = 0.1 * diagonal;
+  if (range.smallest == 0)
+    range.smallest = std::min(1e-3 * diagonal, range.largest);
+  if (range.smallest > range.largest)
+    throw sizing_error("the smallest size " + std::to_string(range.smallest) + " exceeds the largest " +
+                       std::to_string(range.largest) + "; exchange them");
+  return range;
+}
+
+/// Sizes of 2 pi / (elements x curvature) on the faces of a model, where that is below the largest.
+template <geometry_model G>
+std::vector<sized_point> curvature_points(const G& model, double elements_per_circle,
+                                          const model_size_range& range) {
+  checked_size(elements_per_circle, "the number of elements per circle");
+  const auto size_at = [&](const surface_sample& s) {
+    const double turn = 2 * std::numbers::pi / elements_per_circle;
+    return s.curvature * range.largest > turn ? std::max(range.smallest, turn / s.curvature) : range.largest;
+  };
+  const auto spacing = [&](const surface_sample& s) {
+    constexpr double per_size = 1.5;
+    const double size = size_at(s);
+    return size < range.largest ? per_size * size : std::numeric_limits<double>::infinity();
+  };
+  std::vector<sized_point> points;
+  for (const surface_sample& s : sample_surface(model, spacing))
+    if (const double size = size_at(s); size < range.largest)
+      points.push_back({s.point, size});
+  return points;
+}
+
+} // namespace sizing
+
+/// The field that puts `elements_per_circle` edges around every circle of curvature of a face. Some thousand
+/// curvature queries per curved face. Throws `sizing_error` for options out of range.
+template <geometry_model G>
+point_sizes curvature_size(const G& model, const curvature_options& options = {}) {
+  const model_size_range range = sizing::range_for(model.bounds(), options.range);
+  return {sizing::curvature_points(model, options.elements_per_circle, range), range.growth, range.largest};
+}
+
+} // namespace dovetail

@@ -1,0 +1,179 @@
+/// @file
+/// Sizes from how near faces are to each other: so many elements across a wall or a gap.
+#pragma once
+
+#include "dovetail/sizing/curvature.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace dovetail {
+
+struct proximity_options {
+  double elements = 2;  ///< edges across
+  bool inside = true;   ///< through the solids: thin walls
+  bool outside = false; ///< through what is around them: gaps
+  model_size_range range = {};
+};
+
+namespace sizing {
+
+/// Finds, for a sample, the nearest sample that faces it on one side.
+class facing_search {
+public:
+  explicit facing_search(std::vector<surface_sample> samples) : samples_(std::move(samples)) {
+    if (!samples_.empty())
+      build(0, samples_.size());
+  }
+
+  const std::vector<surface_sample>& samples() const { return samples_; }
+
+  /// The sample of least height above the plane through `from` with unit normal `direction`, of at most
+  /// `reach`, that looks back; `slack` is the distance between samples. Null when there is none.
+  const surface_sample* find(const surface_sample& from, vec3 direction, double reach, double slack) const {
+    query q{from, direction, reach, slack, nullptr};
+    if (!samples_.empty())
+      visit(0, q);
+    return q.best;
+  }
+
+private:
+  struct node {
+    box3 box;
+    std::size_t first = 0;
+    std::size_t last = 0;
+    std::size_t right = 0; ///< 0 in a leaf; the left child follows its parent
+  };
+  struct query {
+    const surface_sample& from;
+    vec3 direction;
+    double height; ///< of the best so far
+    double slack;
+    const surface_sample* best;
+  };
+  static constexpr std::size_t leaf_size = 8;
+  static constexpr double looks_back =
+      -0.8; ///< largest cosine between the two normals; across an edge they differ by less
+  static constexpr double aside = 0.5; ///< largest offset along the plane per height
+
+  std::size_t build(std::size_t first, std::size_t last) {
+    const std::size_t id = nodes_.size();
+    node made{{}, first, last, 0};
+    for (std::size_t i = first; i < last; ++i)
+      made.box.include(samples_[i].point);
+    nodes_.push_back(made);
+    if (last - first <= leaf_size)
+      return id;
+    const vec3 extent = made.box.upper - made.box.lower;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const std::size_t middle = first + (last - first) / 2;
+    const auto at = [&](std::size_t i) { return samples_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(
+        at(first), at(middle), at(last),
+        [axis](const surface_sample& a, const surface_sample& b) { return a.point[axis] < b.point[axis]; });
+    build(first, middle);
+    nodes_[id].right = build(middle, last);
+    return id;
+  }
+
+  /// Whether a box may hold a point above the plane, low enough and not too far aside.
+  static bool may_hold(const box3& box, const query& q) {
+    const vec3 center = box.center() - q.from.point;
+    const vec3 half = 0.5 * (box.upper - box.lower);
+    const double along = dot(center, q.direction);
+    const double spread = std::abs(q.direction.x) * half.x + std::abs(q.direction.y) * half.y +
+                          std::abs(q.direction.z) * half.z;
+    const double lowest = along - spread;
+    const double highest = std::min(along + spread, q.height);
+    if (highest <= 0 || lowest >= q.height)
+      return false;
+    const double off = norm(center - along * q.direction) - norm(half);
+    return off <= std::max(aside * highest, q.slack);
+  }
+
+  void visit(std::size_t id, query& q) const {
+    const node& n = nodes_[id];
+    if (!may_hold(n.box, q))
+      return;
+    if (n.right == 0) {
+      for (std::size_t i = n.first; i < n.last; ++i)
+        consider(samples_[i], q);
+      return;
+    }
+    const auto height = [&](std::size_t child) {
+      return dot(nodes_[child].box.center() - q.from.point, q.direction);
+    };
+    std::size_t low = id + 1;
+    std::size_t high = n.right;
+    if (height(high) < height(low))
+      std::swap(low, high);
+    visit(low, q);
+    visit(high, q);
+  }
+
+  static void consider(const surface_sample& s, query& q) {
+    const vec3 away = s.point - q.from.point;
+    const double along = dot(away, q.direction);
+    if (along <= 0 || along >= q.height || dot(s.normal, q.from.normal) > looks_back)
+      return;
+    if (norm(away - along * q.direction) > std::max(aside * along, q.slack))
+      return;
+    q.height = along;
+    q.best = &s;
+  }
+
+  std::vector<surface_sample> samples_;
+  std::vector<node> nodes_;
+};
+
+/// The distance from a sample to the face that another one is on, near that one.
+template <geometry_model G>
+double gap_to_face(const G& model, const surface_sample& from, const surface_sample& facing) {
+  const vec2 foot = model.project_to_face(facing.face, from.point, facing.uv);
+  const double exact = distance(model.face_point(facing.face, foot), from.point);
+  const double rough = distance(facing.point, from.point);
+  return exact > 0 ? std::min(exact, rough) : rough;
+}
+
+/// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size.
+template <geometry_model G>
+std::vector<sized_point> proximity_points(const G& model, const proximity_options& options,
+                                          const model_size_range& range) {
+  checked_size(options.elements, "the number of elements across");
+  const double reach = options.elements * range.largest;
+  const auto even = [&](const surface_sample&) { return range.largest; };
+  const facing_search search(sample_surface(model, even));
+  std::vector<sized_point> points;
+  for (const surface_sample& s : search.samples()) {
+    const auto& solids = model.topology().faces[static_cast<std::size_t>(s.face)].solids;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      if (!(solids[side] == no_id ? options.outside : options.inside))
+        continue;
+      const vec3 direction = side == 0 ? -s.normal : s.normal;
+      const surface_sample* facing = search.find(s, direction, reach, range.largest);
+      if (!facing)
+        continue;
+      const double size = std::max(range.smallest, gap_to_face(model, s, *facing) / options.elements);
+      if (size < range.largest)
+        points.push_back({s.point, size});
+    }
+  }
+  return points;
+}
+
+} // namespace sizing
+
+/// The field that puts `elements` edges across walls and gaps thinner than `elements` x `range.largest`.
+/// Faces are sampled `range.largest` apart; distances are then taken to the face itself. Where two faces meet
+/// at a sharp angle the gap vanishes, and `range.smallest` is the size along the edge. Throws `sizing_error`
+/// for options out of range.
+template <geometry_model G>
+point_sizes proximity_size(const G& model, const proximity_options& options = {}) {
+  const model_size_range range = sizing::range_for(model.bounds(), options.range);
+  return {sizing::proximity_points(model, options, range), range.growth, range.largest};
+}
+
+} // namespace dovetail

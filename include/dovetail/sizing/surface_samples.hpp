@@ -1,0 +1,155 @@
+/// @file
+/// Samples of a model's faces, as close together as a rule asks.
+#pragma once
+
+#include "dovetail/geometry/concepts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace dovetail::sizing {
+
+/// A point of a face. The normal is the oriented one: it points out of the solid behind the face.
+struct surface_sample {
+  vec3 point;
+  vec3 normal;
+  vec2 uv;
+  double curvature = 0; ///< largest absolute principal curvature
+  local_id face = no_id;
+};
+
+/// Samples faces on their curves, and inside by halving the parameter rectangle, until neighbours are at
+/// most `spacing(sample)` apart or a face has `most_per_face` samples. Normals where the parametrisation is
+/// singular are zero.
+template <geometry_model G, class Spacing>
+class surface_sampler {
+public:
+  surface_sampler(const G& model, const Spacing& spacing, int most_per_face)
+      : model_(model), spacing_(spacing), most_per_face_(most_per_face) {}
+
+  std::vector<surface_sample> run() {
+    for (std::size_t f = 0; f < model_.topology().faces.size(); ++f)
+      sample_face(static_cast<local_id>(f));
+    return std::move(samples_);
+  }
+
+private:
+  static constexpr int least_depth = 4; ///< of halvings, whatever the spacing
+  static constexpr int largest_depth = 24;
+  static constexpr int outline_parts = 32;
+
+  surface_sample sample_at(local_id f, vec2 uv) const {
+    const surface_frame frame = model_.face_frame(f, uv);
+    const bool reversed = model_.topology().faces[static_cast<std::size_t>(f)].reversed;
+    const vec3 n = normalized(cross(frame.du, frame.dv));
+    const double curvature = model_.face_curvature(f, uv);
+    return {frame.point, reversed ? -n : n, uv, std::isfinite(curvature) ? curvature : 0, f};
+  }
+
+  void sample_face(local_id f) {
+    outline_.clear();
+    budget_ = most_per_face_;
+    const auto& face = model_.topology().faces[static_cast<std::size_t>(f)];
+    for (std::size_t k = 0; k < face.coedges.size(); ++k)
+      sample_coedge(f, static_cast<int>(k), face.coedges[k]);
+    vec2 lower{1e300, 1e300};
+    vec2 upper{-1e300, -1e300};
+    for (const auto& [a, b] : outline_) {
+      lower = {std::min(lower.x, a.x), std::min(lower.y, a.y)};
+      upper = {std::max(upper.x, a.x), std::max(upper.y, a.y)};
+    }
+    if (!outline_.empty())
+      sample_cell(f, lower, upper, 0);
+  }
+
+  void sample_coedge(local_id f, int k, const geometry_topology::coedge& coedge) {
+    const auto& curve = model_.topology().curves[static_cast<std::size_t>(coedge.curve)];
+    const auto uv_at = [&](double s) {
+      return model_.curve_uv(f, k, curve.t[0] + s * (curve.t[1] - curve.t[0]));
+    };
+    vec2 before = uv_at(0);
+    for (int i = 1; i <= outline_parts; ++i) {
+      const vec2 uv = uv_at(static_cast<double>(i) / outline_parts);
+      outline_.push_back({before, uv});
+      before = uv;
+    }
+    if (curve.degenerate)
+      return;
+    constexpr int parts = 4;
+    double s = 0;
+    surface_sample from = sample_at(f, uv_at(0));
+    samples_.push_back(from);
+    for (int i = 1; i <= parts; ++i) {
+      const double next = static_cast<double>(i) / parts;
+      const surface_sample to = sample_at(f, uv_at(next));
+      samples_.push_back(to);
+      sample_between(f, uv_at, s, from, next, to, 0);
+      s = next;
+      from = to;
+    }
+  }
+
+  template <class Uv>
+  void sample_between(local_id f, const Uv& uv_at, double s0, const surface_sample& a, double s1,
+                      const surface_sample& b, int depth) {
+    constexpr int most = 10;
+    if (depth > most || distance(a.point, b.point) <= std::min(spacing_(a), spacing_(b)))
+      return;
+    const double middle = 0.5 * (s0 + s1);
+    const surface_sample m = sample_at(f, uv_at(middle));
+    samples_.push_back(m);
+    sample_between(f, uv_at, s0, a, middle, m, depth + 1);
+    sample_between(f, uv_at, middle, m, s1, b, depth + 1);
+  }
+
+  void sample_cell(local_id f, vec2 lower, vec2 upper, int depth) {
+    if (--budget_ < 0)
+      return;
+    const vec2 middle = 0.5 * (lower + upper);
+    const surface_sample m = sample_at(f, middle);
+    if (inside(middle))
+      samples_.push_back(m);
+    const vec3 west = model_.face_point(f, {lower.x, middle.y});
+    const vec3 east = model_.face_point(f, {upper.x, middle.y});
+    const vec3 south = model_.face_point(f, {middle.x, lower.y});
+    const vec3 north = model_.face_point(f, {middle.x, upper.y});
+    const double across = distance(west, m.point) + distance(m.point, east);
+    const double along = distance(south, m.point) + distance(m.point, north);
+    if (depth >= largest_depth || (depth >= least_depth && std::max(across, along) <= spacing_(m)))
+      return;
+    if (across >= along) {
+      sample_cell(f, lower, {middle.x, upper.y}, depth + 1);
+      sample_cell(f, {middle.x, lower.y}, upper, depth + 1);
+    } else {
+      sample_cell(f, lower, {upper.x, middle.y}, depth + 1);
+      sample_cell(f, {lower.x, middle.y}, upper, depth + 1);
+    }
+  }
+
+  bool inside(vec2 p) const {
+    bool in = false;
+    for (const auto& [a, b] : outline_)
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+        in = !in;
+    return in;
+  }
+
+  const G& model_;
+  const Spacing& spacing_;
+  int most_per_face_;
+  int budget_ = 0;
+  std::vector<surface_sample> samples_;
+  std::vector<std::array<vec2, 2>> outline_; ///< of the face at hand
+};
+
+/// All samples of a model. Throws what the model's queries throw.
+template <geometry_model G, class Spacing>
+std::vector<surface_sample> sample_surface(const G& model, const Spacing& spacing, int most_per_face = 4000) {
+  return surface_sampler<G, Spacing>(model, spacing, most_per_face).run();
+}
+
+} // namespace dovetail::sizing
