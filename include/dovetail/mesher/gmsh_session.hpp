@@ -72,7 +72,7 @@ public:
     set("Mesh.MeshSizeExtendFromBoundary", 0);
     set("Mesh.MeshSizeFromPoints", 0);
     set("Mesh.MeshSizeFromCurvature", 0);
-    set("Mesh.Optimize", 1);
+    set("Mesh.Optimize", settings.optimise_threshold > 0 ? 1 : 0);
     set("Mesh.OptimizeThreshold", settings.optimise_threshold);
     gmsh::model::add("piece");
   }
