@@ -130,6 +130,16 @@ inline std::string fault_of(const library_piece& piece, simplicial_mesh<3>& made
   return {};
 }
 
+/// Mean length of the edges of the elements of a mesh; 0 when it has none.
+inline double mean_edge_length(const simplicial_mesh<3>& mesh) {
+  double sum = 0;
+  for (const auto& element : mesh.elements)
+    for (const auto& edge : numbering::ridges<3>)
+      sum += distance(mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[0])])],
+                      mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[1])])]);
+  return mesh.elements.empty() ? 0 : sum / (6 * static_cast<double>(mesh.elements.size()));
+}
+
 /// Cuts a mesh into pieces by tag and puts improved pieces together again.
 class piece_cutter {
 public:

@@ -31,16 +31,6 @@ struct netgen {
 
 namespace detail {
 
-/// Mean length of the edges of a mesh; what Netgen is told as the largest size.
-inline double mean_edge_length(const simplicial_mesh<3>& mesh) {
-  double sum = 0;
-  for (const auto& element : mesh.elements)
-    for (const auto& edge : numbering::ridges<3>)
-      sum += distance(mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[0])])],
-                      mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[1])])]);
-  return mesh.elements.empty() ? 0 : sum / (6 * static_cast<double>(mesh.elements.size()));
-}
-
 /// One use of Netgen, in a process that ends right after it.
 inline simplicial_mesh<3> optimise_with_netgen(const netgen& parameters, const library_piece& piece) {
   using namespace nglib;

@@ -64,6 +64,9 @@ public:
   host_point project(vec3 p, local_id& on) const {
     found best = nearest(on, p);
     for (int step = 0; step < most_steps; ++step) {
+      const auto& inside = best.weights;
+      if (inside[0] > 0 && inside[1] > 0 && inside[2] > 0)
+        break;
       const local_id from = on;
       for (const local_id v : triangles_[at(from)])
         for (std::size_t i = first_[at(v)]; i < first_[at(v) + 1]; ++i)

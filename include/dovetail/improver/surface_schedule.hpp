@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -30,16 +32,31 @@ public:
   surface_schedule(State& state, const surface_schedule_limits& limits)
       : s_(state), limits_(limits), smooth_(state), insertion_(state, smooth_) {}
 
+  /// Deals with the worst triangles first: when all are worked on at once, moves for the sake of the many
+  /// that are nearly good stand in the way of the few that are not.
   void run() {
     relax();
-    sweep_until_settled(limits_.passes, [this](local_id t) { mend(t); });
-    sweep_until_settled(limits_.hard_passes, [this](local_id t) { mend_hard(t); });
+    const double last = limits_.target;
+    for (const double rung : {sine_squared(30), sine_squared(36)})
+      if (rung < last)
+        raise_to(rung);
+    raise_to(last);
   }
   const operation_log& log() const { return log_; }
   int passes() const { return passes_; }
 
 private:
   static constexpr double least_step = 0.01; ///< of quality, for operations that add or remove a vertex
+
+  static double sine_squared(double degrees) {
+    const double sine = std::sin(degrees * std::numbers::pi / 180);
+    return sine * sine;
+  }
+  void raise_to(double target) {
+    limits_.target = target;
+    sweep_until_settled(limits_.passes, [this](local_id t) { mend(t); });
+    sweep_until_settled(limits_.hard_passes, [this](local_id t) { mend_hard(t); });
+  }
 
   bool is_poor(local_id t) const { return s_.table.alive(t) && s_.quality(t) < limits_.target; }
 
@@ -83,15 +100,41 @@ private:
   /// Sweeps over the poor triangles until two sweeps in a row did not pay.
   template <class Mend>
   void sweep_until_settled(int passes, const Mend& mend_one) {
+    failed_with_.clear();
     double deficit = collect_poor();
     for (int pass = 0, idle = 0; pass < passes && idle < 2 && !poor_.empty(); ++pass) {
       for (const local_id t : poor_)
-        if (is_poor(t))
+        if (is_poor(t) && !is_settled(t)) {
           mend_one(t);
+          settle(t);
+        }
       ++passes_;
       const double before = std::exchange(deficit, collect_poor());
       idle = before - deficit < limits_.least_gain * before ? idle + 1 : 0;
     }
+  }
+
+  /// What the attempts at a triangle depend on, condensed: the shapes around its inner vertices.
+  double surroundings(local_id t) const {
+    double sum = s_.quality(t);
+    for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
+      const local_id v = s_.table.vertex[s_.at(c)];
+      if (s_.inner(v))
+        s_.table.for_each_corner(v, [&](local_id at) { sum += s_.quality(corner_table::triangle_of(at)); });
+      else if (s_.table.twin[s_.at(c)] != no_id)
+        sum += s_.quality(corner_table::triangle_of(s_.table.twin[s_.at(c)]));
+    }
+    return sum;
+  }
+  /// Nothing has changed around t since it was tried last.
+  bool is_settled(local_id t) const {
+    return s_.at(t) < failed_with_.size() && failed_with_[s_.at(t)] == surroundings(t);
+  }
+  void settle(local_id t) {
+    if (!is_poor(t))
+      return;
+    failed_with_.resize(s_.at(s_.table.triangle_slots()), -1e300);
+    failed_with_[s_.at(t)] = surroundings(t);
   }
 
   void mend(local_id t) {
@@ -99,7 +142,7 @@ private:
       flip(c);
     for (local_id c = 3 * t; c < 3 * t + 3 && is_poor(t); ++c)
       if (const local_id v = s_.table.vertex[s_.at(c)]; s_.inner(v))
-        log_.record(operation::smoothing, [&] { return smooth_.maximise_worst(v); });
+        log_.record(operation::smoothing, [&] { return smooth_.maximise_worst(v, limits_.target); });
   }
   /// Also removes and inserts vertices.
   void mend_hard(local_id t) {
@@ -155,6 +198,7 @@ private:
   operation_log log_;
   int passes_ = 0;
   std::vector<local_id> poor_;
+  std::vector<double> failed_with_; ///< per triangle: its surroundings after the last attempt
 };
 
 } // namespace dovetail::improvement

@@ -46,8 +46,9 @@ public:
     return try_step(v, step, strict_rule{}) || try_step(v, 0.4 * step, strict_rule{});
   }
 
-  /// Moves v to where the worst triangle of its star is best, by a shrinking pattern search.
-  bool maximise_worst(local_id v) {
+  /// Moves v to where the worst triangle of its star is best, by a shrinking pattern search; stops at
+  /// `enough`.
+  bool maximise_worst(local_id v, double enough = 1) {
     collect_link(s_, v, link_);
     bool any = false;
     double reach = 0.3 * link_radius(v);
@@ -62,6 +63,8 @@ public:
       any = any || better;
       if (!better)
         reach *= 0.5;
+      else if (enough < 1 && measure(v).least >= enough)
+        break;
     }
     return any;
   }

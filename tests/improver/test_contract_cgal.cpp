@@ -1,0 +1,10 @@
+/// @file
+/// The improver from cgal: the contract of all improvers.
+#include "dovetail/improver/cgal.hpp"
+#include "improver_contract.hpp"
+
+using namespace improver_contract;
+
+TEST_CASE("the contract of improvers") {
+  check_whole_contract<dovetail::improvement::cgal>({"cgal", {}, true, false});
+}
