@@ -28,9 +28,8 @@ public:
   /// The edge across local side i of an element; false when there is none.
   bool across(local_id element, std::size_t i, graph_edge& e) const {
     const local_id side = sides_->of_element[static_cast<std::size_t>(element)][i];
-    const local_id other = is_cut(side) ? no_id : sides_->across(side, element);
-    e = {element, other, side};
-    return other != no_id && other != element;
+    e = {element, sides_->across(side, element), side};
+    return e.target != no_id && !is_cut(side);
   }
   /// The edge that is dual to a side; false when there is none.
   bool dual_to(local_id side, graph_edge& e) const {

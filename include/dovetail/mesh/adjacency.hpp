@@ -45,9 +45,9 @@ struct side_table {
   bool is_interior(local_id side) const { return !is_boundary(side) && !is_non_manifold(side); }
   /// The element across an interior side of `element`; no_id across any other side.
   local_id across(local_id side, local_id element) const {
-    if (!is_interior(side))
+    if (is_non_manifold(side))
       return no_id;
-    const auto& pair = elements[static_cast<std::size_t>(side)];
+    const auto& pair = elements[static_cast<std::size_t>(side)]; // {element, no_id} on the boundary
     return pair[0] == element ? pair[1] : pair[0];
   }
   /// All elements at a side.
