@@ -14,8 +14,15 @@
 #include "dovetail/partition/recursive_coordinate.hpp"
 #include "dovetail/partition/space_filling_curve.hpp"
 
+#ifdef DOVETAIL_DRIVER_WITH_CGAL
+#include "improver_cgal.hpp"
+#endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
+#include "dovetail/improver/gmsh.hpp"
 #include "dovetail/mesher/gmsh_hxt.hpp"
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_NETGEN
+#include "dovetail/improver/netgen.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
 #include "dovetail/partition/scotch.hpp"
@@ -77,11 +84,21 @@ std::vector<any_mesher> meshers() {
 }
 
 std::vector<any_improver> improvers() {
-  return {{"native", improvement::native{}},
-          {"fast", improvement::native::fast()},
-          {"fine", improvement::native::fine()},
-          {"finest", improvement::native::finest()},
-          {"none", improvement::none{}}};
+  std::vector<any_improver> known{{"native", improvement::native{}},
+                                  {"fast", improvement::native::fast()},
+                                  {"fine", improvement::native::fine()},
+                                  {"finest", improvement::native::finest()},
+                                  {"none", improvement::none{}}};
+#ifdef DOVETAIL_DRIVER_WITH_GMSH
+  known.emplace_back("gmsh", improvement::gmsh{});
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_NETGEN
+  known.emplace_back("netgen", improvement::netgen{});
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_CGAL
+  known.push_back(cgal_improver());
+#endif
+  return known;
 }
 
 } // namespace
