@@ -1,0 +1,73 @@
+#!/bin/bash
+# Comparisons of policies on a small model: table, page, wrong names.
+#   check_compare_command.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+limit=300
+
+# The unit cube as triangles.
+{
+  echo "OFF"
+  echo "8 12 0"
+  printf '%s\n' "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
+  printf '3 %s\n' "0 2 1" "0 3 2" "4 5 6" "4 6 7" "0 1 5" "0 5 4" "2 3 7" "2 7 6" "1 2 6" "1 6 5" "0 4 7" "0 7 3"
+} >"$inputs/cube.off"
+compare() { expect_success compare "$inputs/cube.off" --workers 1 --out out "$@"; }
+
+# Two partitioners and two improvers, with and without simplification.
+compare --size 0.1 --subdomains 4 --partitioners metis,greedy --meshers tetgen --improvers none,native
+table=$sandbox/work/out/compare.csv
+page=$sandbox/work/out/compare.html
+(cd "$sandbox/work/out" && ls) >"$sandbox/listing"
+diff "$sandbox/listing" - <<<$'compare.csv\ncompare.html' || fault "other files than expected"
+(($(wc -l <"$table") == 9)) || fault "$(wc -l <"$table") lines in the table"
+[[ $(awk -F, '{ print NF }' "$table" | sort -u | wc -l) == 1 ]] || fault "lines of different lengths"
+column() { # key: the values
+  awk -F, -v key="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == key) at = k; next } at { print $at }' "$table"
+}
+[[ -z $(column error | tr -d '\n') ]] || fault "errors: $(column error)"
+for key in elements bad_per_million low_per_million min_dihedral_deg coarse_min_face_deg coarse_min_wedge_deg \
+  fine_min_face_deg fine_min_wedge_deg fine_under_30 cut imbalance seconds_background seconds_meshing seconds_total; do
+  (($(column "$key" | grep -cE '^[0-9]+(\.[0-9]+)?$') == 8)) || fault "no figures in the column $key"
+done
+[[ $(column simplification | sort | uniq -c | tr -s ' \n' ' ') == " 4 with 4 without " ]] ||
+  fault "not half of the rows without simplification"
+[[ $(column background_reused | sort | uniq -c | tr -s ' \n' ' ') == " 1 no 7 yes " ]] ||
+  fault "the background mesh is not shared"
+[[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subdomains"
+# The coarse interfaces depend on partitioner and simplification only.
+awk -F, 'NR > 1 { print $1 "," $4 }' "$table" | paste -d, - <(column cut) | sort -u >"$sandbox/cuts"
+(($(wc -l <"$sandbox/cuts") == 4)) || fault "the improver changes the cut"
+grep -q "^metis  *tetgen  *native  *without" "$sandbox/stdout" || fault "no table on the terminal"
+
+# One page, well-formed, with nothing from outside.
+[[ $(head -n 1 "$page") == "<!DOCTYPE html>" ]] || fault "the page has no doctype"
+(($(grep -c 'src="data:image/png;base64,' "$page") == 10)) || fault "not ten pictures"
+(($(grep -c '</svg>' "$page") == 4)) || fault "not four plots"
+! grep -qE 'src="[^d]|href=' "$page" || fault "the page refers to something outside"
+if command -v python3 >/dev/null; then
+  python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$page" 2>"$sandbox/stderr" ||
+    fault "the page is not well-formed"
+fi
+
+# The same figures as a run of that combination has, whatever is shared.
+elements=$(column elements | sed -n 3p)
+expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --format none --report report.json
+grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
+
+# Without names the defaults are run; quiet is quiet; sizes follow the number of elements asked for.
+compare --elements 3000 --subdomains 2 --quiet
+[[ ! -s $sandbox/stdout && ! -s $sandbox/stderr ]] || fault "not quiet"
+(($(wc -l <"$table") == 3)) || fault "more than the defaults"
+elements=$(column elements | head -n 1)
+((elements > 1500 && elements < 6000)) || fault "$elements elements"
+
+# Wrong names and numbers are found before anything runs.
+expect_error "there is no 'nonsense'; there are: .*metis" compare "$inputs/cube.off" --partitioners metis,nonsense
+expect_error "there is no 'nonsense'; there are: .*tetgen" compare "$inputs/cube.off" --meshers nonsense
+expect_error "there is no 'nonsense'; there are: .*native" compare no_such_file.step --improvers native,nonsense
+expect_error "no_such_file" compare no_such_file.step
+expect_error "--elements" compare "$inputs/cube.off" --elements -5
+expect_error "--size" compare "$inputs/cube.off" --elements 5 --size 1
+expect_error "cannot create the folder" compare "$inputs/cube.off" --out "$inputs/cube.off"
+finish

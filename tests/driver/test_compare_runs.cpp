@@ -1,0 +1,187 @@
+#include "compare_runs.hpp"
+#include "failure.hpp"
+#include "policies.hpp"
+
+#include "concepts/archetypes.hpp"
+
+#include "dovetail/parallel/serial.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+namespace dovetail::app {
+
+// In place of the pipeline: what a combination does is in the name of its partitioner or mesher.
+
+namespace {
+int backgrounds_made = 0;
+} // namespace
+
+background_result<3> make_background_mesh(const any_geometry&, const any_sizing&,
+                                          const chosen_policies& policies, const generate_options&) {
+  ++backgrounds_made;
+  if (policies.mesher.name() == "without background")
+    throw geometry_error("no surface");
+  background_result<3> made;
+  made.plan.subdomains = 3;
+  return made;
+}
+
+generate_result generate_mesh_from(const background_result<3>& background, const any_geometry&,
+                                   const any_sizing&, const chosen_policies& policies,
+                                   const generate_options& options) {
+  const std::string& name = policies.partitioner.name();
+  if (name == "failing")
+    throw partition_error("part 2 is empty");
+  if (name == "stopped")
+    throw cancelled();
+  generate_result result;
+  result.mesh.counts = {{0, 10, 100}, {0, 10, 200}};
+  if (name == "incomplete") {
+    result.failures.emplace_back();
+    result.failures.back().subdomain = 1;
+    result.failures.back().reasons = {"too thin", "still too thin"};
+  }
+  result.quality.elements = 300;
+  result.coarse_contract.interface_faces = options.simplify ? 12 : 10;
+  result.coarse_contract.face_angle.angle_deg = 31;
+  result.coarse_contract.violations.resize(options.simplify ? 0 : 4);
+  report meshing;
+  meshing.name = "meshing";
+  meshing.seconds = 3;
+  meshing.set("mesher_seconds", 4);
+  meshing.set("improver_seconds", 2);
+  result.summary.children = {meshing};
+  result.summary.seconds = background.plan.subdomains;
+  return result;
+}
+
+mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const chosen_policies&,
+                          const generate_options&) {
+  mesh_plan plan;
+  plan.predicted_elements = 500 / std::pow(size({}), 3);
+  return plan;
+}
+
+std::vector<std::string> partitioner_names() {
+  return {"first", "second"};
+}
+std::vector<std::string> mesher_names() {
+  return {"only"};
+}
+std::vector<std::string> improver_names() {
+  return {"good", "none"};
+}
+
+namespace {
+
+/// Enough of a model: nothing here looks at it.
+struct nowhere {
+  geometry_topology parts;
+  const geometry_topology& topology() const { return parts; }
+  vec3 curve_point(local_id, double) const { return {}; }
+  dovetail::curve_frame curve_frame(local_id, double) const { return {}; }
+  vec2 curve_uv(local_id, int, double) const { return {}; }
+  vec3 face_point(local_id, vec2) const { return {}; }
+  surface_frame face_frame(local_id, vec2) const { return {}; }
+  double face_curvature(local_id, vec2) const { return 0; }
+  vec2 project_to_face(local_id, vec3, vec2) const { return {}; }
+  double project_to_curve(local_id, vec3, double) const { return 0; }
+  box3 bounds() const { return {{0, 0, 0}, {1, 1, 1}}; }
+  bool thread_safe() const { return true; }
+};
+
+model_source model() {
+  return {"nowhere", any_geometry(nowhere{}), [](vec3) { return 0.5; }, {}};
+}
+
+chosen_policies policies_of(const combination& names) {
+  return {any_mesher(names.mesher, archetype::mesher(0)),
+          any_partitioner(names.partitioner, archetype::partitioner(0)),
+          any_improver(names.improver, [](simplicial_mesh<3>&, const frozen_entities<3>&,
+                                          const any_sizing&) { return report{}; }),
+          any_executor("serial", parallel::serial{})};
+}
+
+comparison_row run(const combination& names, background_store& backgrounds, int* observed = nullptr) {
+  return run_combination(model(), names, policies_of(names), {}, backgrounds,
+                         [&](const comparison_row&, const generate_result&) {
+                           if (observed != nullptr)
+                             ++*observed;
+                         });
+}
+
+TEST_CASE("every combination is run once, with and without simplification; no names are the defaults") {
+  compare_options options;
+  options.partitioners = {"a", "b", "a"};
+  options.improvers = {"x", "y"};
+  const auto all = combinations_of(options);
+  REQUIRE(all.size() == 8);
+  CHECK(all[0] == combination{"a", "only", "x", true});
+  CHECK(all[1] == combination{"a", "only", "x", false});
+  CHECK(all[7] == combination{"b", "only", "y", false});
+  const auto defaults = combinations_of({});
+  REQUIRE(defaults.size() == 2);
+  CHECK(defaults[0] == combination{"first", "only", "good", true});
+}
+
+TEST_CASE("a row has the figures of its run") {
+  background_store backgrounds;
+  int observed = 0;
+  const auto with = run({"first", "only", "good", true}, backgrounds, &observed);
+  const auto without = run({"first", "only", "good", false}, backgrounds, &observed);
+  CHECK(observed == 2);
+  CHECK_FALSE(with.failed());
+  CHECK(with.elements == 300);
+  CHECK(with.imbalance == doctest::Approx(200.0 / 150));
+  CHECK(with.coarse.faces == 12);
+  CHECK(without.coarse.faces == 10);
+  CHECK(without.coarse.under_threshold == 4);
+  CHECK(with.coarse.min_face_angle == 31);
+  CHECK(std::isnan(with.fine.min_face_angle));
+  CHECK(with.seconds.meshing == doctest::Approx(2));
+  CHECK(with.seconds.improvement == doctest::Approx(1));
+  CHECK(with.seconds.total == 3);
+}
+
+TEST_CASE("a combination that fails is a row that names the kind of error, and the next one is run") {
+  background_store backgrounds;
+  int observed = 0;
+  CHECK(run({"failing", "only", "good", true}, backgrounds, &observed).error ==
+        "partition_error: part 2 is empty");
+  const auto incomplete = run({"incomplete", "only", "good", true}, backgrounds, &observed);
+  CHECK(incomplete.error == "mesher_error: 1 subdomains could not be meshed; subdomain 1: still too thin");
+  CHECK(observed == 0);
+  CHECK_FALSE(run({"first", "only", "good", true}, backgrounds, &observed).failed());
+}
+
+TEST_CASE("a request to stop is no failure of a combination") {
+  background_store backgrounds;
+  CHECK_THROWS_AS(run({"stopped", "only", "good", true}, backgrounds), cancelled);
+}
+
+TEST_CASE("the background mesh is made once for each mesher, also when that fails") {
+  background_store backgrounds;
+  backgrounds_made = 0;
+  CHECK_FALSE(run({"first", "only", "good", true}, backgrounds).background_reused);
+  CHECK(run({"second", "only", "none", false}, backgrounds).background_reused);
+  CHECK(backgrounds_made == 1);
+  CHECK_FALSE(run({"first", "other", "good", true}, backgrounds).background_reused);
+  CHECK(backgrounds_made == 2);
+  for (int k = 0; k < 2; ++k)
+    CHECK(run({"first", "without background", "good", true}, backgrounds).error ==
+          "geometry_error: no surface");
+  CHECK(backgrounds_made == 3);
+}
+
+TEST_CASE("sizes are scaled to the number of elements asked for") {
+  const auto size = size_for_elements(model(), 32'000, policies_of({"first", "only", "good", true}), {});
+  CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
+  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_of({"first", "only", "good", true}), {}),
+                  command_line_error);
+}
+
+} // namespace
+} // namespace dovetail::app
