@@ -41,5 +41,7 @@
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/png_output.hpp"
+#include "dovetail/io/raster_render.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
