@@ -116,6 +116,15 @@ std::string full_name(const comparison_row& row) {
   return name_of(row.policies) + (row.policies.simplified ? "" : ", without simplification");
 }
 
+/// About the width of the longest of some names.
+template <class Items, class Name>
+double width_of_names(const Items& items, Name name) {
+  std::size_t longest = 0;
+  for (const auto& item : items)
+    longest = std::max(longest, name(item).size());
+  return 7.0 * static_cast<double>(longest);
+}
+
 /// What is drawn of a pair: one kind of angle, in one of the two meshes.
 struct angle_kind {
   const char* name;
@@ -133,7 +142,7 @@ constexpr std::array<angle_kind, 4> angle_kinds{{
 
 std::string times_plot(const comparison& compared) {
   const auto rows = successful(compared);
-  constexpr double left = 330;
+  const double left = 20 + width_of_names(rows, full_name);
   constexpr double row_height = 20;
   const double top = 48;
   const double bottom = top + row_height * static_cast<double>(rows.size());
@@ -231,8 +240,8 @@ std::string histogram_plot(const comparison& compared) {
 
 std::string interfaces_plot(const comparison& compared) {
   const auto pairs = simplification_pairs(compared);
-  constexpr double left = 190;
-  constexpr double panel = (width - left - 60) / 2;
+  const double left = 60 + width_of_names(pairs, [](const simplification_pair& pair) { return pair.name(); });
+  const double panel = (width - left - 60) / 2;
   constexpr double row_height = 46;
   constexpr double top = 62;
   const double bottom = top + row_height * static_cast<double>(pairs.size());
