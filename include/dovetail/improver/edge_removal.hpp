@@ -13,12 +13,16 @@
 
 namespace dovetail::improvement {
 
+using edge_ends = std::array<local_id, 2>;
+
 /// Finds the best way to remove an edge. Holds the tables, so that nothing is allocated per call.
 template <shape_measure Measure>
 class edge_removal {
 public:
-  /// The best removal of the edge of `shell` if all its elements are better than `bar`, else false.
-  bool find(const tet_complex& mesh, const edge_shell& shell, float bar, local_change& change) {
+  /// The best removal of the edge of `shell` if all its elements are better than `bar`, else false. Elements
+  /// with an edge of `passing` need not be better, only positive: they will be replaced in their turn.
+  bool find(const tet_complex& mesh, const edge_shell& shell, float bar, local_change& change,
+            std::span<const edge_ends> passing = {}) {
     const int n = shell.ring.size;
     if (n < 3)
       return false;
@@ -26,7 +30,7 @@ public:
     b_ = mesh.point(shell.b);
     for (int i = 0; i < n; ++i)
       ring_[index(i)] = mesh.point(shell.ring[i]);
-    if (!(triangulate(n, bar) > bar))
+    if (!(triangulate(shell, bar, passing) > bar))
       return false;
     change.clear();
     for (const local_id e : shell.elements)
@@ -41,11 +45,24 @@ private:
     float above, below; ///< of the two elements on its triangle (i, apex, j)
     int apex;
   };
+  static bool has_edge_of(const simplex<3>& element, std::span<const edge_ends> edges) {
+    const auto has = [&](local_id v) {
+      return std::find(element.begin(), element.end(), v) != element.end();
+    };
+    return std::any_of(edges.begin(), edges.end(),
+                       [&](const edge_ends& edge) { return has(edge[0]) && has(edge[1]); });
+  }
   static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
   cell& at(int i, int j) { return cells_[index(i * max_shell + j)]; }
 
   /// Fills the table; the result is the worst value of the best triangulation, or -2 when none beats `bar`.
-  float triangulate(int n, float bar) {
+  float triangulate(const edge_shell& shell, float bar, std::span<const edge_ends> passing) {
+    const int n = shell.ring.size;
+    const auto counted = [&](float value, local_id end, int i, int j, int k) {
+      const bool passes =
+          !passing.empty() && has_edge_of({end, shell.ring[i], shell.ring[j], shell.ring[k]}, passing);
+      return !passes ? value : value > surely_positive ? 2.0F : -2.0F;
+    };
     for (int i = 0; i + 1 < n; ++i)
       at(i, i + 1).worst = 2;
     for (int span = 2; span < n; ++span)
@@ -59,12 +76,14 @@ private:
             continue;
           const auto above =
               static_cast<float>(measure_of<Measure>(b_, ring_[index(i)], ring_[index(j)], ring_[index(k)]));
-          if (!(above > needed))
+          const float counted_above = counted(above, shell.b, i, j, k);
+          if (!(counted_above > needed))
             continue;
           const auto below =
               static_cast<float>(measure_of<Measure>(a_, ring_[index(i)], ring_[index(k)], ring_[index(j)]));
-          if (below > needed)
-            best = {std::min({parts, above, below}), above, below, k};
+          const float counted_below = counted(below, shell.a, i, j, k);
+          if (counted_below > needed)
+            best = {std::min({parts, counted_above, counted_below}), above, below, k};
         }
         at(i, j) = best;
       }

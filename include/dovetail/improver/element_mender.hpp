@@ -5,6 +5,7 @@
 #include "dovetail/improver/edge_removal.hpp"
 #include "dovetail/improver/face_removal.hpp"
 #include "dovetail/improver/operation_log.hpp"
+#include "dovetail/improver/shell_transformation.hpp"
 #include "dovetail/improver/vertex_insertion.hpp"
 #include "dovetail/improver/vertex_smoothing.hpp"
 
@@ -41,11 +42,11 @@ public:
       helped = smooth(e) || helped;
     return helped;
   }
-  /// Also inserts and removes vertices.
+  /// Also removes edges by way of their neighbours, and inserts and removes vertices.
   bool mend_hard(local_id e) {
     bool helped = mend(e);
     if (is_poor(e))
-      helped = contract(e) || insert(e) || helped;
+      helped = transform(e) || contract(e) || insert(e) || helped;
     return helped;
   }
 
@@ -86,6 +87,14 @@ private:
     return helped;
   }
 
+  bool transform(local_id e) {
+    for (int edge = 0; edge < 6; ++edge)
+      if (log_.record(operation::shell_transformation,
+                      [&] { return transformation_.improve(mesh_, e, edge, limits_.band); }))
+        return true;
+    return false;
+  }
+
   bool contract(local_id e) {
     const auto corners = mesh_.vertices(e);
     for (const local_id from : corners)
@@ -124,6 +133,7 @@ private:
   edge_removal<Measure> edges_;
   face_removal<Measure> faces_;
   vertex_smoothing<Measure> smoothing_;
+  shell_transformation<Measure> transformation_;
   vertex_insertion<Measure> insertion_;
   edge_contraction<Measure> contraction_;
 };

@@ -10,7 +10,15 @@
 
 namespace dovetail::improvement {
 
-enum class operation : std::size_t { edge_removal, face_removal, smoothing, contraction, insertion, count };
+enum class operation : std::size_t {
+  edge_removal,
+  face_removal,
+  smoothing,
+  shell_transformation,
+  contraction,
+  insertion,
+  count
+};
 
 /// Tries, acceptances and seconds per kind of operation.
 class operation_log {
@@ -37,7 +45,7 @@ public:
   }
   void write_to(report& to) const {
     static constexpr std::array<const char*, static_cast<std::size_t>(operation::count)> names{
-        "edge removal", "face removal", "smoothing", "contraction", "insertion"};
+        "edge removal", "face removal", "smoothing", "shell transformation", "contraction", "insertion"};
     for (std::size_t k = 0; k < names.size(); ++k) {
       const std::string name = names[k];
       to.set(name + " tried", static_cast<double>(entries_[k].tried));

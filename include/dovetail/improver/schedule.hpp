@@ -105,9 +105,12 @@ private:
 
   prospect prospect_of(local_id e) const {
     const auto& v = mesh_.vertices(e);
-    const auto held = std::count_if(v.begin(), v.end(), [&](local_id i) { return !mesh_.is_free(i); });
-    return held == 4 || surface_.limits(v) ? prospect::narrow : prospect::open;
+    if (surface_.limits(v))
+      return prospect::narrow;
+    const bool is_held = std::none_of(v.begin(), v.end(), [&](local_id i) { return mesh_.is_free(i); });
+    return is_held && !is_bad(mesh_.value(e)) ? prospect::narrow : prospect::open;
   }
+  static bool is_bad(float value) { return value < static_cast<float>(Measure::from_angle(12)); }
   bool mend_hard(local_id e, effort& budget) {
     const prospect kind = prospect_of(e);
     if (!budget.allows(kind))

@@ -112,6 +112,8 @@ public:
   std::uint32_t changed_at(local_id v) const { return changed_at_[index(v)]; }
   void start_change() { ++now_; }
   void touch(local_id v) { changed_at_[index(v)] = now_; }
+  /// Takes a touch back.
+  void set_changed_at(local_id v, std::uint32_t when) { changed_at_[index(v)] = when; }
 
   // -- changes ---------------------------------------------------------------------------------------------
   void set_value(local_id e, float value) {
@@ -172,8 +174,9 @@ public:
 
   /// Replaces the elements `old` by `fresh`, which must fill exactly the same cavity: every side of a fresh
   /// element lies against another one or on the cavity's boundary. `ids` (as long as `fresh`) receives the
-  /// new elements' numbers. O(old + fresh). Vertices inside the cavity that `fresh` does not use are left
-  /// without an element; the caller releases them.
+  /// new elements' numbers: those of `old` first, then those given up last, so that replacing them by the old
+  /// ones again restores all numbers. O(old + fresh). Vertices inside the cavity that `fresh` does not use
+  /// are left without an element; the caller releases them.
   void replace(std::span<const local_id> old, std::span<const simplex<3>> fresh,
                std::span<const float> values, std::span<local_id> ids) {
     start_change();
@@ -190,7 +193,7 @@ public:
     const local_id tag_of_cavity = tag(old[0]);
     for (std::size_t i = 0; i < fresh.size(); ++i)
       ids[i] = i < old.size() ? old[i] : new_element();
-    for (std::size_t i = fresh.size(); i < old.size(); ++i)
+    for (std::size_t i = old.size(); i-- > fresh.size();)
       kill(old[i]);
     alive_ = alive_ + fresh.size() - old.size();
     for (std::size_t i = 0; i < fresh.size(); ++i) {
