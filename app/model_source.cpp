@@ -6,7 +6,10 @@
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/geometry/plane_read.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/json.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -34,10 +37,11 @@ double checked_size(double size, const box3& domain) {
 model_source builtin_source(const model_options& options) {
   const std::string name = options.model.empty() ? builtin_model_names().front() : options.model;
   auto built = builtin_model(name);
-  const box3 domain = built.model.bounds();
+  any_geometry geometry(std::move(built.model));
+  const box3 domain = geometry.bounds();
   any_sizing size;
   if (!options.sizing.empty()) {
-    size = load_sizing(options.sizing, {}, domain);
+    size = load_sizing(options.sizing, {}, domain, &geometry);
   } else {
     const double ambient = options.size ? checked_size(*options.size, domain) : built.size;
     for (auto& source : built.sources)
@@ -45,18 +49,22 @@ model_source builtin_source(const model_options& options) {
         spacing *= ambient / built.size;
     size = keep_bounds(source_field(ambient, std::move(built.sources)));
   }
-  return {name, any_geometry(std::move(built.model)), std::move(size), std::move(built.report)};
+  return {name, std::move(geometry), std::move(size), std::move(built.report)};
 }
 
 model_source file_source(const model_options& options) {
   const std::filesystem::path file = options.input;
   const auto with_sizing = [&](any_geometry geometry, report summary) {
     const box3 domain = geometry.bounds();
-    any_sizing size = load_sizing(options.sizing, options.size, domain);
+    any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry);
     if (!size)
       size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
     return model_source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
   };
+  if (file.extension() == ".svg")
+    return with_sizing(any_geometry(plane_domain(read_svg(file))), {});
+  if (file.extension() == ".txt")
+    return with_sizing(any_geometry(plane_domain(read_polygons(file))), {});
   if (!triangle_format_of(file).empty())
     return with_sizing(any_geometry(read_discrete_model(file)), {});
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
@@ -80,9 +88,14 @@ model_source load_model(const model_options& options) {
   return options.input.empty() ? builtin_source(options) : file_source(options);
 }
 
-any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain) {
-  if (!file.empty())
-    return keep_bounds(sizing::read_sizing(file, {.domain = domain, .load_background = load_background}));
+any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,
+                       const any_geometry* model) {
+  if (!file.empty()) {
+    sizing::json_options options{.domain = domain, .load_background = load_background};
+    if (model)
+      options.size_from_model = [model](const automatic_options& o) { return automatic_size(*model, o); };
+    return keep_bounds(sizing::read_sizing(file, options));
+  }
   if (size)
     return keep_bounds(uniform_size(checked_size(*size, domain)));
   return {};

@@ -23,7 +23,9 @@ struct model_source {
 /// each other, and the library's errors for files and sizes that cannot be used.
 model_source load_model(const model_options& options);
 
-/// The sizing field of a JSON file, or the uniform one; empty when neither is given.
-any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain);
+/// The sizing field of a JSON file, or the uniform one; empty when neither is given. A file may ask for sizes
+/// from the model, if there is one.
+any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,
+                       const any_geometry* model = nullptr);
 
 } // namespace dovetail::app

@@ -138,14 +138,13 @@ double gap_to_face(const G& model, const surface_sample& from, const surface_sam
   return exact > 0 ? std::min(exact, rough) : rough;
 }
 
-/// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size.
-template <geometry_model G>
-std::vector<sized_point> proximity_points(const G& model, const proximity_options& options,
-                                          const model_size_range& range) {
-  checked_size(options.elements, "the number of elements across");
+/// Sizes of gap / elements at samples that are `spacing(sample)` apart.
+template <geometry_model G, class Spacing>
+std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options& options,
+                                         const model_size_range& range, const Spacing& spacing) {
+  constexpr int most_per_face = 20000;
   const double reach = options.elements * range.largest;
-  const auto even = [&](const surface_sample&) { return range.largest; };
-  const facing_search search(sample_surface(model, even));
+  const facing_search search(sample_surface(model, spacing, most_per_face));
   std::vector<sized_point> points;
   for (const surface_sample& s : search.samples()) {
     const auto& solids = model.topology().faces[static_cast<std::size_t>(s.face)].solids;
@@ -153,13 +152,33 @@ std::vector<sized_point> proximity_points(const G& model, const proximity_option
       if (!(solids[side] == no_id ? options.outside : options.inside))
         continue;
       const vec3 direction = side == 0 ? -s.normal : s.normal;
-      const surface_sample* facing = search.find(s, direction, reach, range.largest);
+      const surface_sample* facing = search.find(s, direction, reach, spacing(s));
       if (!facing)
         continue;
       const double size = std::max(range.smallest, gap_to_face(model, s, *facing) / options.elements);
       if (size < range.largest)
         points.push_back({s.point, size});
     }
+  }
+  return points;
+}
+
+/// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size. What
+/// one pass finds tells the next how near samples have to be: the last are at most two sizes apart.
+template <geometry_model G>
+std::vector<sized_point> proximity_points(const G& model, const proximity_options& options,
+                                          const model_size_range& range) {
+  checked_size(options.elements, "the number of elements across");
+  constexpr int passes = 3;
+  constexpr double sizes_apart = 2;
+  const auto even = [&](const surface_sample&) { return range.largest; };
+  auto points = gaps_at_samples(model, options, range, even);
+  for (int pass = 1; pass < passes && !points.empty(); ++pass) {
+    const point_sizes found(std::move(points), range.growth, range.largest);
+    const auto by_size = [&](const surface_sample& s) {
+      return std::min(range.largest, sizes_apart * found(s.point));
+    };
+    points = gaps_at_samples(model, options, range, by_size);
   }
   return points;
 }
