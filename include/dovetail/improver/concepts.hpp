@@ -10,7 +10,8 @@
 /// for bit (other points may be renumbered, removed or added after them); the mesh stays valid and its
 /// worst element does not get worse; elements keep tags. Deterministic: stops by counts, never by time.
 /// Failure: throws `mesh_error` when the input is not a valid mesh.
-/// Models for D = 3: native_improver, no_improver.
+/// Models for D = 2: native_improver, no_improver; for D = 3 also improvement::gmsh, netgen and cgal, which
+/// give the mesh back as it was when their library made it worse.
 #pragma once
 
 #include "dovetail/core/report.hpp"
