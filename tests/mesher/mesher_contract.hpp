@@ -5,6 +5,7 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/mesher/checks.hpp"
+#include "dovetail/parallel/processes.hpp"
 #include "mesher/shapes.hpp"
 
 #include <doctest/doctest.h>
@@ -167,11 +168,11 @@ void check_non_manifold(const M& mesher) {
 
 /// The mean edge is the size, on a field with a boundary of the same size.
 template <class M>
-void check_calibration(const M& mesher) {
-  for (const auto& boundary : {shapes::cube(24), shapes::sphere(4)}) {
+void check_calibration(const M& mesher, double tolerance = 0.05, int cube_squares = 24) {
+  for (const auto& boundary : {shapes::cube(cube_squares), shapes::sphere(cube_squares > 12 ? 4 : 3)}) {
     const double h = shapes::mean_edge(boundary);
     const auto mesh = mesh_and_check(mesher, boundary, [h](vec3) { return h; });
-    CHECK(mean_edge(mesh) / h == doctest::Approx(1.0).epsilon(0.05));
+    CHECK(mean_edge(mesh) / h == doctest::Approx(1.0).epsilon(tolerance));
   }
 }
 
@@ -234,6 +235,23 @@ void check_errors(const M& mesher) {
   auto repeated = input;
   repeated.boundary.elements.push_back(repeated.boundary.elements.front());
   CHECK_THROWS_AS(mesher(repeated, fine), mesher_error);
+}
+
+/// A dent pushed out through the other side: a failure, never a mesh. In a worker, since a mesher with
+/// `may_crash` may take the process along.
+template <class M>
+void check_self_intersection(const M& mesher) {
+  auto crossing = shapes::cube(4);
+  const auto top = std::find(crossing.points.begin(), crossing.points.end(), vec3{0.5, 0.5, 1});
+  REQUIRE(top != crossing.points.end());
+  *top = {0.53, 0.47, -0.3};
+  const auto outcomes = parallel::processes{1}.run(1, [&](std::size_t) {
+    mesher(mesher_input<3>{crossing, 0}, [](vec3) { return 0.3; });
+    return byte_buffer{};
+  });
+  CHECK_FALSE(outcomes.front().ok);
+  CHECK_FALSE(outcomes.front().timed_out);
+  CHECK((M::traits.may_crash || !outcomes.front().crashed));
 }
 
 } // namespace contract

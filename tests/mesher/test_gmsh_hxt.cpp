@@ -26,6 +26,7 @@ TEST_CASE("HXT repeats itself, since each call has a process of its own") {
 
 TEST_CASE("HXT's failures are typed") {
   contract::check_errors(mesher::gmsh_hxt{});
+  contract::check_self_intersection(mesher::gmsh_hxt{});
 }
 
 TEST_CASE("HXT's pieces do not depend on the worker that makes them") {

@@ -36,6 +36,7 @@ TEST_CASE("TetGen repeats itself within a process") {
 
 TEST_CASE("TetGen's failures are typed") {
   contract::check_errors(mesher::tetgen{});
+  contract::check_self_intersection(mesher::tetgen{});
 }
 
 TEST_CASE("Every fallback fulfils the contract") {
