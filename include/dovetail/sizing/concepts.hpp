@@ -6,7 +6,8 @@
 /// Semantics: pure; the same point always gives the same value. Callable from several threads at once.
 /// Complexity: O(log n) for n sources.
 /// Failure: construction throws `sizing_error`, evaluation never throws.
-/// Models: uniform_size, source_field, background_field, minimum_of, scaled, graded, any_sizing, a user's
+/// Models: uniform_size, source_field, background_field, point_sizes (curvature, proximity, automatic),
+/// minimum_of, scaled, graded_size, any_sizing, a user's
 /// lambda.
 #pragma once
 
