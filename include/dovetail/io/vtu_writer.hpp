@@ -5,6 +5,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/line_output.hpp"
 #include "dovetail/io/patches.hpp"
 #include "dovetail/io/skeleton_index.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
@@ -32,10 +33,11 @@ struct vtu_group {
 };
 
 /// Loads pieces, keeping the latest one.
+template <int D>
 class piece_stream {
 public:
-  explicit piece_stream(const distributed_mesh& mesh) : mesh_(mesh) {}
-  const mesh_piece& operator()(local_id index) {
+  explicit piece_stream(const distributed_simplicial_mesh<D>& mesh) : mesh_(mesh) {}
+  const simplicial_piece<D>& operator()(local_id index) {
     if (piece_.subdomain != index) {
       piece_ = {}; // frees the old piece before the new one is made
       piece_ = load_checked(mesh_, index);
@@ -44,18 +46,19 @@ public:
   }
 
 private:
-  const distributed_mesh& mesh_;
-  mesh_piece piece_;
+  const distributed_simplicial_mesh<D>& mesh_;
+  simplicial_piece<D> piece_;
 };
 
 /// Collects the points of a group. `group_point` is scratch: per skeleton point its place in the group, valid
 /// where the group has the point. O(skeleton of the group, log for sorting).
-inline vtu_group collect_group(const distributed_mesh& mesh, const triangles_by_subdomain& triangles,
-                               local_id first, local_id last, std::vector<local_id>& group_point) {
+template <int D>
+vtu_group collect_group(const distributed_simplicial_mesh<D>& mesh, const sides_by_subdomain<D>& sides,
+                        local_id first, local_id last, std::vector<local_id>& group_point) {
   vtu_group group{first, last, {}, 0, 0};
   for (auto s = first; s < last; ++s) {
-    for (const auto t : triangles[s])
-      for (const auto v : mesh.skeleton.triangles[static_cast<std::size_t>(t)])
+    for (const auto t : sides[s])
+      for (const auto v : sides_of(mesh.skeleton)[static_cast<std::size_t>(t)])
         group.skeleton_points.push_back(v);
     group.points += static_cast<std::uint64_t>(mesh.counts[static_cast<std::size_t>(s)].inner_points);
     group.elements += static_cast<std::uint64_t>(mesh.counts[static_cast<std::size_t>(s)].elements);
@@ -72,8 +75,9 @@ inline vtu_group collect_group(const distributed_mesh& mesh, const triangles_by_
 }
 
 /// Writes points and global ids: pass one over the group.
-inline void append_points(output_file& file, const distributed_mesh& mesh, const global_numbering& numbers,
-                          const vtu_group& group, piece_stream& pieces) {
+template <int D>
+void append_points(output_file& file, const distributed_simplicial_mesh<D>& mesh,
+                   const global_numbering& numbers, const vtu_group& group, piece_stream<D>& pieces) {
   file.value<std::uint64_t>(group.points * sizeof(vec3));
   for (const auto v : group.skeleton_points)
     file.value(mesh.skeleton.points[static_cast<std::size_t>(v)]);
@@ -90,9 +94,10 @@ inline void append_points(output_file& file, const distributed_mesh& mesh, const
 }
 
 /// Writes the connectivity: pass two over the group.
-inline void append_connectivity(output_file& file, const vtu_group& group, piece_stream& pieces,
-                                const std::vector<local_id>& group_point) {
-  file.value<std::uint64_t>(group.elements * sizeof(simplex<3>));
+template <int D>
+void append_connectivity(output_file& file, const vtu_group& group, piece_stream<D>& pieces,
+                         const std::vector<local_id>& group_point) {
+  file.value<std::uint64_t>(group.elements * sizeof(simplex<D>));
   auto inner = static_cast<local_id>(group.skeleton_points.size());
   std::vector<local_id> place; // of each point of the piece in the group
   for (auto s = group.first; s < group.last; ++s) {
@@ -104,13 +109,13 @@ inline void append_connectivity(output_file& file, const vtu_group& group, piece
       if (static_cast<std::size_t>(at) >= group.skeleton_points.size() ||
           group.skeleton_points[static_cast<std::size_t>(at)] != v)
         throw mesh_error("subdomain " + std::to_string(s) + " has skeleton point " + std::to_string(v) +
-                         ", which is on none of its skeleton triangles");
+                         ", which is on none of its skeleton sides");
       place[i++] = at;
     }
     for (; i < place.size(); ++i)
       place[i] = inner++;
     for (const auto& element : piece.mesh.elements) {
-      simplex<3> placed;
+      simplex<D> placed;
       for (std::size_t k = 0; k < placed.size(); ++k)
         placed[k] = place[static_cast<std::size_t>(element[k])];
       file.value(placed);
@@ -119,9 +124,9 @@ inline void append_connectivity(output_file& file, const vtu_group& group, piece
 }
 
 /// Writes one value per subdomain, repeated for each of its elements.
-template <class Function>
-void append_per_subdomain(output_file& file, const distributed_mesh& mesh, const vtu_group& group,
-                          Function of_subdomain) {
+template <int D, class Function>
+void append_per_subdomain(output_file& file, const distributed_simplicial_mesh<D>& mesh,
+                          const vtu_group& group, Function of_subdomain) {
   file.value<std::uint64_t>(group.elements * sizeof(local_id));
   for (auto s = group.first; s < group.last; ++s) {
     const local_id value = of_subdomain(s);
@@ -130,10 +135,27 @@ void append_per_subdomain(output_file& file, const distributed_mesh& mesh, const
   }
 }
 
-inline void write_vtu_group(output_file& file, const distributed_mesh& mesh, const global_numbering& numbers,
-                            const std::string& field_data, const vtu_group& group,
-                            const std::vector<local_id>& group_point) {
-  const bool wide = group.elements * 4 > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+/// The region of each element: the material of its subdomain, or in D = 2 its CAD face.
+template <int D>
+void append_regions(output_file& file, const distributed_simplicial_mesh<D>& mesh, const vtu_group& group,
+                    piece_stream<D>& pieces) {
+  if constexpr (D == 3) {
+    append_per_subdomain(file, mesh, group,
+                         [&](local_id s) { return mesh.counts[static_cast<std::size_t>(s)].material; });
+  } else {
+    file.value<std::uint64_t>(group.elements * sizeof(local_id));
+    for (auto s = group.first; s < group.last; ++s)
+      file.array(std::span(pieces(s).mesh.tags));
+  }
+}
+
+template <int D>
+void write_vtu_group(output_file& file, const distributed_simplicial_mesh<D>& mesh,
+                     const global_numbering& numbers, const std::string& field_data, const vtu_group& group,
+                     const std::vector<local_id>& group_point) {
+  constexpr std::uint64_t corners = D + 1;
+  const bool wide =
+      group.elements * corners > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
   appended_layout layout(file);
   file.text(vtk_xml_opening("UnstructuredGrid"));
   file.text("<UnstructuredGrid>\n" + field_data);
@@ -143,7 +165,7 @@ inline void write_vtu_group(output_file& file, const distributed_mesh& mesh, con
   file.text("</Points>\n<PointData GlobalIds=\"GlobalNodeIds\">\n");
   layout.array<global_id>("GlobalNodeIds", group.points);
   file.text("</PointData>\n<Cells>\n");
-  layout.array<local_id>("connectivity", 4 * group.elements);
+  layout.array<local_id>("connectivity", corners * group.elements);
   if (wide)
     layout.array<std::int64_t>("offsets", group.elements);
   else
@@ -155,19 +177,18 @@ inline void write_vtu_group(output_file& file, const distributed_mesh& mesh, con
   file.text("</CellData>\n");
   file.text("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
-  piece_stream pieces(mesh);
+  piece_stream<D> pieces(mesh);
   append_points(file, mesh, numbers, group, pieces);
   append_connectivity(file, group, pieces, group_point);
   if (wide)
     append_computed<std::int64_t>(file, group.elements,
-                                  [](auto i) { return static_cast<std::int64_t>(4 * (i + 1)); });
+                                  [](auto i) { return static_cast<std::int64_t>(corners * (i + 1)); });
   else
     append_computed<std::int32_t>(file, group.elements,
-                                  [](auto i) { return static_cast<std::int32_t>(4 * (i + 1)); });
-  append_computed<std::uint8_t>(file, group.elements, [](auto) { return std::uint8_t{10}; }); // tetrahedra
+                                  [](auto i) { return static_cast<std::int32_t>(corners * (i + 1)); });
+  append_computed<std::uint8_t>(file, group.elements, [](auto) { return std::uint8_t{D == 3 ? 10 : 5}; });
   append_per_subdomain(file, mesh, group, [](local_id s) { return s; });
-  append_per_subdomain(file, mesh, group,
-                       [&](local_id s) { return mesh.counts[static_cast<std::size_t>(s)].material; });
+  append_regions(file, mesh, group, pieces);
   file.text("\n</AppendedData>\n</VTKFile>\n");
 }
 
@@ -213,22 +234,33 @@ inline void remove_stale_pieces(const std::filesystem::path& folder, const std::
 
 } // namespace detail
 
+/// Names of the regions that elements are in: materials, or in D = 2 CAD faces.
+inline std::vector<std::string> region_names(const distributed_simplicial_mesh<3>& mesh) {
+  return collect_material_names(mesh);
+}
+inline std::vector<std::string> region_names(const distributed_simplicial_mesh<2>& mesh) {
+  return mesh.face_names;
+}
+
 /// Writes `<stem>.pvtu` and its pieces `<stem>_0000.vtu`, ..., `surface.vtp` (the boundary of the domain) and
-/// `interfaces.vtp` (faces between subdomains, where there are several). See docs/formats.md for the arrays.
+/// `interfaces.vtp` (faces between subdomains, where there are several);
+/// in D = 2 `lines.vtp` instead, the edges of CAD curves and of lines between subdomains. See docs/formats.md
+/// for the arrays.
 struct vtu_writer {
   int pieces = 0; ///< number of VTU files; 0: one per subdomain, never more than subdomains
   std::string stem = "mesh";
 
   /// A piece of several subdomains is loaded twice. Memory: the skeleton, twice its size in work arrays, and
   /// one loaded subdomain.
-  report operator()(const distributed_mesh& mesh, const std::filesystem::path& folder) const {
+  template <int D>
+  report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {
     const stopwatch clock;
     make_folder(folder);
     const auto numbers = number_globally(mesh);
-    const triangles_by_subdomain triangles(mesh);
+    const sides_by_subdomain<D> sides(mesh);
     const auto subdomains = static_cast<local_id>(mesh.counts.size());
     const auto groups = pieces <= 0 ? subdomains : std::min<local_id>(pieces, subdomains);
-    const auto field_data = vtk_field_data({{"region_names", collect_material_names(mesh)}});
+    const auto field_data = vtk_field_data({{"region_names", region_names(mesh)}});
 
     output_batch files;
     std::vector<std::string> sources;
@@ -237,15 +269,19 @@ struct vtu_writer {
       const auto bound = [&](local_id i) {
         return static_cast<local_id>(static_cast<global_id>(i) * subdomains / groups);
       };
-      const auto group = detail::collect_group(mesh, triangles, bound(g), bound(g + 1), group_point);
+      const auto group = detail::collect_group(mesh, sides, bound(g), bound(g + 1), group_point);
       sources.push_back(detail::vtu_piece_name(stem, g, groups));
       detail::write_vtu_group(files.open(folder / sources.back()), mesh, numbers, field_data, group,
                               group_point);
     }
-    detail::write_skeleton_vtp(files.open(folder / "surface.vtp"), mesh, detail::skeleton_part::boundary);
-    if (subdomains > 1)
-      detail::write_skeleton_vtp(files.open(folder / "interfaces.vtp"), mesh,
-                                 detail::skeleton_part::interfaces);
+    if constexpr (D == 3) {
+      detail::write_skeleton_vtp(files.open(folder / "surface.vtp"), mesh, detail::skeleton_part::boundary);
+      if (subdomains > 1)
+        detail::write_skeleton_vtp(files.open(folder / "interfaces.vtp"), mesh,
+                                   detail::skeleton_part::interfaces);
+    } else {
+      detail::write_lines_vtp(files.open(folder / "lines.vtp"), mesh);
+    }
     detail::write_pvtu(files.open(folder / (stem + ".pvtu")), field_data, sources);
     // Between these lines the folder has no PVTU, rather than one that names pieces of two meshes.
     std::error_code ignored;

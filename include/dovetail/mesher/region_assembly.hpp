@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
 #include <algorithm>

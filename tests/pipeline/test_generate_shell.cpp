@@ -1,0 +1,75 @@
+#include "plane_meshes.hpp"
+
+#include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/sizing/sources.hpp"
+
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+
+#include <numbers>
+
+using namespace dovetail;
+using namespace dovetail::testing;
+
+namespace {
+
+template <executor E = parallel::serial>
+generated<2> mesh_shell(const TopoDS_Shape& shape, double size, int parts, E run = {}) {
+  return generate<2>(occt_shape_from(shape).model, uniform_size(size),
+                     parameters<>{}.with_executor(run).with_options(in_parts(parts)));
+}
+
+} // namespace
+
+TEST_CASE("a sphere: closed, every vertex on it") {
+  const auto result = mesh_shell(BRepPrimAPI_MakeSphere(2.0).Shape(), 0.15, 6);
+  const auto mesh = require_valid(result);
+  CHECK(euler_characteristic(mesh) == 2);
+  for (const auto& [id, p] : mesh.points)
+    REQUIRE(norm(p) == doctest::Approx(2).epsilon(1e-9));
+  CHECK(area_of(mesh) == doctest::Approx(16 * std::numbers::pi).epsilon(5e-3));
+  CHECK(result.coarse_contract.violations.empty());
+  CHECK(result.fine_contract.min_wedge_deg() > 48);
+}
+
+TEST_CASE("a torus and a cylinder: seams, an edge between faces") {
+  const auto torus = require_valid(mesh_shell(BRepPrimAPI_MakeTorus(2.0, 0.7).Shape(), 0.15, 5));
+  CHECK(euler_characteristic(torus) == 0);
+  for (const auto& [id, p] : torus.points)
+    REQUIRE(std::hypot(std::hypot(p.x, p.y) - 2, p.z) == doctest::Approx(0.7).epsilon(1e-8));
+
+  const auto result = mesh_shell(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape(), 0.1, 5);
+  const auto cylinder = require_valid(result);
+  CHECK(euler_characteristic(cylinder) == 2);
+  for (std::size_t t = 0; t < cylinder.triangles.size(); ++t) {
+    vec3 normal =
+        cross(cylinder.points.at(cylinder.triangles[t][1]) - cylinder.points.at(cylinder.triangles[t][0]),
+              cylinder.points.at(cylinder.triangles[t][2]) - cylinder.points.at(cylinder.triangles[t][0]));
+    REQUIRE(dot(normal, cylinder.points.at(cylinder.triangles[t][0]) - vec3{0, 0, 1}) > 0); // outwards
+  }
+}
+
+TEST_CASE("the shell's mesh is the same for any number of workers") {
+  const auto sphere = BRepPrimAPI_MakeSphere(1.0).Shape();
+  const auto expected = io::mesh_hash(mesh_shell(sphere, 0.08, 6).mesh);
+  for (const int workers : {1, 2, 4})
+    CHECK(io::mesh_hash(mesh_shell(sphere, 0.08, 6, parallel::processes{.worker_count = workers}).mesh) ==
+          expected);
+}
+
+TEST_CASE("the aircraft in its box: several closed shells") {
+  auto built = builtin_model("aircraft");
+  for (auto& source : built.sources)
+    for (auto& spacing : source.spacing)
+      spacing *= 2;
+  const auto result = generate<2>(built.model, source_field(2 * built.size, built.sources),
+                                  parameters<>{}.with_options(in_parts(8)));
+  const auto mesh = require_valid(result);
+  const auto passed = passages(mesh);
+  for (const auto& [edge, count] : passed)
+    REQUIRE(passed.contains({edge[1], edge[0]})); // closed
+  CHECK(result.mesh.counts.size() >= 8);
+}
