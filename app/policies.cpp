@@ -19,10 +19,12 @@
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
 #include "dovetail/improver/gmsh.hpp"
+#include "dovetail/mesher/gmsh_delaunay.hpp"
 #include "dovetail/mesher/gmsh_hxt.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
 #include "dovetail/improver/netgen.hpp"
+#include "dovetail/mesher/netgen.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
 #include "dovetail/partition/scotch.hpp"
@@ -77,8 +79,12 @@ std::vector<any_partitioner> partitioners() {
 std::vector<any_mesher> meshers() {
   std::vector<any_mesher> known{{"tetgen", mesher::tetgen{}}};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  // HXT fails on some boundaries that TetGen meshes, such as two parts that touch in an edge.
+  // The others fail on some boundaries that TetGen meshes, such as two parts that touch in an edge.
   known.push_back(any_mesher("hxt", mesher::gmsh_hxt{}).with_fallback(known.front()));
+  known.push_back(any_mesher("gmsh-delaunay", mesher::gmsh_delaunay{}).with_fallback(known.front()));
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_NETGEN
+  known.push_back(any_mesher("netgen", mesher::netgen{}).with_fallback(known.front()));
 #endif
   return known;
 }

@@ -3,7 +3,7 @@
 ///
 /// Gmsh exports a changed copy of the class `tetgenmesh` under the same name. In a program linked to both,
 /// the dynamic linker gives both libraries the functions of whichever comes first, and the other one crashes:
-/// HXT died on every input. So where TetGen is a shared library, the build defines
+/// HXT died on most inputs. So where TetGen is a shared library, the build defines
 /// DOVETAIL_TETGEN_SHARED_LIBRARY, its path, instead of linking it; it is then loaded with its symbols bound
 /// to itself and visible to no one else.
 #pragma once
