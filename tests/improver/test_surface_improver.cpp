@@ -120,6 +120,29 @@ TEST_CASE("a better preset reaches more, and a second run finds little to do") {
   CHECK(second.get("insertion accepted") <= 2);
 }
 
+TEST_CASE("small meshes of all kinds, squeezed, shuffled, with frozen points") {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    CAPTURE(seed);
+    dovetail_test::random_numbers random(seed);
+    const int n = 3 + static_cast<int>(random.bits() % 8);
+    const double jitter = 0.05 + 0.28 * random.unit();
+    auto mesh = seed % 4 == 0   ? closed_cube(n, jitter, seed, false)
+                : seed % 4 == 1 ? closed_cube(n, jitter, seed, true)
+                : seed % 4 == 2 ? dovetail_test::jittered_squares(n, jitter, seed, 0.2 * random.unit())
+                                : holed_squares(n + 5, jitter, seed);
+    if (seed % 5 == 0)
+      for (vec3& p : mesh.points)
+        p.y *= 0.1;
+    if (seed % 3 == 0)
+      mesh = dovetail_test::shuffled(mesh, seed);
+    frozen_type frozen;
+    frozen.points = static_cast<local_id>(random.bits() % (mesh.points.size() / 2));
+    auto result = mesh;
+    preset(seed)(result, frozen);
+    check_change(mesh, result, frozen);
+  }
+}
+
 TEST_CASE("two runs give the same mesh") {
   auto first = holed_squares(20, 0.3, 5), second = first;
   native::finest()(first);

@@ -232,6 +232,7 @@ public:
       for (local_id& v : element)
         if (v < 0)
           v = numbers.of_free[at(-1 - v)];
+    fill_gaps(numbers, whole);
     if (!mesh_.tags.empty())
       whole.tags = std::move(tags_);
     return whole;

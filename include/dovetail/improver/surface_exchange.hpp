@@ -330,6 +330,7 @@ inline void give_back(const surface_complex& made, simplicial_mesh<2>& mesh,
     if (corner_uv != nullptr)
       corner_uv->push_back(uv);
   }
+  fill_gaps(numbers, mesh);
 }
 
 } // namespace dovetail::improvement
