@@ -70,7 +70,7 @@ class Meshes:
         def make(raw):
             out = os.path.join(self.folder, "aircraft")
             run(self.driver, "mesh", "--model", "aircraft", "--improver", "none", "--format", "msh", "--out", out,
-                "--quiet", "--size", 0.8)
+                "--quiet", "--size", 2.5)
             self.fill(out, raw)
         return self.path("aircraft", make)
 
@@ -163,7 +163,7 @@ def main():
     inputs = {"cube": lambda: made.cube("cube", 0.0165),
               "linkrods": lambda: made.part("linkrods", "linkrods.step", "-clmin", 0.0245, "-clmax", 0.0245),
               "aircraft": made.aircraft,
-              "A319": lambda: made.part("A319", "A319_in_a_box.brep", "-clcurv", 30, "-clmax", 3500, "-clmin", 40),
+              "A319": lambda: made.part("A319", "A319_in_a_box.brep", "-clcurv", 36, "-clmax", 3000, "-clmin", 40),
               "cube of HXT": made.cube_of_hxt}
     native = os.path.join(options.build, "benchmarks", "improver")
     programs = [(native, "fast,fine,finest")]

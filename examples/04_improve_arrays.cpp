@@ -52,13 +52,14 @@ my_mesh disturbed_cube(int n) {
 int main() {
   const my_mesh mine = disturbed_cube(12);
 
+  // for the readme
   dovetail::simplicial_mesh<3> mesh;
   for (const auto& [x, y, z] : mine.points)
     mesh.points.push_back({x, y, z});
   mesh.elements.assign(mine.tetrahedra.begin(), mine.tetrahedra.end());
   const auto before = dovetail::measure_quality(mesh).min_wedge_deg;
-
   const auto report = dovetail::improvement::native::fine()(mesh); // the boundary stays as it is
+  // end
 
   const auto after = dovetail::measure_quality(mesh).min_wedge_deg;
   std::printf("%zu tetrahedra in %.2f s: smallest dihedral angle %.1f degrees, before %.1f\n",
