@@ -77,7 +77,7 @@ class Meshes:
     def cube_of_hxt(self):
         def make(raw):
             out = os.path.join(self.folder, "hxt.msh")
-            run("gmsh", "-3", "-algo", "hxt", "-nt", 1, "-clmin", 0.017, "-clmax", 0.017, "-format", "msh41", "-bin",
+            run("gmsh", "-3", "-algo", "hxt", "-nt", 1, "-clmin", 0.0155, "-clmax", 0.0155, "-format", "msh41", "-bin",
                 "-o", out, self.cube_file())
             run(self.generate, "copy", out, raw)
             os.remove(out)
