@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace dovetail::app {
@@ -36,6 +37,8 @@ public:
   }
   box3 bounds() const { return held_->bounds(); }
   bool thread_safe() const { return held_->thread_safe(); }
+  /// Only some models know which of their faces are planes.
+  std::optional<surface_frame> plane_of_face(local_id f) const { return held_->plane_of_face(f); }
 
 private:
   struct interface {
@@ -52,6 +55,7 @@ private:
     virtual double project_to_curve(local_id c, vec3 p, double seed) const = 0;
     virtual box3 bounds() const = 0;
     virtual bool thread_safe() const = 0;
+    virtual std::optional<surface_frame> plane_of_face(local_id f) const = 0;
   };
 
   template <class G>
@@ -73,6 +77,12 @@ private:
     }
     box3 bounds() const override { return held.bounds(); }
     bool thread_safe() const override { return held.thread_safe(); }
+    std::optional<surface_frame> plane_of_face([[maybe_unused]] local_id f) const override {
+      if constexpr (requires { held.plane_of_face(f); })
+        return held.plane_of_face(f);
+      else
+        return {};
+    }
     G held;
   };
 

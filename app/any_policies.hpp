@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/surface_host.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/parallel/concepts.hpp"
@@ -78,23 +79,52 @@ private:
 };
 static_assert(boundary_keeping_mesher<any_mesher, 3> && has_fallbacks<any_mesher>);
 
+/// Holds any mesher of triangles that keeps its boundary.
+class any_surface_mesher {
+public:
+  static constexpr mesher_traits traits{.keeps_boundary = true, .thread_safe = true};
+
+  template <boundary_keeping_mesher<2> M>
+  any_surface_mesher(std::string name, M policy) : name_(std::move(name)), call_(std::move(policy)) {
+    static_assert(M::traits.thread_safe);
+  }
+
+  const std::string& name() const { return name_; }
+  mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
+    return call_(input, size);
+  }
+
+private:
+  std::string name_;
+  std::function<mesher_result<2>(const mesher_input<2>&, const any_sizing&)> call_;
+};
+static_assert(boundary_keeping_mesher<any_surface_mesher, 2>);
+
 /// Holds any improver of tetrahedra; those that improve triangles too do so here.
 class any_improver {
 public:
   template <improver<3> I>
   any_improver(std::string name, I policy) : name_(std::move(name)), call_(policy) {
     if constexpr (improver<I, 2>)
-      call_on_triangles_ = std::move(policy);
+      call_on_triangles_ = [policy](simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen,
+                                    const any_sizing& size, const surface_host& host) {
+        if constexpr (requires { policy(mesh, frozen, size, host); })
+          return policy(mesh, frozen, size, host);
+        frozen_entities<2> in_place = frozen;
+        if (host) // it cannot know the surface: flips alone keep points there
+          in_place.points = static_cast<local_id>(mesh.points.size());
+        return policy(mesh, in_place, size);
+      };
   }
 
   const std::string& name() const { return name_; }
   bool takes_triangles() const { return static_cast<bool>(call_on_triangles_); }
   /// Throws `usage_error` when the held policy does not take triangles.
-  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen,
-                    const any_sizing& size) const {
+  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen, const any_sizing& size,
+                    const surface_host& host = {}) const {
     if (!takes_triangles())
       throw usage_error("the improver " + name_ + " does not take meshes of triangles; use fine");
-    return call_on_triangles_(mesh, frozen, size);
+    return call_on_triangles_(mesh, frozen, size, host);
   }
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                     const any_sizing& size) const {
@@ -104,7 +134,9 @@ public:
 private:
   std::string name_;
   std::function<report(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&)> call_;
-  std::function<report(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&)> call_on_triangles_;
+  std::function<report(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&,
+                       const surface_host&)>
+      call_on_triangles_;
 };
 static_assert(improver<any_improver, 3> && improver<any_improver, 2>);
 

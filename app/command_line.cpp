@@ -4,6 +4,7 @@
 #include "failure.hpp"
 #include "policies.hpp"
 #include "stop_request.hpp"
+#include "surface_policies.hpp"
 
 #include "dovetail/core/version.hpp"
 
@@ -28,7 +29,8 @@ std::string joined(const std::vector<std::string>& names) {
 void add_model_options(CLI::App& command, model_options& options) {
   command.add_option(
       "INPUT", options.input,
-      "CAD file (STEP, IGES, BREP) or triangles (STL, OBJ, OFF, PLY); none: the built-in aircraft");
+      "CAD file (STEP, IGES, BREP), triangles (STL, OBJ, OFF, PLY) or, for --dimension 2, a plane domain "
+      "(SVG, or TXT with polygons); none: the built-in aircraft");
   command.add_option("--model", options.model,
                      "Built-in model instead of a file: " + joined(builtin_model_names()));
   command
@@ -42,12 +44,20 @@ void add_model_options(CLI::App& command, model_options& options) {
 }
 
 void add_run_options(CLI::App& command, mesh_options& options) {
+  command
+      .add_option(
+          "--dimension", options.dimension,
+          "Dimension of the elements: 3, or 2 for triangles on the model's surface or in a plane domain")
+      ->check(CLI::IsMember({2, 3}))
+      ->capture_default_str();
   command.add_option("--subdomains", options.subdomains,
                      "Number of subdomains (default: from the predicted number of elements)");
   command.add_option("--coarsening", options.coarsening,
                      "Edge length of the background mesh over the target (default: from the prediction)");
   command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
-  command.add_option("--mesher", options.mesher, "Volume mesher: " + joined(mesher_names()));
+  command.add_option("--mesher", options.mesher,
+                     "Volume mesher: " + joined(mesher_names()) +
+                         "; of --dimension 2: " + joined(surface_mesher_names()));
   command.add_option("--partitioner", options.partitioner,
                      "Graph partitioner: " + joined(partitioner_names()));
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
@@ -134,7 +144,8 @@ struct parser {
     command.callback([this] { chosen = [this] { return run_improve(improve); }; });
   }
   void add_compare() {
-    auto& command = *app.add_subcommand("compare", "Run combinations of policies on one model: table and page");
+    auto& command =
+        *app.add_subcommand("compare", "Run combinations of policies on one model: table and page");
     add_model_options(command, compare.model);
     add_compare_options(command, compare);
     command.callback([this] { chosen = [this] { return run_compare(compare); }; });

@@ -83,9 +83,10 @@ void add_meshing_seconds(const report& meshing, stage_seconds& seconds) {
   seconds.meshing = meshing.seconds - seconds.improvement;
 }
 
-void add_pipeline_figures(const generate_result& result, run_figures& figures) {
+template <int D>
+void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   const report& summary = result.summary;
-  figures.background_elements = static_cast<std::int64_t>(result.background.volume.elements.size());
+  figures.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   figures.subdomains = static_cast<int>(result.mesh.counts.size());
   figures.quality = result.quality;
   figures.interfaces = figures_of(result.fine_contract);
@@ -104,7 +105,8 @@ void add_pipeline_figures(const generate_result& result, run_figures& figures) {
       figures.peak_rss_bytes, static_cast<std::uint64_t>(child(summary, "meshing").get("peak_rss_bytes")));
 }
 
-void add_mesh_figures(const distributed_mesh& mesh, run_figures& figures) {
+template <int D>
+void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& figures) {
   figures.vertices = static_cast<std::int64_t>(mesh.skeleton.points.size());
   std::int64_t largest = 0;
   for (const auto& piece : mesh.counts) {
@@ -131,13 +133,22 @@ std::string text_of(const std::vector<piece_failure>& failures) {
   return text + " give another size or --subdomains";
 }
 
+template <int D>
+policies_of<D> policies_for(const mesh_options& options) {
+  if constexpr (D == 3)
+    return make_policies(options);
+  else
+    return make_surface_policies(options);
+}
+
 /// One run of `dovetail mesh`.
+template <int D>
 class mesh_run {
 public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
-      : options_(options), policies_(make_policies(options)), parameters_(make_generate_options(options)),
-        formats_(make_formats(options.formats, options.pieces)) {}
+      : options_(options), policies_(policies_for<D>(options)), parameters_(make_generate_options(options)),
+        formats_(make_formats<D>(options.formats, options.pieces)) {}
 
   int run() {
     if (!options_.report.empty())
@@ -152,7 +163,7 @@ public:
     parameters_.store = store.get();
     parameters_.failure_folder = folder.path() / "failed";
 
-    const generate_result result = generate(source, folder.path());
+    const generated<D> result = generate(source, folder.path());
     describe(source, result);
     if (!result.failures.empty()) {
       finish();
@@ -170,7 +181,7 @@ private:
       lines_->update(stage, 0, 0);
   }
 
-  generate_result generate(const model_source& source, const std::filesystem::path& folder) {
+  generated<D> generate(const model_source& source, const std::filesystem::path& folder) {
     if (lines_)
       parameters_.on_progress = lines_->callbacks();
     else
@@ -186,7 +197,8 @@ private:
     }
   }
 
-  void describe(const model_source& source, const generate_result& result) {
+  void describe(const model_source& source, const generated<D>& result) {
+    figures_.dimension = D;
     figures_.model = source.name;
     figures_.mesher = policies_.mesher.name();
     figures_.partitioner = policies_.partitioner.name();
@@ -200,7 +212,7 @@ private:
     collect_warnings(figures_.details, figures_.warnings);
   }
 
-  void write(const distributed_mesh& mesh, const std::filesystem::path& folder) {
+  void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
     const stopwatch output;
     for (const auto& format : formats_) {
       show(("writing " + format.name).c_str());
@@ -226,9 +238,9 @@ private:
 
   const stopwatch clock_;
   const mesh_options& options_;
-  chosen_policies policies_;
+  policies_of<D> policies_;
   generate_options parameters_;
-  std::vector<output_format> formats_;
+  std::vector<output_format<D>> formats_;
   std::optional<terminal_progress> lines_;
   run_figures figures_;
 };
@@ -236,7 +248,7 @@ private:
 } // namespace
 
 int run_mesh(const mesh_options& options) {
-  return mesh_run(options).run();
+  return options.dimension == 3 ? mesh_run<3>(options).run() : mesh_run<2>(options).run();
 }
 
 } // namespace dovetail::app

@@ -55,7 +55,7 @@ int run_plan(const plan_options& options) {
   figures.parent_bytes =
       bytes_of_program + parent_bytes_per_boundary_triangle *
                              predicted_boundary_triangles(plan.predicted_elements, plan.subdomains);
-  figures.disk_bytes = plan.predicted_elements * bytes_per_element(make_formats({}, 0));
+  figures.disk_bytes = plan.predicted_elements * bytes_per_element(make_formats<3>({}, 0));
   std::fputs(plan_text(figures).c_str(), stdout);
   if (!options.report.empty())
     write_plan(figures, options.report);

@@ -5,7 +5,8 @@
 
 namespace dovetail::app {
 
-std::uint64_t parallel_mesh_hash(const distributed_mesh& mesh, const any_executor& executor) {
+template <int D>
+std::uint64_t parallel_mesh_hash(const distributed_simplicial_mesh<D>& mesh, const any_executor& executor) {
   const auto numbers = io::number_globally(mesh);
   const auto outcomes =
       executor.run(mesh.counts.size(),
@@ -26,5 +27,8 @@ std::uint64_t parallel_mesh_hash(const distributed_mesh& mesh, const any_executo
   }
   return whole.value();
 }
+
+template std::uint64_t parallel_mesh_hash<2>(const distributed_simplicial_mesh<2>&, const any_executor&);
+template std::uint64_t parallel_mesh_hash<3>(const distributed_simplicial_mesh<3>&, const any_executor&);
 
 } // namespace dovetail::app

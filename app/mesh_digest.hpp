@@ -11,6 +11,7 @@
 namespace dovetail::app {
 
 /// `io::mesh_hash(mesh)`, one task per piece. Throws what loading a piece throws.
-std::uint64_t parallel_mesh_hash(const distributed_mesh& mesh, const any_executor& executor);
+template <int D>
+std::uint64_t parallel_mesh_hash(const distributed_simplicial_mesh<D>& mesh, const any_executor& executor);
 
 } // namespace dovetail::app

@@ -19,6 +19,7 @@ struct model_options {
 
 struct mesh_options {
   model_options model;
+  int dimension = 3; ///< of the elements: 3, or 2 for triangles on the surface
   std::optional<int> subdomains;
   std::optional<double> coarsening; ///< background size over size
   int workers = 0;                  ///< 0: as many as the machine has

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 
@@ -17,7 +18,20 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
-output_format format_of(const std::string& name, int pieces) {
+template <int D>
+output_format<D> format_of(const std::string& name, int pieces);
+
+template <>
+output_format<2> format_of<2>(const std::string& name, int pieces) {
+  if (name == "vtu")
+    return {name, 45, io::vtu_writer{.pieces = pieces}};
+  if (name == "msh")
+    return {name, 45, io::msh_surface_writer{}};
+  throw command_line_error("--format: there is no '" + name + "' for triangles; there are: vtu, msh, none");
+}
+
+template <>
+output_format<3> format_of<3>(const std::string& name, int pieces) {
   if (name == "vtu")
     return {name, 50, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
@@ -30,15 +44,16 @@ output_format format_of(const std::string& name, int pieces) {
 
 } // namespace
 
-std::vector<output_format> make_formats(const std::vector<std::string>& names, int pieces) {
+template <int D>
+std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int pieces) {
   if (pieces < 0)
     throw command_line_error("--pieces: " + std::to_string(pieces) + " is negative");
-  std::vector<output_format> formats;
+  std::vector<output_format<D>> formats;
   for (const auto& name : names)
     if (name != "none")
-      formats.push_back(format_of(name, pieces));
+      formats.push_back(format_of<D>(name, pieces));
   if (names.empty())
-    formats.push_back(format_of("vtu", pieces));
+    formats.push_back(format_of<D>("vtu", pieces));
   return formats;
 }
 
@@ -73,18 +88,27 @@ void check_can_create(const std::filesystem::path& file) {
   const output_file probe(file); // removes itself, since it is never committed
 }
 
-double bytes_per_element(const std::vector<output_format>& formats) {
+template <int D>
+double bytes_per_element(const std::vector<output_format<D>>& formats) {
   double bytes = spool_bytes_per_element;
   for (const auto& format : formats)
     bytes += format.bytes_per_element;
   return bytes;
 }
 
-double elements_with_room(const std::vector<output_format>& formats, const std::filesystem::path& folder) {
+template <int D>
+double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder) {
   std::error_code failure;
   const auto space = std::filesystem::space(folder, failure);
   return failure ? std::numeric_limits<double>::infinity()
                  : static_cast<double>(space.available) / bytes_per_element(formats);
 }
+
+template std::vector<output_format<2>> make_formats<2>(const std::vector<std::string>&, int);
+template std::vector<output_format<3>> make_formats<3>(const std::vector<std::string>&, int);
+template double bytes_per_element<2>(const std::vector<output_format<2>>&);
+template double bytes_per_element<3>(const std::vector<output_format<3>>&);
+template double elements_with_room<2>(const std::vector<output_format<2>>&, const std::filesystem::path&);
+template double elements_with_room<3>(const std::vector<output_format<3>>&, const std::filesystem::path&);
 
 } // namespace dovetail::app

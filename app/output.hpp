@@ -13,15 +13,17 @@
 namespace dovetail::app {
 
 /// A writer of one file format.
+template <int D>
 struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of points
-  std::function<report(const distributed_mesh&, const std::filesystem::path& folder)> write;
+  std::function<report(const distributed_simplicial_mesh<D>&, const std::filesystem::path& folder)> write;
 };
 
 /// The formats of the names; the default one when there are none; none for "none". Throws
 /// `command_line_error` for an unknown name and for a negative number of pieces.
-std::vector<output_format> make_formats(const std::vector<std::string>& names, int pieces);
+template <int D>
+std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int pieces);
 
 /// Makes the folder, and tries to create a file in it. Folders that it made are removed again by the
 /// destructor when they are still empty. Throws `io_error` naming the folder.
@@ -45,9 +47,11 @@ private:
 void check_can_create(const std::filesystem::path& file);
 
 /// Disk that a mesh takes per element, about, with its spool and in all the formats.
-double bytes_per_element(const std::vector<output_format>& formats);
+template <int D>
+double bytes_per_element(const std::vector<output_format<D>>& formats);
 
 /// The number of elements that there is room for on the disk of the folder.
-double elements_with_room(const std::vector<output_format>& formats, const std::filesystem::path& folder);
+template <int D>
+double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder);
 
 } // namespace dovetail::app

@@ -7,6 +7,8 @@
 
 #include "dovetail/pipeline/generate.hpp"
 
+#include <type_traits>
+
 namespace dovetail::app {
 
 /// The four policies of a run.
@@ -16,6 +18,22 @@ struct chosen_policies {
   any_improver improver;
   any_executor executor;
 };
+
+/// The four policies of a run of D = 2.
+struct chosen_surface_policies {
+  any_surface_mesher mesher;
+  any_partitioner partitioner;
+  any_improver improver;
+  any_executor executor;
+};
+
+/// The policies of a run of D.
+template <int D>
+using policies_of = std::conditional_t<D == 3, chosen_policies, chosen_surface_policies>;
+
+/// `generate<2>` with these policies.
+generated<2> generate_mesh(const any_geometry& geometry, const any_sizing& size,
+                           const chosen_surface_policies& policies, const generate_options& options);
 
 /// `generate<3>` with these policies.
 generate_result generate_mesh(const any_geometry& geometry, const any_sizing& size,

@@ -37,6 +37,7 @@ struct interface_figures {
 };
 
 struct run_figures {
+  int dimension = 3; ///< of the elements
   std::string model;
   std::string mesher, partitioner, improver, executor;
   int workers = 1;

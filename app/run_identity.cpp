@@ -1,6 +1,7 @@
 #include "run_identity.hpp"
 
 #include "policies.hpp"
+#include "surface_policies.hpp"
 
 #include "dovetail/core/hash.hpp"
 
@@ -56,7 +57,9 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");
-  identity.emplace_back("mesher", make_mesher(options.mesher).name());
+  identity.emplace_back("dimension", std::to_string(options.dimension));
+  identity.emplace_back("mesher", options.dimension == 3 ? make_mesher(options.mesher).name()
+                                                         : make_surface_mesher(options.mesher).name());
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
   identity.emplace_back("improver", make_improver(options.improver).name());
   return identity;

@@ -83,6 +83,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
   json interfaces = interfaces_json(figures.interfaces);
   interfaces["coarse"] = interfaces_json(figures.coarse_interfaces);
   write_json({{"dovetail", version},
+              {"dimension", figures.dimension},
               {"model", figures.model},
               {"mesher", figures.mesher},
               {"partitioner", figures.partitioner},

@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "policies.hpp"
+#include "surface_policies.hpp"
 
 #include <cmath>
 #include <string>
@@ -13,6 +14,11 @@ chosen_policies make_policies(const mesh_options& options) {
   any_executor executor = make_executor(options.executor, options.workers, mesher);
   return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
           std::move(executor)};
+}
+
+chosen_surface_policies make_surface_policies(const mesh_options& options) {
+  return {make_surface_mesher(options.mesher), make_partitioner(options.partitioner),
+          make_improver(options.improver), make_surface_executor(options.executor, options.workers)};
 }
 
 generate_options make_generate_options(const mesh_options& options) {

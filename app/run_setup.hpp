@@ -9,6 +9,7 @@ namespace dovetail::app {
 
 /// Throws `command_line_error` for names that do not exist and policies that do not go together.
 chosen_policies make_policies(const mesh_options& options);
+chosen_surface_policies make_surface_policies(const mesh_options& options);
 
 /// Throws `command_line_error` for numbers out of range.
 generate_options make_generate_options(const mesh_options& options);

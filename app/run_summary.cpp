@@ -39,11 +39,13 @@ void add_general(table& rows, const run_figures& figures) {
   rows.heading("General data");
   rows.row("Model", figures.model);
   rows.whole("No. of workers", figures.workers);
-  rows.whole("No. of background tetrahedra", figures.background_elements);
+  const bool solid = figures.dimension == 3;
+  rows.whole(solid ? "No. of background tetrahedra" : "No. of background triangles",
+             figures.background_elements);
   rows.whole("No. of subdomains", figures.subdomains);
-  rows.whole("No. of tetrahedra", figures.elements);
+  rows.whole(solid ? "No. of tetrahedra" : "No. of triangles", figures.elements);
   rows.whole("No. of vertices", figures.vertices);
-  rows.whole("No. of surface elements", figures.boundary_triangles);
+  rows.whole(solid ? "No. of surface elements" : "No. of boundary edges", figures.boundary_triangles);
   rows.row("Largest subdomain / average", "%.3f", figures.imbalance);
 }
 
@@ -94,6 +96,13 @@ void add_interfaces(table& rows, const run_figures& figures) {
     rows.whole("FAILED SUBDOMAINS", figures.failed_subdomains);
 }
 
+void add_triangle_quality(table& rows, const quality_statistics& quality) {
+  rows.heading("Quality: minimum angle a of the triangles (degrees)");
+  rows.row("Minimum angle", "%.2f", quality.min_wedge_deg);
+  rows.row("Mean of the minimum angles", "%.2f", quality.mean_min_wedge_deg());
+  rows.row("Maximum angle", "%.2f", quality.max_wedge_deg);
+}
+
 void add_quality(table& rows, const quality_statistics& quality) {
   rows.heading("Volume mesh quality: minimum dihedral angle a (degrees)");
   const auto under = quality.under_6_12_18_24();
@@ -116,7 +125,10 @@ std::string summary_text(const run_figures& figures) {
   add_timing(rows, figures);
   if (figures.subdomains > 1)
     add_interfaces(rows, figures);
-  add_quality(rows, figures.quality);
+  if (figures.dimension == 3)
+    add_quality(rows, figures.quality);
+  else
+    add_triangle_quality(rows, figures.quality);
   for (const auto& warning : figures.warnings)
     rows.heading("warning: " + warning);
   if (!figures.out.empty())
