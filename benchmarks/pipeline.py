@@ -4,6 +4,11 @@
 At a size that gives the wanted number of elements it runs `dovetail mesh` with 1 and with 2 workers; TetGen alone on
 the boundary of the resulting mesh at the same size; and Gmsh's command line on the same model and size. It prints a
 table of each and the ratios, as markdown. All programs run one after the other; the machine should be idle.
+
+With --mesher hxt the pieces are meshed by HXT, nothing is written, and the whole command is compared with Gmsh's own
+with HXT and two threads, at the size that gives it the same number of elements within 5 %. Gmsh writes its mesh, but
+the time between its messages that it begins and that it has done so is taken off. Its quality is that of the file,
+measured by `dovetail stats`; dovetail's is that of its own report.
 """
 
 import argparse
@@ -17,6 +22,9 @@ import tempfile
 import time
 
 STAGES = ("geometry", "background", "simplification", "partition", "skeleton", "intersection")
+GMSH_SIZE_FACTOR = 0.72  # of the size, for as many elements by Gmsh's command line with HXT; a first guess
+GMSH_THREADS = 2
+SAME_COUNT = 0.05
 PARALLEL = ("skeleton", "intersection", "meshing", "improvement")
 GIB = 2.0**30
 
@@ -73,11 +81,33 @@ def model_diagonal(driver, model, folder, limit):
 def run_dovetail(driver, model, size, workers, out, options):
     report = f"{out}_{workers}.json"
     _, seconds, peak = run([driver, "mesh", model, "--size", repr(size), "--workers", workers, "--out", out,
-                            "--report", report, "--quiet"] + options.driver_options, options.limit)
+                            "--report", report, "--quiet"] + driver_options(options), options.limit)
     result = read_json(report)
     result["command_seconds"] = seconds
     result["peak"] = max(peak, result["peak_rss_bytes"])
     return result
+
+
+def driver_options(options):
+    return (["--mesher", options.mesher] if options.mesher else []) + \
+        (["--format", "none"] if options.mesher == "hxt" else []) + options.driver_options
+
+
+def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
+    """Seconds of the whole command, without those of writing, by HXT on several threads."""
+    begin = time.monotonic()
+    written = []
+    with subprocess.Popen(["timeout", str(limit), gmsh, "-3", "-algo", "hxt", "-clmin", repr(size), "-clmax",
+                           repr(size), "-nt", str(GMSH_THREADS), "-format", "msh41", "-bin", "-o", mesh, model],
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace") as process:
+        for line in process.stdout:
+            if "riting '" in line:  # "Writing ..." and "Done writing ..."
+                written.append(time.monotonic())
+    end = time.monotonic()
+    if process.returncode != 0 or len(written) != 2:
+        raise Failure(f"gmsh -algo hxt -clmax {size}: exit status {process.returncode}")
+    return end - begin - (written[1] - written[0])
 
 
 def run_gmsh(gmsh, algorithm, model, size, folder, limit):
@@ -93,6 +123,29 @@ def run_gmsh(gmsh, algorithm, model, size, folder, limit):
     if not volume or not tetrahedra:
         raise Failure(f"gmsh -algo {algorithm}: {text.strip()[-300:]}")
     return int(tetrahedra[-1]), float(volume.group(1)) + float(optimise.group(1) if optimise else 0), seconds, peak
+
+
+def gmsh_with_as_many(driver, gmsh, size, elements, options, folder):
+    """Gmsh's run whose number of elements is within 5 % of the given one: size, seconds, and what stats says."""
+    mesh = os.path.join(folder, "gmsh.msh")
+    report = os.path.join(folder, "gmsh.json")
+    own = float(f"{options.gmsh_size or GMSH_SIZE_FACTOR * size:.4g}")
+    for _ in range(4):
+        seconds = run_gmsh_unwritten(gmsh, options.model, own, mesh, options.limit)
+        run([driver, "stats", mesh, "--report", report], options.limit)
+        os.remove(mesh)
+        result = read_json(report)
+        if abs(result["elements"] / elements - 1) <= SAME_COUNT:
+            return own, seconds, result
+        own = float(f"{own * (result['elements'] / elements) ** (1 / 3):.4g}")
+    raise Failure(f"no size gives Gmsh {elements} elements within 5 %; give --gmsh-size")
+
+
+def find_gmsh():
+    gmsh = shutil.which("gmsh")
+    if not gmsh:
+        raise Failure("there is no command gmsh; install it, or give --alone")
+    return gmsh
 
 
 def total(result, stages):
@@ -147,6 +200,23 @@ def print_others(rows, runs):
                   f"| {own / rate(elements, seconds):.2f} |")
 
 
+def print_whole_commands(runs, gmsh_run):
+    gmsh_size, gmsh_seconds, gmsh_result = gmsh_run
+    print("\n| whole command, nothing written | elements | seconds | over Gmsh's | smallest dihedral angle, degrees "
+          "| under 12 degrees, per million | under 24 degrees, per million |")
+    print("|---|--:|--:|--:|--:|--:|--:|")
+
+    def line(name, result, seconds):
+        quality = result["quality"]
+        print(f"| {name} | {result['elements']:,} | {seconds:.2f} | {seconds / gmsh_seconds:.2f} "
+              f"| {quality['min_dihedral_deg']:.1f} | {quality['bad_per_million']:,.1f} "
+              f"| {quality['low_per_million']:,.1f} |")
+
+    for workers, result in runs.items():
+        line(f"dovetail, {workers} worker{'s' if workers > 1 else ''}", result, result["command_seconds"])
+    line(f"gmsh -3 -algo hxt -nt {GMSH_THREADS}, size {gmsh_size:g}", gmsh_result, gmsh_seconds)
+
+
 def measure_others(options, build, size, out, folder):
     yield "TetGen alone, same boundary", lambda: tetgen_alone(build, size, out, options.limit)
     gmsh = shutil.which("gmsh")
@@ -179,6 +249,8 @@ def main():
     parser.add_argument("--size", type=float, help="instead of --elements")
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
+    parser.add_argument("--mesher", help="of `dovetail mesh`; hxt: compared with Gmsh's own command with HXT")
+    parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --mesher hxt")
     parser.add_argument("--alone", action="store_true", help="leave TetGen and Gmsh out")
     parser.add_argument("driver_options", nargs="*", help="after --: more options of `dovetail mesh`")
     options = parser.parse_args()
@@ -190,7 +262,12 @@ def main():
         runs = {w: run_dovetail(driver, options.model, size, w, out, options) for w in options.workers}
         print_dovetail(runs)
         sys.stdout.flush()
-        if not options.alone:
+        if options.alone:
+            return
+        if options.mesher == "hxt":
+            elements = runs[max(runs)]["elements"]
+            print_whole_commands(runs, gmsh_with_as_many(driver, find_gmsh(), size, elements, options, folder))
+        else:
             print_others([(name, attempt(measure))
                           for name, measure in measure_others(options, options.build, size, out, folder)], runs)
 
