@@ -55,6 +55,22 @@ TEST_CASE("options: least number of segments and largest turn") {
   CHECK(floored(circle, 0, 2 * pi, large).size() == 2);
 }
 
+TEST_CASE("few segments become one, two or four when asked to") {
+  const remesh::line_spacing even{.even_when_few = true};
+  const auto segments = [&](double length) {
+    const auto straight = [&](double t) { return curve_frame{{t, 0, 0}, {1, 0, 0}}; };
+    return even(straight, 0, length, [](vec3) { return 1.0; }).size() - 1;
+  };
+  CHECK(segments(0.3) == 1);
+  CHECK(segments(1.1) == 1);
+  CHECK(segments(1.3) == 2);
+  CHECK(segments(3.1) == 2);
+  CHECK(segments(3.3) == 4);
+  CHECK(segments(4.4) == 4);
+  CHECK(segments(4.6) == 5);
+  CHECK(segments(7.4) == 7);
+}
+
 TEST_CASE("the result is a pure function and increasing, also on a line of length zero") {
   const auto size = [](vec3 p) { return 0.02 + 0.1 * std::abs(std::sin(7 * p.x)); };
   const auto once = remesh::line_spacing{}(circle, 0.3, 5, size),

@@ -88,7 +88,7 @@ template <geometry_model G>
 fine_line space_on_face(const G& model, const skeleton_line& line, vec3 first, vec3 last,
                         const any_sizing& size) {
   const face_line<G> on_face(model, line, first, last);
-  const auto s = remesh::line_spacing{}(on_face, 0.0, 1.0, size);
+  const auto s = remesh::line_spacing{.even_when_few = true}(on_face, 0.0, 1.0, size);
   fine_line fine;
   for (std::size_t i = 1; i + 1 < s.size(); ++i) {
     fine.uv.push_back(on_face.uv(s[i]));
@@ -99,7 +99,7 @@ fine_line space_on_face(const G& model, const skeleton_line& line, vec3 first, v
 
 inline fine_line space_straight(vec3 first, vec3 last, const any_sizing& size) {
   const auto straight = [&](double s) { return curve_frame{first + s * (last - first), last - first}; };
-  const auto s = remesh::line_spacing{}(straight, 0.0, 1.0, size);
+  const auto s = remesh::line_spacing{.even_when_few = true}(straight, 0.0, 1.0, size);
   fine_line fine;
   for (std::size_t i = 1; i + 1 < s.size(); ++i)
     fine.points.push_back(straight(s[i]).point);
