@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/background/surface_curves.hpp"
-#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 
@@ -129,10 +129,10 @@ std::vector<face_result> remesh_faces(const G& model, std::span<const face_reque
   const auto outcomes = run_tasks.run(
       batches,
       [&](std::size_t batch) {
-        const G own = model;
+        const task_model<G> own(model, run_tasks);
         byte_writer out;
         for (std::size_t i = batch; i < requests.size(); i += batches) {
-          const face_result result = mesh_one(own, requests[i]);
+          const face_result result = mesh_one(own.get(), requests[i]);
           out.array(encode(result.mesh));
           out.text(result.failure);
         }

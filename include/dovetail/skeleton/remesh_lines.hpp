@@ -5,7 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/concepts.hpp"
-#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
 #include "dovetail/skeleton/coarse_skeleton.hpp"
 
@@ -132,10 +132,11 @@ std::vector<fine_line> remesh_lines(const G& model, std::span<const skeleton_lin
   const auto outcomes = run.run(
       tasks,
       [&](std::size_t task) {
+        const task_model<G> own(model, run);
         byte_writer out;
         for (std::size_t i = task * lines_per_task; i < std::min(lines.size(), (task + 1) * lines_per_task);
              ++i) {
-          const fine_line fine = remesh_line(model, lines[i], coarse_points, size);
+          const fine_line fine = remesh_line(own.get(), lines[i], coarse_points, size);
           out.array(fine.points);
           out.array(fine.t);
           out.array(fine.uv);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
@@ -115,7 +116,12 @@ private:
       return patches_[missing[a]].boundary.segments.size() > patches_[missing[b]].boundary.segments.size();
     });
     const auto outcomes = run_.run(
-        missing.size(), [&](std::size_t i) { return encode(remesh_patch(missing[i])); }, options);
+        missing.size(),
+        [&](std::size_t i) {
+          const task_model<G> own(model_, run_);
+          return encode(remesh_patch(own.get(), missing[i]));
+        },
+        options);
     for (std::size_t i = 0; i < missing.size(); ++i) {
       if (!outcomes[i].ok)
         throw mesher_error("remeshing of " + name_of(missing[i]) + " failed: " + outcomes[i].failure);
@@ -123,9 +129,9 @@ private:
     }
   }
 
-  patch_mesh remesh_patch(std::size_t p) const {
+  patch_mesh remesh_patch(const G& model, std::size_t p) const {
     if (is_region(p))
-      return remesher_(remesh::model_surface<G>{&model_, skeleton_.regions[p].cad_face}, patches_[p].boundary,
+      return remesher_(remesh::model_surface<G>{&model, skeleton_.regions[p].cad_face}, patches_[p].boundary,
                        size_);
     const face_patch face = interface_patch(face_of(p), coarse_points_, lines_);
     patch_boundary boundary = face.patch.boundary;
