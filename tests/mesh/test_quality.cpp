@@ -63,6 +63,37 @@ TEST_CASE("a sliver's tiny angle is accurate") {
   CHECK(angles[0] == doctest::Approx(expected).epsilon(1e-12));
 }
 
+TEST_CASE("statistics are those of every angle by itself, and of flat elements too") {
+  auto mesh = dovetail_test::jittered_cubes(9);
+  for (std::size_t v = 0; v < mesh.points.size(); v += 7)
+    mesh.points[v].z *= 1e-3; // flat and inverted elements
+  mesh.points.insert(mesh.points.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  const auto last = static_cast<local_id>(mesh.points.size());
+  mesh.elements.push_back({last - 4, last - 3, last - 2, last - 1});
+  const auto statistics = measure_quality(mesh);
+  angle_histogram smallest;
+  angle_histogram largest;
+  angle_histogram faces;
+  double min_face = 180;
+  for (const auto& element : mesh.elements) {
+    const auto at = corners(std::span(mesh.points), element);
+    const auto angles = wedge_angles(at);
+    smallest.add(*std::min_element(angles.begin(), angles.end()));
+    largest.add(*std::max_element(angles.begin(), angles.end()));
+    for (const auto& side : numbering::sides<3>)
+      for (const double degrees : wedge_angles(std::array<vec3, 3>{at[static_cast<std::size_t>(side[0])],
+                                                                   at[static_cast<std::size_t>(side[1])],
+                                                                   at[static_cast<std::size_t>(side[2])]})) {
+        faces.add(degrees);
+        min_face = std::min(min_face, degrees);
+      }
+  }
+  CHECK(statistics.min_wedges.bins == smallest.bins);
+  CHECK(statistics.max_wedges.bins == largest.bins);
+  CHECK(statistics.face_angles.bins == faces.bins);
+  CHECK(statistics.min_face_deg == min_face);
+}
+
 TEST_CASE("statistics of pieces merge into those of the whole") {
   const auto whole = dovetail_test::jittered_cubes(5);
   const auto expected = measure_quality(whole);

@@ -53,11 +53,37 @@ inline double smallest_corner_angle(const std::array<vec3, 3>& p) {
   return degrees_per_radian * std::atan2(norm(cross(in, out)), -dot(in, out));
 }
 
-/// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`.
-///
-/// The sine comes from the volume (|n1 x n2| = 6 V |edge|), which stays accurate for slivers. An inverted
-/// tetrahedron gives the angles of its mirror image.
-inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
+namespace detail {
+
+/// An angle of 0 to 180 degrees by its sine and cosine, both times the same factor.
+struct unscaled_angle {
+  double sine; ///< not negative
+  double cosine;
+
+  double degrees() const { return degrees_per_radian * std::atan2(sine, cosine); }
+  /// Within 1e-3 of `degrees`, several times as fast: Abramowitz and Stegun 4.4.49. Not a number for 0, 0.
+  double coarse_degrees() const {
+    const double flat = std::abs(cosine);
+    const double x = std::min(flat, sine) / std::max(flat, sine);
+    const double square = x * x;
+    const double arc =
+        x * (0.9998660 +
+             square * (-0.3302995 + square * (0.1801410 + square * (-0.0851330 + square * 0.0208351))));
+    const double acute = degrees_per_radian * arc;
+    const double turned = sine > flat ? 90.0 : 0.0; // no branches: which way they go is random
+    const double upper = std::abs(turned - acute);
+    const double mirrored = cosine < 0 ? 180.0 : 0.0;
+    return std::abs(mirrored - upper);
+  }
+  bool operator<(unscaled_angle other) const {
+    if (sine == 0 && other.sine == 0) // 0 or 180 degrees each
+      return cosine > other.cosine;
+    return sine * other.cosine < cosine * other.sine;
+  }
+};
+
+/// The dihedral angles that `wedge_angles` gives.
+inline std::array<unscaled_angle, 6> unscaled_wedges(const std::array<vec3, 4>& p) {
   std::array<vec3, 4> normals;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto& side = numbering::sides<3>[i];
@@ -65,7 +91,7 @@ inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
     normals[i] = cross(p[static_cast<std::size_t>(side[1])] - a, p[static_cast<std::size_t>(side[2])] - a);
   }
   const double six_volumes = std::abs(dot(normals[3], p[3] - p[0]));
-  std::array<double, 6> angles;
+  std::array<unscaled_angle, 6> angles;
   for (std::size_t r = 0; r < 6; ++r) {
     const auto& edge = numbering::ridges<3>[r];
     const auto& sides = numbering::sides_of_ridge<3>[r];
@@ -73,9 +99,35 @@ inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
         distance(p[static_cast<std::size_t>(edge[0])], p[static_cast<std::size_t>(edge[1])]);
     const double cosine =
         -dot(normals[static_cast<std::size_t>(sides[0])], normals[static_cast<std::size_t>(sides[1])]);
-    angles[r] = degrees_per_radian * std::atan2(six_volumes * length, cosine);
+    angles[r] = {six_volumes * length, cosine};
   }
   return angles;
+}
+
+} // namespace detail
+
+/// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`.
+///
+/// The sine comes from the volume (|n1 x n2| = 6 V |edge|), which stays accurate for slivers. An inverted
+/// tetrahedron gives the angles of its mirror image.
+inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
+  std::array<double, 6> angles;
+  const auto unscaled = detail::unscaled_wedges(p);
+  for (std::size_t r = 0; r < 6; ++r)
+    angles[r] = unscaled[r].degrees();
+  return angles;
+}
+
+/// The smallest and the largest of `wedge_angles`, with two arc tangents instead of six.
+inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 4>& p) {
+  const auto unscaled = detail::unscaled_wedges(p);
+  const auto [smallest, largest] = std::minmax_element(unscaled.begin(), unscaled.end());
+  return {smallest->degrees(), largest->degrees()};
+}
+inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 3>& p) {
+  const auto angles = wedge_angles(p);
+  const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
+  return {*smallest, *largest};
 }
 
 /// Counts of angles in one-degree bins: bin k holds [k, k+1), the last one 180 as well.
@@ -145,11 +197,31 @@ struct quality_statistics {
 
 namespace detail {
 
-inline void add_face_angles(quality_statistics& statistics, const std::array<vec3, 3>& triangle) {
-  for (const double degrees : wedge_angles(triangle)) {
-    statistics.face_angles.add(degrees);
-    statistics.min_face_deg = std::min(statistics.min_face_deg, degrees);
+/// Twelve of these per tetrahedron: arc tangents are taken only where the bin or the smallest depends on
+/// them.
+inline void add_face_angle(quality_statistics& statistics, unscaled_angle angle) {
+  constexpr double error = 2e-3; // twice that of the coarse angle
+  const double coarse = angle.coarse_degrees();
+  if (coarse > statistics.min_face_deg + error) { // not when it is not a number
+    const double in_bin = coarse - static_cast<int>(coarse);
+    if (in_bin > error && in_bin < 1 - error) {
+      statistics.face_angles.add(coarse);
+      return;
+    }
   }
+  const double degrees = angle.degrees();
+  statistics.face_angles.add(degrees);
+  statistics.min_face_deg = std::min(statistics.min_face_deg, degrees);
+}
+
+inline void add_face_angles(quality_statistics& statistics, const std::array<vec3, 3>& p) {
+  const vec3 ab = p[1] - p[0];
+  const vec3 bc = p[2] - p[1];
+  const vec3 ca = p[0] - p[2];
+  const double twice_area = norm(cross(ab, bc));
+  add_face_angle(statistics, {twice_area, -dot(ca, ab)});
+  add_face_angle(statistics, {twice_area, -dot(ab, bc)});
+  add_face_angle(statistics, {twice_area, -dot(bc, ca)});
 }
 
 } // namespace detail
@@ -161,16 +233,15 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
   statistics.elements = static_cast<std::int64_t>(mesh.elements.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto at = corners(std::span(mesh.points), mesh.elements[e]);
-    const auto angles = wedge_angles(at);
-    const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
-    if (*smallest < statistics.min_wedge_deg || e == 0) {
-      statistics.min_wedge_deg = *smallest;
+    const auto [smallest, largest] = extreme_wedge_angles(at);
+    if (smallest < statistics.min_wedge_deg || e == 0) {
+      statistics.min_wedge_deg = smallest;
       statistics.worst_element = static_cast<global_id>(e);
     }
-    statistics.max_wedge_deg = std::max(statistics.max_wedge_deg, *largest);
-    statistics.sum_of_min_wedge_deg += *smallest;
-    statistics.min_wedges.add(*smallest);
-    statistics.max_wedges.add(*largest);
+    statistics.max_wedge_deg = std::max(statistics.max_wedge_deg, largest);
+    statistics.sum_of_min_wedge_deg += smallest;
+    statistics.min_wedges.add(smallest);
+    statistics.max_wedges.add(largest);
     if constexpr (D == 2) {
       detail::add_face_angles(statistics, at);
     } else {
