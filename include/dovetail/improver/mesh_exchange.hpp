@@ -7,6 +7,9 @@
 #include "dovetail/improver/tet_complex.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,13 +27,21 @@ inline void fix_sides(tet_complex& mesh, const frozen_entities<3>& frozen) {
   });
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::vector<std::uint8_t> on_frozen_side(static_cast<std::size_t>(mesh.vertex_slots()), 0);
+  for (const auto& key : keys)
+    for (const local_id v : key)
+      if (v >= 0 && v < mesh.vertex_slots())
+        on_frozen_side[static_cast<std::size_t>(v)] = 1;
+  const auto may_be_frozen = [&](const std::array<local_id, 3>& key) { // spares most sides the search
+    return std::all_of(key.begin(), key.end(),
+                       [&](local_id v) { return on_frozen_side[static_cast<std::size_t>(v)] != 0; });
+  };
   std::vector<bool> found(keys.size(), false);
   for (local_id e = 0; e < mesh.element_slots(); ++e)
     for (int side = 0; side < 4; ++side) {
       const half_side other = mesh.across(e, side);
       bool is_fixed = other == no_id || mesh.tag(element_of(other)) != mesh.tag(e);
-      if (!keys.empty()) {
-        const auto key = sorted_side(mesh.vertices(e), side);
+      if (const auto key = sorted_side(mesh.vertices(e), side); may_be_frozen(key)) {
         const auto at = std::lower_bound(keys.begin(), keys.end(), key);
         if (at != keys.end() && *at == key) {
           found[static_cast<std::size_t>(at - keys.begin())] = true;
