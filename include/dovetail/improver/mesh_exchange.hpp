@@ -3,7 +3,8 @@
 #pragma once
 
 #include "dovetail/improver/concepts.hpp"
-#include "dovetail/improver/shape_measure.hpp"
+#include "dovetail/improver/curve_order.hpp"
+#include "dovetail/improver/point_numbering.hpp"
 #include "dovetail/improver/tet_complex.hpp"
 
 #include <algorithm>
@@ -18,43 +19,70 @@ namespace dovetail::improvement {
 
 namespace detail {
 
-/// Fixes the sides that have nothing behind them or another tag, and the frozen ones.
-inline void fix_sides(tet_complex& mesh, const frozen_entities<3>& frozen) {
-  std::vector<std::array<local_id, 3>> keys(frozen.sides.size());
-  std::transform(frozen.sides.begin(), frozen.sides.end(), keys.begin(), [](simplex<2> side) {
+[[noreturn]] inline void refuse_frozen_side(simplex<2> side) {
+  std::sort(side.begin(), side.end());
+  throw mesh_error("frozen side (" + std::to_string(side[0]) + ", " + std::to_string(side[1]) + ", " +
+                   std::to_string(side[2]) + ") is not a side of the mesh");
+}
+
+/// Fixes the sides that have nothing behind them or another tag.
+inline void fix_outer_sides(tet_complex& mesh) {
+  for (local_id e = 0; e < mesh.element_slots(); ++e)
+    for (int side = 0; side < 4; ++side)
+      if (mesh.across(e, side) == no_id)
+        mesh.fix_side(e, side);
+  for (local_id e = 0; mesh.has_tags() && e < mesh.element_slots(); ++e)
+    for (int side = 0; side < 4; ++side)
+      if (const half_side other = mesh.across(e, side);
+          other != no_id && mesh.tag(element_of(other)) != mesh.tag(e))
+        mesh.fix_side(e, side);
+}
+
+/// The frozen sides by the complex's own names, each with its corners in ascending order.
+inline std::vector<std::array<local_id, 3>> frozen_keys(const tet_complex& mesh,
+                                                        const frozen_entities<3>& frozen) {
+  std::vector<local_id> names(static_cast<std::size_t>(mesh.given_vertices()));
+  for (local_id v = 0; v < mesh.given_vertices(); ++v)
+    names[static_cast<std::size_t>(mesh.given_number(v))] = v;
+  std::vector<std::array<local_id, 3>> keys;
+  for (simplex<2> side : frozen.sides) {
+    for (const local_id number : side)
+      if (number < 0 || number >= mesh.given_vertices())
+        refuse_frozen_side(side);
+    for (auto& v : side)
+      v = names[static_cast<std::size_t>(v)];
     std::sort(side.begin(), side.end());
-    return side;
-  });
+    keys.push_back(side);
+  }
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+/// Fixes the sides that the caller froze. Throws `mesh_error` when one is not there.
+inline void fix_frozen_sides(tet_complex& mesh, const frozen_entities<3>& frozen) {
+  const auto keys = frozen_keys(mesh, frozen);
   std::vector<std::uint8_t> on_frozen_side(static_cast<std::size_t>(mesh.vertex_slots()), 0);
   for (const auto& key : keys)
     for (const local_id v : key)
-      if (v >= 0 && v < mesh.vertex_slots())
-        on_frozen_side[static_cast<std::size_t>(v)] = 1;
-  const auto may_be_frozen = [&](const std::array<local_id, 3>& key) { // spares most sides the search
-    return std::all_of(key.begin(), key.end(),
-                       [&](local_id v) { return on_frozen_side[static_cast<std::size_t>(v)] != 0; });
-  };
+      on_frozen_side[static_cast<std::size_t>(v)] = 1;
   std::vector<bool> found(keys.size(), false);
   for (local_id e = 0; e < mesh.element_slots(); ++e)
     for (int side = 0; side < 4; ++side) {
-      const half_side other = mesh.across(e, side);
-      bool is_fixed = other == no_id || mesh.tag(element_of(other)) != mesh.tag(e);
-      if (const auto key = sorted_side(mesh.vertices(e), side); may_be_frozen(key)) {
-        const auto at = std::lower_bound(keys.begin(), keys.end(), key);
-        if (at != keys.end() && *at == key) {
-          found[static_cast<std::size_t>(at - keys.begin())] = true;
-          is_fixed = true;
-        }
-      }
-      if (is_fixed)
+      const auto key = sorted_side(mesh.vertices(e), side);
+      if (!std::all_of(key.begin(), key.end(), // spares most sides the search
+                       [&](local_id v) { return on_frozen_side[static_cast<std::size_t>(v)] != 0; }))
+        continue;
+      const auto at = std::lower_bound(keys.begin(), keys.end(), key);
+      if (at != keys.end() && *at == key) {
+        found[static_cast<std::size_t>(at - keys.begin())] = true;
         mesh.fix_side(e, side);
+      }
     }
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (!found[k])
-      throw mesh_error("frozen side (" + std::to_string(keys[k][0]) + ", " + std::to_string(keys[k][1]) +
-                       ", " + std::to_string(keys[k][2]) + ") is not a side of the mesh");
+      refuse_frozen_side(
+          {mesh.given_number(keys[k][0]), mesh.given_number(keys[k][1]), mesh.given_number(keys[k][2])});
 }
 
 /// Fixes the vertices of fixed sides, and the caller's frozen points.
@@ -65,29 +93,42 @@ inline void fix_vertices(tet_complex& mesh, const frozen_entities<3>& frozen) {
         if (mesh.is_fixed(e, side))
           for (const int corner : numbering::sides<3>[static_cast<std::size_t>(side)])
             mesh.set_kind(mesh.vertex(e, corner), vertex_kind::fixed);
-  for (local_id v = 0; v < std::min(frozen.points, mesh.vertex_slots()); ++v)
-    if (mesh.kind(v) != vertex_kind::unused)
+  for (local_id v = 0; frozen.points > 0 && v < mesh.given_vertices(); ++v)
+    if (mesh.given_number(v) < frozen.points && mesh.kind(v) != vertex_kind::unused)
       mesh.set_kind(v, vertex_kind::fixed);
   mesh.finish_kinds();
 }
 
 } // namespace detail
 
+/// In which order the complex holds points and elements: as they come, or next to each other in memory what
+/// is next to each other in space (see curve_order.hpp), which is faster.
+enum class layout { as_given, along_curve };
+
 /// Takes the mesh's arrays over. Throws `mesh_error` when they are not a mesh or a frozen side is not in it;
-/// the mesh is then left empty.
-inline tet_complex take_mesh(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen) {
+/// the mesh is then in an unspecified state.
+inline tet_complex take_mesh(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
+                             layout order = layout::as_given) {
   if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
     throw mesh_error("the mesh has " + std::to_string(mesh.elements.size()) + " elements but " +
                      std::to_string(mesh.tags.size()) + " tags");
-  tet_complex complex(std::move(mesh.points), std::move(mesh.elements), std::move(mesh.tags));
-  detail::fix_sides(complex, frozen);
+  check_vertices(mesh.elements, mesh.points.size());
+  std::vector<local_id> numbers;
+  if (order == layout::along_curve)
+    numbers = order_along_curve(mesh);
+  tet_complex complex(std::move(mesh.points), std::move(mesh.elements), std::move(mesh.tags),
+                      std::move(numbers));
+  detail::fix_outer_sides(complex);
+  if (!frozen.sides.empty())
+    detail::fix_frozen_sides(complex, frozen);
   detail::fix_vertices(complex, frozen);
   return complex;
 }
 
-/// Gives the arrays back without gaps: the order of the elements is kept; fixed points keep their numbers,
-/// and gaps that removed points left are filled with the last free points.
-inline void give_back(tet_complex& complex, simplicial_mesh<3>& mesh) {
+namespace detail {
+
+/// Moves the living elements, with their tags, to the front.
+inline void drop_dead_elements(tet_complex& complex) {
   auto& elements = complex.elements();
   auto& tags = complex.tags();
   std::size_t kept = 0;
@@ -102,35 +143,46 @@ inline void give_back(tet_complex& complex, simplicial_mesh<3>& mesh) {
   elements.resize(kept);
   if (!tags.empty())
     tags.resize(kept);
+}
 
-  auto& points = complex.points();
-  std::vector<local_id> renamed; // new number of each point; empty while nothing is renamed
-  local_id end = complex.vertex_slots();
-  for (local_id hole = 0; hole < end; ++hole) {
-    if (!complex.is_gap(hole))
-      continue;
-    while (end > hole && complex.is_gap(end - 1))
-      --end;
-    if (end <= hole || !complex.is_free(end - 1))
-      break;
-    if (renamed.empty())
-      renamed.assign(points.size(), no_id);
-    --end;
-    points[static_cast<std::size_t>(hole)] = points[static_cast<std::size_t>(end)];
-    renamed[static_cast<std::size_t>(end)] = hole;
-    complex.set_kind(hole, vertex_kind::free);
+/// The number that each vertex is given back with; that of a removed one is not to be used.
+inline std::vector<local_id> final_numbers(const tet_complex& complex, std::size_t& points) {
+  std::vector<bool> keeps_number(static_cast<std::size_t>(complex.given_vertices()), false);
+  std::size_t free = 0;
+  for (local_id v = 0; v < complex.vertex_slots(); ++v) {
+    if (complex.is_free(v))
+      ++free;
+    else if (!complex.is_gap(v))
+      keeps_number[static_cast<std::size_t>(complex.given_number(v))] = true;
   }
-  while (end > 0 && complex.is_gap(end - 1))
-    --end;
-  points.resize(static_cast<std::size_t>(end));
-  if (!renamed.empty())
-    for (auto& element : elements)
-      for (auto& v : element)
-        if (renamed[static_cast<std::size_t>(v)] != no_id)
-          v = renamed[static_cast<std::size_t>(v)];
-  mesh.points = std::move(points);
-  mesh.elements = std::move(elements);
-  mesh.tags = std::move(tags);
+  const point_numbering numbering(keeps_number, free);
+  points = numbering.size;
+  std::vector<local_id> numbers(static_cast<std::size_t>(complex.vertex_slots()), no_id);
+  auto next = numbering.of_free.begin();
+  for (local_id v = 0; v < complex.vertex_slots(); ++v)
+    if (!complex.is_gap(v))
+      numbers[static_cast<std::size_t>(v)] = complex.is_free(v) ? *next++ : complex.given_number(v);
+  return numbers;
+}
+
+} // namespace detail
+
+/// Gives the arrays back without gaps. Elements and points come in the complex's order, but fixed points, and
+/// those without elements, keep the numbers they came with: free ones take the others in turn. Tags stay with
+/// their elements. Leaves the complex empty.
+inline void give_back(tet_complex& complex, simplicial_mesh<3>& mesh) {
+  detail::drop_dead_elements(complex);
+  std::size_t points = 0;
+  const auto numbers = detail::final_numbers(complex, points);
+  mesh.points.assign(points, vec3{});
+  for (local_id v = 0; v < complex.vertex_slots(); ++v)
+    if (const local_id number = numbers[static_cast<std::size_t>(v)]; number != no_id)
+      mesh.points[static_cast<std::size_t>(number)] = complex.point(v);
+  mesh.elements = std::move(complex.elements());
+  for (auto& element : mesh.elements)
+    for (auto& v : element)
+      v = numbers[static_cast<std::size_t>(v)];
+  mesh.tags = std::move(complex.tags());
 }
 
 } // namespace dovetail::improvement

@@ -99,7 +99,7 @@ private:
       clock = stopwatch();
     };
     result.set("elements before", static_cast<double>(mesh.elements.size()));
-    tet_complex complex = take_mesh(mesh, frozen);
+    tet_complex complex = take_mesh(mesh, frozen, layout::along_curve);
     lap("adjacency");
     const std::size_t tangled = evaluate<Measure>(complex);
     lap("evaluation");
@@ -112,13 +112,12 @@ private:
     if (tangled == 0) {
       raise<Measure>(complex, surface, size, result);
     } else {
-      const simplicial_mesh<3> original{complex.points(), complex.elements(), complex.tags()};
+      tet_complex original = complex;
       untangle(complex, surface, size);
       evaluate<Measure>(complex);
       raise<Measure>(complex, surface, size, result);
       if (!has_distinct_sides(complex)) {
-        mesh = original;
-        complex = take_mesh(mesh, frozen);
+        complex = std::move(original);
         result.warnings.emplace_back("the mesh is too tangled to be improved; it was left as it was");
       }
       report_tangled(complex, tangled, result);

@@ -44,6 +44,21 @@ constexpr std::array<local_id, 3> sorted_side(const simplex<3>& element, int sid
   return {a, b, c};
 }
 
+/// Throws `mesh_error` when an element names a point that does not exist or one twice, or there are too many.
+inline void check_vertices(std::span<const simplex<3>> elements, std::size_t points) {
+  if (elements.size() > (std::size_t{1} << 29U))
+    throw mesh_error("more than 2^29 elements in one mesh: improve it in pieces");
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto& v = elements[e];
+    for (const local_id i : v)
+      if (i < 0 || static_cast<std::size_t>(i) >= points)
+        throw mesh_error("element " + std::to_string(e) + " names point " + std::to_string(i) +
+                         ", which does not exist");
+    if (v[0] == v[1] || v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3] || v[2] == v[3])
+      throw mesh_error("element " + std::to_string(e) + " names a point twice");
+  }
+}
+
 namespace detail {
 
 /// A side filed under its smallest vertex: the other two and where it comes from.
@@ -70,18 +85,13 @@ inline std::array<std::uint64_t, 4> sorted_corners(const simplex<3>& element) {
   return s;
 }
 
-inline void check_vertices(std::span<const simplex<3>> elements, std::size_t points) {
-  if (elements.size() > (std::size_t{1} << 29U))
-    throw mesh_error("more than 2^29 elements in one mesh: improve it in pieces");
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const auto& v = elements[e];
-    for (const local_id i : v)
-      if (i < 0 || static_cast<std::size_t>(i) >= points)
-        throw mesh_error("element " + std::to_string(e) + " names point " + std::to_string(i) +
-                         ", which does not exist");
-    if (v[0] == v[1] || v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3] || v[2] == v[3])
-      throw mesh_error("element " + std::to_string(e) + " names a point twice");
-  }
+[[noreturn]] inline void refuse_side(std::array<local_id, 3> side, std::span<const local_id> numbers) {
+  if (!numbers.empty())
+    for (auto& v : side)
+      v = numbers[static_cast<std::size_t>(v)];
+  std::sort(side.begin(), side.end());
+  throw mesh_error("more than two elements meet at the side (" + std::to_string(side[0]) + ", " +
+                   std::to_string(side[1]) + ", " + std::to_string(side[2]) + ")");
 }
 
 /// Pairs the sides filed under one vertex, by a small hash table whose slots are named by entry number.
@@ -119,12 +129,12 @@ private:
 } // namespace detail
 
 /// For each element and local side the half side that lies against it, or `no_id` on the boundary.
-/// O(elements) time; 48 bytes per element of working memory besides the result.
-/// Throws `mesh_error` when an element names a point that does not exist or one twice, or when more than two
-/// elements meet at a side.
+/// The elements must have passed `check_vertices`. O(elements) time; 48 bytes per element of working memory
+/// besides the result. Throws `mesh_error` when more than two elements meet at a side; `numbers`, when there
+/// are any, are what it calls the points by.
 inline std::vector<std::array<half_side, 4>> match_sides(std::span<const simplex<3>> elements,
-                                                         std::size_t points) {
-  detail::check_vertices(elements, points);
+                                                         std::size_t points,
+                                                         std::span<const local_id> numbers = {}) {
   // Three sides of an element have its smallest vertex; that of the fourth is the second smallest.
   std::vector<std::uint32_t> begins(points + 1, 0);
   for (const auto& element : elements) {
@@ -160,7 +170,8 @@ inline std::vector<std::array<half_side, 4>> match_sides(std::span<const simplex
   };
   const auto join = [&](half_side one, half_side other) {
     if (slot(one) != no_id)
-      throw mesh_error("more than two elements meet at a side of element " + std::to_string(element_of(one)));
+      detail::refuse_side(sorted_side(elements[static_cast<std::size_t>(element_of(one))], side_of(one)),
+                          numbers);
     slot(one) = other;
     slot(other) = one;
   };

@@ -29,9 +29,14 @@ enum class vertex_kind : std::uint8_t {
 /// every vertex in use; a dead element has `no_id` as its first vertex and the value 2.
 class tet_complex {
 public:
-  tet_complex(std::vector<vec3> points, std::vector<simplex<3>> elements, std::vector<local_id> tags)
+  /// The elements must name points that exist. `numbers`, one per point, are those that the caller knows the
+  /// points by; without them it is their places. Throws `mesh_error` when more than two elements meet at a
+  /// side.
+  tet_complex(std::vector<vec3> points, std::vector<simplex<3>> elements, std::vector<local_id> tags,
+              std::vector<local_id> numbers = {})
       : points_(std::move(points)), elements_(std::move(elements)), tags_(std::move(tags)),
-        across_(match_sides(elements_, points_.size())), values_(elements_.size(), 0.0F),
+        numbers_(std::move(numbers)), given_vertices_(static_cast<local_id>(points_.size())),
+        across_(match_sides(elements_, points_.size(), numbers_)), values_(elements_.size(), 0.0F),
         fixed_sides_(elements_.size(), 0), element_marks_(elements_.size(), 0),
         changed_at_(points_.size(), 0), element_at_(points_.size(), no_id),
         kinds_(points_.size(), vertex_kind::unused), alive_(elements_.size()) {
@@ -51,6 +56,10 @@ public:
   const simplex<3>& vertices(local_id e) const { return elements_[index(e)]; }
   local_id vertex(local_id e, int corner) const { return elements_[index(e)][index(corner)]; }
   const vec3& point(local_id v) const { return points_[index(v)]; }
+  /// The vertices in [0, given_vertices()) came with the mesh, the others were added.
+  local_id given_vertices() const { return given_vertices_; }
+  /// What the caller knows a vertex by that came with the mesh.
+  local_id given_number(local_id v) const { return numbers_.empty() ? v : numbers_[index(v)]; }
   half_side across(local_id e, int side) const { return across_[index(e)][index(side)]; }
   bool is_fixed(local_id e, int side) const { return ((fixed_sides_[index(e)] >> side) & 1U) != 0; }
   bool has_fixed_side(local_id e) const { return fixed_sides_[index(e)] != 0; }
@@ -86,8 +95,9 @@ public:
     const local_id e = element_at(v);
     return e != no_id && is_alive(e) && vertex(e, corner_of(e, v)) == v;
   }
-  /// So many vertices can be removed without leaving a gap in the numbers under the last fixed one.
-  local_id releasable() const { return free_above_ - gaps_below_; }
+  /// So many free vertices can be removed before too few are left to take all numbers under the last fixed
+  /// one.
+  local_id releasable() const { return releasable_; }
 
   // -- marks: a set of elements that is emptied in O(1) ----------------------------------------------------
   void clear_marks() {
@@ -133,12 +143,16 @@ public:
   void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
   /// To be called once when all fixed vertices are known.
   void finish_kinds() {
-    last_fixed_ = no_id;
-    for (local_id v = 0; v < vertex_slots(); ++v)
-      if (kind(v) == vertex_kind::fixed || kind(v) == vertex_kind::unused)
-        last_fixed_ = v;
-    free_above_ = vertex_slots() - 1 - last_fixed_;
-    gaps_below_ = 0;
+    local_id free = 0, kept = 0, end = 0; // kept numbers are all below `end`
+    for (local_id v = 0; v < given_vertices_; ++v) {
+      if (is_free(v)) {
+        ++free;
+        continue;
+      }
+      ++kept;
+      end = std::max(end, given_number(v) + 1);
+    }
+    releasable_ = free - (end - kept);
   }
   void fix_side(local_id e, int side) {
     fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
@@ -148,7 +162,7 @@ public:
     if (!free_vertices_.empty()) {
       const local_id v = free_vertices_.back();
       free_vertices_.pop_back();
-      count_vertex(v, 1);
+      ++releasable_;
       points_[index(v)] = p;
       kinds_[index(v)] = vertex_kind::free;
       if (!sizes_.empty())
@@ -161,14 +175,14 @@ public:
     kinds_.push_back(vertex_kind::free);
     if (!sizes_.empty())
       sizes_.push_back(size);
-    count_vertex(vertex_slots() - 1, 1);
+    ++releasable_;
     return vertex_slots() - 1;
   }
   /// Gives up a vertex that no element uses any more.
   void release_vertex(local_id v) {
     kinds_[index(v)] = vertex_kind::removed;
     element_at_[index(v)] = no_id;
-    count_vertex(v, -1);
+    --releasable_;
     free_vertices_.push_back(v);
   }
 
@@ -255,12 +269,6 @@ private:
     if (other.outer != no_id)
       across_[index(element_of(other.outer))][index(side_of(other.outer))] = half_side_of(e, side);
   }
-  void count_vertex(local_id v, local_id change) {
-    if (v > last_fixed_)
-      free_above_ += change;
-    else
-      gaps_below_ -= change;
-  }
   local_id new_element() {
     if (!dead_elements_.empty()) {
       const local_id e = dead_elements_.back();
@@ -284,7 +292,8 @@ private:
 
   std::vector<vec3> points_;
   std::vector<simplex<3>> elements_;
-  std::vector<local_id> tags_;
+  std::vector<local_id> tags_, numbers_;
+  local_id given_vertices_;
   std::vector<std::array<half_side, 4>> across_;
   std::vector<float> values_, sizes_;
   float target_ = -2;
@@ -297,7 +306,7 @@ private:
   std::vector<local_id> element_at_;
   std::vector<vertex_kind> kinds_;
   std::vector<local_id> dead_elements_, free_vertices_;
-  local_id last_fixed_ = no_id, free_above_ = 0, gaps_below_ = 0;
+  local_id releasable_ = 0;
   bool is_tangled_ = false;
   std::size_t alive_;
   cavity_matcher matcher_;
