@@ -40,7 +40,7 @@ public:
   /// The side offered under this key, if there is one.
   std::optional<cavity_side> take(const std::array<local_id, 3>& key) const {
     for (std::size_t i = slot_of(key); table_[i].stamp == stamp_; i = (i + 1) & (table_.size() - 1))
-      if (table_[i].key == key)
+      if (const auto& known = table_[i].key; known[0] == key[0] && known[1] == key[1] && known[2] == key[2])
         return table_[i].side;
     return std::nullopt;
   }

@@ -25,6 +25,8 @@ template <shape_measure Measure>
 class element_mender {
 public:
   element_mender(tet_complex& mesh, const mender_limits& limits) : mesh_(mesh) { set_limits(limits); }
+  element_mender(const element_mender&) = delete; // points into itself
+  element_mender& operator=(const element_mender&) = delete;
 
   void set_limits(const mender_limits& limits) {
     limits_ = limits;
@@ -53,24 +55,24 @@ public:
 private:
   /// Executes the best removal of an edge or side of `e`.
   bool flip(local_id e) {
-    best_.clear();
-    best_.worst = -2;
-    for (int edge = 0; edge < 6 && best_.worst < limits_.target; ++edge)
+    best_->clear();
+    best_->worst = -2;
+    for (int edge = 0; edge < 6 && best_->worst < limits_.target; ++edge)
       if (collect_shell(mesh_, e, edge, shell_))
         log_.record(operation::edge_removal, [&] {
           const float bar = worst_value(mesh_, shell_.elements.view());
-          return edges_.find(mesh_, shell_, bar, trial_) && keep_better();
+          return edges_.find(mesh_, shell_, bar, *trial_) && keep_better();
         });
-    for (int side = 0; side < 4 && best_.worst < limits_.target; ++side)
+    for (int side = 0; side < 4 && best_->worst < limits_.target; ++side)
       log_.record(operation::face_removal,
-                  [&] { return faces_.find(mesh_, e, side, trial_) && keep_better(); });
-    if (best_.fresh.size == 0)
+                  [&] { return faces_.find(mesh_, e, side, *trial_) && keep_better(); });
+    if (best_->fresh.size == 0)
       return false;
-    execute(mesh_, best_);
+    execute(mesh_, *best_);
     return true;
   }
   bool keep_better() {
-    if (!(trial_.worst > best_.worst) || !is_sound(mesh_, trial_) || !limits_.band.admits(mesh_, trial_))
+    if (!(trial_->worst > best_->worst) || !is_sound(mesh_, *trial_) || !limits_.band.admits(mesh_, *trial_))
       return false;
     std::swap(best_, trial_);
     return true;
@@ -129,7 +131,8 @@ private:
   mender_limits limits_;
   operation_log log_;
   edge_shell shell_;
-  local_change best_, trial_;
+  std::array<local_change, 2> changes_;
+  local_change *best_ = &changes_[0], *trial_ = &changes_[1];
   edge_removal<Measure> edges_;
   face_removal<Measure> faces_;
   vertex_smoothing<Measure> smoothing_;

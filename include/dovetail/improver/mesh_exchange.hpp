@@ -67,12 +67,13 @@ inline void fix_frozen_sides(tet_complex& mesh, const frozen_entities<3>& frozen
     for (const local_id v : key)
       on_frozen_side[static_cast<std::size_t>(v)] = 1;
   std::vector<bool> found(keys.size(), false);
+  const auto may_have_one = [&](const simplex<3>& v) { // spares most elements the search
+    return std::count_if(v.begin(), v.end(),
+                         [&](local_id i) { return on_frozen_side[static_cast<std::size_t>(i)] != 0; }) > 2;
+  };
   for (local_id e = 0; e < mesh.element_slots(); ++e)
-    for (int side = 0; side < 4; ++side) {
+    for (int side = may_have_one(mesh.vertices(e)) ? 0 : 4; side < 4; ++side) {
       const auto key = sorted_side(mesh.vertices(e), side);
-      if (!std::all_of(key.begin(), key.end(), // spares most sides the search
-                       [&](local_id v) { return on_frozen_side[static_cast<std::size_t>(v)] != 0; }))
-        continue;
       const auto at = std::lower_bound(keys.begin(), keys.end(), key);
       if (at != keys.end() && *at == key) {
         found[static_cast<std::size_t>(at - keys.begin())] = true;

@@ -72,10 +72,10 @@ inline std::array<std::uint64_t, 4> sorted_corners(const simplex<3>& element) {
   std::array<std::uint64_t, 4> s;
   for (std::size_t k = 0; k < 4; ++k)
     s[k] = static_cast<std::uint64_t>(element[k]) << 2 | k;
-  const auto order = [&s](std::size_t i, std::size_t j) {
-    const auto low = std::min(s[i], s[j]), high = std::max(s[i], s[j]);
-    s[i] = low;
-    s[j] = high;
+  const auto order = [&s](std::size_t i, std::size_t j) { // without branches: they could not be foretold
+    const std::uint64_t exchanged = (s[i] ^ s[j]) & (std::uint64_t{0} - std::uint64_t{s[i] > s[j]});
+    s[i] ^= exchanged;
+    s[j] ^= exchanged;
   };
   order(0, 1);
   order(2, 3);
