@@ -1,12 +1,9 @@
 /// From a CAD file to a conforming tetrahedral mesh.
 /// Usage: 01_mesh_a_cad_file FILE FOLDER [SIZE]    (STEP, IGES or BREP; SIZE is the wanted edge length)
+#include "dovetail/dovetail.hpp"
 #include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
 #include "dovetail/partition/metis.hpp"
-#include "dovetail/pipeline/generate.hpp"
-#include "dovetail/sizing/uniform.hpp"
 
 #include <cstdio>
 #include <cstdlib>
