@@ -15,9 +15,10 @@
 /// worker.
 ///
 /// In D = 2 a piece consists of regions on CAD faces or planes: points lie exactly on the region's surface,
-/// and elements are oriented along the oriented face. Models for D = 2: native_surface, cgal_plane (planes
-/// only). Models for D = 3: tetgen, gmsh_hxt, gmsh_delaunay, netgen (mean edge within 12 %). A mesher is a
-/// local (not collective) operation.
+/// and elements are oriented along the oriented face. Models for D = 2: native_surface, cgal_surface,
+/// gmsh_surface. Models for D = 3: tetgen, gmsh_hxt, gmsh_delaunay, netgen (mean edge within 12 %);
+/// cgal_mesh_3, which keeps no boundary, is a `piece_mesher` only. A mesher is a local (not collective)
+/// operation.
 #pragma once
 
 #include "dovetail/core/report.hpp"

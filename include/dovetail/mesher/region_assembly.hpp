@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,17 @@ inline void append_region(const surface_region& region, const patch_mesh& made, 
   }
 }
 
+/// The pairs of labels that a boundary's segments join, sorted.
+inline std::vector<std::array<local_id, 2>> joined_labels(const patch_boundary& boundary) {
+  std::vector<std::array<local_id, 2>> pairs;
+  pairs.reserve(boundary.segments.size());
+  for (const auto& [a, b] : boundary.segments)
+    pairs.push_back(sorted_vertices(std::array{boundary.labels[static_cast<std::size_t>(a)],
+                                               boundary.labels[static_cast<std::size_t>(b)]}));
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 /// Adds to a region's forbidden edges those inner edges between boundary points that it must not have; false
 /// when it has none.
 inline bool forbid_chords(const surface_region& region, const patch_mesh& made, patch_boundary& boundary) {
@@ -45,31 +57,83 @@ inline bool forbid_chords(const surface_region& region, const patch_mesh& made, 
     return false;
   const auto label = [&](local_id v) { return boundary.labels[static_cast<std::size_t>(v)]; };
   const auto frozen = static_cast<local_id>(boundary.labels.size());
-  std::vector<std::array<local_id, 2>> own, found;
-  for (const auto& [a, b] : boundary.segments)
-    own.push_back(sorted_vertices(std::array{label(a), label(b)}));
-  std::sort(own.begin(), own.end());
+  const auto own = joined_labels(boundary);
+  auto& forbidden = boundary.forbidden_edges;
+  const std::size_t before = forbidden.size();
   for (const simplex<2>& t : made.triangles)
     for (std::size_t i = 0; i < 3; ++i)
       if (const local_id a = t[i], b = t[(i + 1) % 3]; a < frozen && b < frozen && label(a) != label(b))
         if (const auto edge = sorted_vertices(std::array{label(a), label(b)});
-            !std::binary_search(own.begin(), own.end(), edge) && region.forbids(edge[0], edge[1]))
-          found.push_back(edge);
-  const std::size_t before = boundary.forbidden_edges.size();
-  for (const auto& edge : found)
-    if (auto& forbidden = boundary.forbidden_edges;
-        std::find(forbidden.begin(), forbidden.end(), edge) == forbidden.end())
-      forbidden.push_back(edge);
-  return boundary.forbidden_edges.size() > before;
+            !std::binary_search(own.begin(), own.end(), edge) && region.forbids(edge[0], edge[1]) &&
+            std::find(forbidden.begin(), forbidden.end(), edge) == forbidden.end())
+          forbidden.push_back(edge);
+  return forbidden.size() > before;
 }
 
-/// Meshes a region, again as long as it has edges that it must not have.
+/// Splits the inner edges that join forbidden labels in the middle, until there are none.
+class forbidden_chord_splitter {
+public:
+  forbidden_chord_splitter(const any_surface& surface, const patch_boundary& boundary, patch_mesh& made)
+      : surface_(surface), boundary_(boundary), made_(made), own_(joined_labels(boundary)),
+        frozen_(static_cast<local_id>(boundary.labels.size())) {}
+
+  void run() {
+    for (std::size_t t = 0; t < made_.triangles.size(); ++t) // their number grows
+      for (std::size_t k = 0; k < 3;)
+        k = is_forbidden(made_.triangles[t][k], made_.triangles[t][(k + 1) % 3]) ? split(t, k) : k + 1;
+  }
+
+private:
+  bool is_forbidden(local_id a, local_id b) const {
+    if (a >= frozen_ || b >= frozen_)
+      return false;
+    const auto edge = sorted_vertices(std::array{boundary_.labels[static_cast<std::size_t>(a)],
+                                                 boundary_.labels[static_cast<std::size_t>(b)]});
+    const auto& forbidden = boundary_.forbidden_edges;
+    return std::find(forbidden.begin(), forbidden.end(), edge) != forbidden.end() &&
+           !std::binary_search(own_.begin(), own_.end(), edge);
+  }
+
+  /// Splits side k of triangle t; returns the side to go on with.
+  std::size_t split(std::size_t t, std::size_t k) {
+    const simplex<2> whole = made_.triangles[t];
+    const local_id a = whole[k], b = whole[(k + 1) % 3], c = whole[(k + 2) % 3];
+    const local_id m = middle(a, b);
+    made_.triangles[t] = {a, m, c};
+    made_.triangles.push_back({m, b, c});
+    return 0;
+  }
+
+  /// The same for both triangles of an edge.
+  local_id middle(local_id a, local_id b) {
+    const auto next = frozen_ + static_cast<local_id>(made_.inner_uv.size());
+    const auto [at, is_new] = middles_.try_emplace(sorted_vertices(std::array{a, b}), next);
+    if (is_new) {
+      made_.inner_uv.push_back(
+          0.5 * (boundary_.uv[static_cast<std::size_t>(a)] + boundary_.uv[static_cast<std::size_t>(b)]));
+      made_.inner_points.push_back(surface_.frame(made_.inner_uv.back()).point);
+    }
+    return at->second;
+  }
+
+  const any_surface& surface_;
+  const patch_boundary& boundary_;
+  patch_mesh& made_;
+  std::vector<std::array<local_id, 2>> own_;
+  local_id frozen_;
+  std::map<std::array<local_id, 2>, local_id> middles_;
+};
+
+/// Meshes a region, again when it has edges that it must not have: a mesher may know how to avoid them. What
+/// is left of them is split.
 template <class MeshRegion>
 patch_mesh mesh_without_forbidden_chords(const surface_region& region, const MeshRegion& mesh_region) {
   patch_mesh made = mesh_region(region.surface, region.boundary);
   patch_boundary boundary = region.boundary;
   for (int round = 0; round < 6 && forbid_chords(region, made, boundary); ++round)
     made = mesh_region(region.surface, boundary);
+  if (!boundary.forbidden_edges.empty())
+    forbidden_chord_splitter(region.surface, boundary, made).run();
   return made;
 }
 

@@ -10,7 +10,7 @@
 #include "dovetail/mesh/triangle_shape.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
 #include "dovetail/remesh/patch.hpp"
-#include "dovetail/sizing/concepts.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +152,7 @@ public:
 
   /// The target edge length at p. Fronts that meet leave no room for a last row of full-size triangles, so
   /// edges come out shorter than asked by a few per cent; the factor makes up for it.
-  double target_size(vec3 p) const { return calibration * sizing(p); }
+  double target_size(vec3 p) const { return calibration * checked_size(sizing, p); }
   static constexpr double calibration = 1.045;
 
   double length(local_id a, local_id b) const { return distance(point[at(a)], point[at(b)]); }

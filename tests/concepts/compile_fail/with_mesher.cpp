@@ -1,0 +1,22 @@
+// near miss 1: a mesher of whole domains: it does not keep the boundary it is given
+// error 1: boundary_keeping_mesher<(M|my_mesher), 3>
+// near miss 2: it takes no sizing field
+// error 2: boundary_keeping_mesher<(M|my_mesher), 3>
+// near miss 3: it declares no traits
+// error 3: boundary_keeping_mesher<(M|my_mesher), 3>
+#include "dovetail/pipeline/parameters.hpp"
+
+struct my_mesher {
+#if NEAR_MISS != 3
+  static constexpr dovetail::mesher_traits traits{.keeps_boundary = NEAR_MISS != 1};
+#endif
+#if NEAR_MISS == 2
+  dovetail::mesher_result<3> operator()(const dovetail::mesher_input<3>&) const;
+#else
+  dovetail::mesher_result<3> operator()(const dovetail::mesher_input<3>&, const dovetail::any_sizing&) const;
+#endif
+};
+
+void call() {
+  dovetail::parameters<>{}.with_mesher(my_mesher{});
+}
