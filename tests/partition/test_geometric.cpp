@@ -73,21 +73,3 @@ TEST_CASE("the inertial axis follows a slanted bar, the coordinate axes do not")
   const partition::recursive_coordinate boxes{.refinement_passes = 0};
   CHECK(edge_cut(bar, inertial(bar, 2)) < edge_cut(bar, boxes(bar, 2)));
 }
-
-TEST_CASE("consecutive cells of the Hilbert curve are neighbours, and none is left out") {
-  constexpr int bits = 3;
-  constexpr std::uint32_t n = 1U << bits;
-  std::vector<std::array<int, 3>> cell_at(n * n * n, {-1, -1, -1});
-  for (std::uint32_t i = 0; i < n * n * n; ++i) {
-    const std::array<std::uint32_t, 3> cell{i % n, i / n % n, i / n / n};
-    const auto place = hilbert_index(cell, bits);
-    REQUIRE(place < cell_at.size());
-    cell_at[place] = {static_cast<int>(cell[0]), static_cast<int>(cell[1]), static_cast<int>(cell[2])};
-  }
-  for (std::size_t k = 1; k < cell_at.size(); ++k) {
-    int steps = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      steps += std::abs(cell_at[k][axis] - cell_at[k - 1][axis]);
-    CHECK(steps == 1);
-  }
-}

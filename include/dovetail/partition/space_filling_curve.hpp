@@ -2,6 +2,7 @@
 /// Partition by cutting the order of the nodes along a Hilbert curve.
 #pragma once
 
+#include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/node_positions.hpp"
@@ -11,41 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace dovetail {
-
-/// The place along the Hilbert curve of a cell in a grid of 2^bits cells per axis; 1 to 3 axes, bits x axes
-/// at most 63. The axes' bits are undone and Gray-coded in place, after J. Skilling, "Programming the Hilbert
-/// curve" (2004).
-inline std::uint64_t hilbert_index(std::span<const std::uint32_t> cell, int bits) {
-  std::array<std::uint32_t, 3> x{};
-  const std::size_t axes = cell.size();
-  for (std::size_t k = 0; k < axes; ++k)
-    x[k] = cell[k];
-  const std::uint32_t top = 1U << (bits - 1);
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    for (std::size_t k = 0; k < axes; ++k)
-      if ((x[k] & q) != 0) {
-        x[0] ^= q - 1; // invert the lower bits of the first axis
-      } else {         // exchange the lower bits of the first and this axis
-        const std::uint32_t t = (x[0] ^ x[k]) & (q - 1);
-        x[0] ^= t;
-        x[k] ^= t;
-      }
-  for (std::size_t k = 1; k < axes; ++k)
-    x[k] ^= x[k - 1];
-  std::uint32_t flips = 0;
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    if ((x[axes - 1] & q) != 0)
-      flips ^= q - 1;
-  std::uint64_t index = 0;
-  for (int bit = bits - 1; bit >= 0; --bit)
-    for (std::size_t k = 0; k < axes; ++k)
-      index = index << 1 | ((x[k] ^ flips) >> bit & 1U);
-  return index;
-}
 
 namespace partition {
 
@@ -89,7 +58,9 @@ private:
         const double place = cells * (p[axes[k]] - box.lower[axes[k]]) / (longest * (1 + 1e-9));
         cell[k] = static_cast<std::uint32_t>(place);
       }
-      places.push_back(used == 0 ? 0 : hilbert_index(std::span(cell).first(used), bits));
+      places.push_back(used < 2    ? cell[0]
+                       : used == 2 ? hilbert_place<2>({cell[0], cell[1]}, bits)
+                                   : hilbert_place(cell, bits));
     }
     std::vector<local_id> order(places.size());
     std::iota(order.begin(), order.end(), 0);

@@ -7,6 +7,7 @@
 /// decisions are exact.
 #pragma once
 
+#include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/mesh/corner_table.hpp"
 
@@ -32,36 +33,22 @@ struct loop_triangulation {
 
 namespace detail {
 
-/// Index of a point along a Hilbert curve of order 16 over the unit square.
-inline std::uint32_t hilbert_index(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t index = 0;
-  for (std::uint32_t s = 1u << 15; s > 0; s >>= 1) {
-    const std::uint32_t rx = (x & s) > 0, ry = (y & s) > 0;
-    index += s * s * ((3 * rx) ^ ry);
-    if (ry == 0) {
-      if (rx == 1) {
-        x = s - 1 - (x & (s - 1)) + (x & ~(2 * s - 1));
-        y = s - 1 - (y & (s - 1)) + (y & ~(2 * s - 1));
-      }
-      std::swap(x, y);
-    }
-  }
-  return index;
-}
-
-/// The permutation that sorts points along a space-filling curve of their bounding box.
-inline std::vector<local_id> space_filling_order(std::span<const vec2> points) {
+/// The permutation that sorts points along a Hilbert curve through their bounding box.
+inline std::vector<local_id> order_along_curve(std::span<const vec2> points) {
   vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
   for (const vec2 p : points) {
     lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
     upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
   }
-  const double wx = upper.x > lower.x ? 65535 / (upper.x - lower.x) : 0;
-  const double wy = upper.y > lower.y ? 65535 / (upper.y - lower.y) : 0;
-  std::vector<std::pair<std::uint32_t, local_id>> keyed(points.size());
+  constexpr int bits = 16;
+  constexpr double cells = (1U << bits) - 1;
+  const double wx = upper.x > lower.x ? cells / (upper.x - lower.x) : 0;
+  const double wy = upper.y > lower.y ? cells / (upper.y - lower.y) : 0;
+  std::vector<std::pair<std::uint64_t, local_id>> keyed(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    keyed[i] = {hilbert_index(static_cast<std::uint32_t>((points[i].x - lower.x) * wx),
-                              static_cast<std::uint32_t>((points[i].y - lower.y) * wy)),
+    keyed[i] = {hilbert_place<2>({static_cast<std::uint32_t>((points[i].x - lower.x) * wx),
+                                  static_cast<std::uint32_t>((points[i].y - lower.y) * wy)},
+                                 bits),
                 static_cast<local_id>(i)};
   std::sort(keyed.begin(), keyed.end());
   std::vector<local_id> order(points.size());
@@ -95,7 +82,7 @@ private:
 
   void insert_points() {
     const std::size_t count = points_.size();
-    const std::vector<local_id> order = space_filling_order(points_);
+    const std::vector<local_id> order = order_along_curve(points_);
     table().corner_of.assign(count, no_id);
     result_.same_as.resize(count);
     for (std::size_t i = 0; i < count; ++i)
