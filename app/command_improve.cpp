@@ -102,12 +102,11 @@ int run_improve(const improve_options& options) {
   const any_improver improve = make_improver(options.preset);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input);
-  if (!loaded.mesh.elements.empty() || loaded.triangles.empty()) {
+  if (!is_of_triangles(loaded)) {
     improve_and_report(improve, loaded.mesh, options, [&] { write_mesh_file(loaded, options.out); });
     return exit_ok;
   }
-  simplicial_mesh<2> surface{std::move(loaded.mesh.points), std::move(loaded.triangles),
-                             std::move(loaded.triangle_tags)};
+  simplicial_mesh<2> surface = take_triangles(std::move(loaded));
   improve_and_report(improve, surface, options, [&] { write_mesh_file(surface, options.out); });
   return exit_ok;
 }

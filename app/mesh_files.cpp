@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 namespace dovetail::app {
 namespace {
@@ -19,6 +20,14 @@ std::string extension_of(const std::filesystem::path& file) {
 }
 
 } // namespace
+
+bool is_of_triangles(const io::loaded_mesh& mesh) {
+  return mesh.mesh.elements.empty() && !mesh.triangles.empty();
+}
+
+simplicial_mesh<2> take_triangles(io::loaded_mesh mesh) {
+  return {std::move(mesh.mesh.points), std::move(mesh.triangles), std::move(mesh.triangle_tags)};
+}
 
 void check_can_write(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);

@@ -8,6 +8,11 @@
 
 namespace dovetail::app {
 
+/// Whether a mesh read from a file is one of triangles: it has no tetrahedra.
+bool is_of_triangles(const io::loaded_mesh& mesh);
+/// Its triangles as a mesh of their own, with their tags.
+simplicial_mesh<2> take_triangles(io::loaded_mesh mesh);
+
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);
 

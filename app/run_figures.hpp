@@ -63,6 +63,7 @@ struct run_figures {
 
 /// What `plan` predicts.
 struct plan_figures {
+  int dimension = 3; ///< of the elements
   std::string model;
   double elements = 0;
   double relative_error = 0;
@@ -81,8 +82,9 @@ void write_plan(const plan_figures& figures, const std::filesystem::path& file);
 /// The summary, laid out as the tables of the method's paper.
 std::string summary_text(const run_figures& figures);
 
-/// The number of elements with a smallest dihedral angle in the ranges of the paper's table of quality.
-std::string quality_text(const quality_statistics& quality);
+/// The number of tetrahedra with a smallest dihedral angle in the ranges of the paper's table of quality; the
+/// angles of triangles.
+std::string quality_text(const quality_statistics& quality, int dimension);
 
 /// Writes the report; throws `io_error` when the file cannot be written. Nothing is left behind then.
 void write_report(const run_figures& figures, const std::filesystem::path& file);

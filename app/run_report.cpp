@@ -121,6 +121,7 @@ void write_quality_report(const quality_statistics& quality, std::int64_t vertic
 
 void write_plan(const plan_figures& figures, const std::filesystem::path& file) {
   write_json({{"dovetail", version},
+              {"dimension", figures.dimension},
               {"model", figures.model},
               {"predicted_elements", figures.elements},
               {"relative_error", figures.relative_error},

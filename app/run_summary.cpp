@@ -98,12 +98,13 @@ void add_interfaces(table& rows, const run_figures& figures) {
 
 void add_triangle_quality(table& rows, const quality_statistics& quality) {
   rows.heading("Quality: minimum angle a of the triangles (degrees)");
+  rows.whole("No. of triangles", quality.elements);
   rows.row("Minimum angle", "%.2f", quality.min_wedge_deg);
   rows.row("Mean of the minimum angles", "%.2f", quality.mean_min_wedge_deg());
   rows.row("Maximum angle", "%.2f", quality.max_wedge_deg);
 }
 
-void add_quality(table& rows, const quality_statistics& quality) {
+void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.heading("Volume mesh quality: minimum dihedral angle a (degrees)");
   const auto under = quality.under_6_12_18_24();
   rows.whole("No. of tetrahedra", quality.elements);
@@ -117,6 +118,13 @@ void add_quality(table& rows, const quality_statistics& quality) {
   rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
 }
 
+void add_quality(table& rows, const quality_statistics& quality, int dimension) {
+  if (dimension == 3)
+    add_tetrahedron_quality(rows, quality);
+  else
+    add_triangle_quality(rows, quality);
+}
+
 } // namespace
 
 std::string summary_text(const run_figures& figures) {
@@ -125,10 +133,7 @@ std::string summary_text(const run_figures& figures) {
   add_timing(rows, figures);
   if (figures.subdomains > 1)
     add_interfaces(rows, figures);
-  if (figures.dimension == 3)
-    add_quality(rows, figures.quality);
-  else
-    add_triangle_quality(rows, figures.quality);
+  add_quality(rows, figures.quality, figures.dimension);
   for (const auto& warning : figures.warnings)
     rows.heading("warning: " + warning);
   if (!figures.out.empty())
@@ -141,7 +146,7 @@ std::string plan_text(const plan_figures& figures) {
   const auto mebibytes = [&](const char* label, double bytes) { rows.row(label, "%.0f", bytes / (1 << 20)); };
   rows.heading("Prediction");
   rows.row("Model", figures.model);
-  rows.row("No. of tetrahedra", count_text(figures.elements));
+  rows.row(figures.dimension == 3 ? "No. of tetrahedra" : "No. of triangles", count_text(figures.elements));
   rows.row("  within (percent)", "%.1f", 100 * figures.relative_error);
   rows.whole("No. of subdomains", figures.subdomains);
   rows.row("Background size / size", "%.2f", figures.coarsening);
@@ -153,9 +158,9 @@ std::string plan_text(const plan_figures& figures) {
   return rows.text();
 }
 
-std::string quality_text(const quality_statistics& quality) {
+std::string quality_text(const quality_statistics& quality, int dimension) {
   table rows;
-  add_quality(rows, quality);
+  add_quality(rows, quality, dimension);
   return rows.text();
 }
 

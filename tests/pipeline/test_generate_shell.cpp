@@ -2,8 +2,12 @@
 
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/io/msh_surface_writer.hpp"
+#include "dovetail/io/read_mesh.hpp"
+#include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/sizing/sources.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -58,6 +62,28 @@ TEST_CASE("the shell's mesh is the same for any number of workers") {
   for (const int workers : {1, 2, 4})
     CHECK(io::mesh_hash(mesh_shell(sphere, 0.08, 6, parallel::processes{.worker_count = workers}).mesh) ==
           expected);
+}
+
+TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, with its faces") {
+  const auto result = mesh_shell(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape(), 0.2, 3);
+  std::map<local_id, std::size_t> of_face;
+  for (const local_id face : require_valid(result).faces)
+    ++of_face[face];
+  REQUIRE(of_face.size() == 3);
+  const scratch_folder folder("shell_files");
+  io::vtu_writer{}(result.mesh, folder / "vtu");
+  io::vtu_writer{.pieces = 2}(result.mesh, folder / "vtu2");
+  io::msh_surface_writer{}(result.mesh, folder / "msh");
+  for (const char* name : {"vtu", "vtu2", "msh"}) {
+    const auto read = io::read_mesh(folder / name);
+    INFO(name);
+    CHECK(read.mesh.elements.empty());
+    CHECK(io::mesh_hash(read) == io::mesh_hash(result.mesh));
+    std::map<local_id, std::size_t> read_of_face;
+    for (const local_id face : read.triangle_tags)
+      ++read_of_face[face];
+    CHECK(read_of_face == of_face);
+  }
 }
 
 TEST_CASE("the aircraft in its box: several closed shells") {

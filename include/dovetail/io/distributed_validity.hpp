@@ -139,7 +139,8 @@ void check_shared_points(const simplicial_piece<D>& piece, const simplicial_skel
       faults.add(seam_fault::repeated_point, sorted[i]);
 }
 
-/// The boundary sides of the piece against those of the skeleton.
+/// The boundary sides of the piece against those of the skeleton. Where sheets meet in D = 2, every element
+/// has a boundary side of its own.
 template <int D>
 void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
                     std::span<const local_id> listed, subdomain_faults& faults) {
@@ -147,7 +148,8 @@ void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<
   const auto table = build_sides(piece.mesh);
   std::vector<oriented_side<D>> found;
   for (std::size_t s = 0; s < table.size(); ++s) {
-    const bool boundary = table.is_boundary(static_cast<local_id>(s));
+    const auto id = static_cast<local_id>(s);
+    const bool boundary = table.is_boundary(id);
     auto vertices = table.vertices[s];
     const bool on_skeleton = std::all_of(vertices.begin(), vertices.end(), [&](local_id v) {
       return static_cast<std::size_t>(v) < piece.skeleton_points.size();
@@ -157,8 +159,17 @@ void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<
         faults.add(seam_fault::surplus_side, table.elements[s][0]);
       continue;
     }
-    for (auto& v : vertices)
-      v = piece.skeleton_points[static_cast<std::size_t>(v)];
+    const auto in_skeleton = [&](simplex<D - 1> side) {
+      for (auto& v : side)
+        v = piece.skeleton_points[static_cast<std::size_t>(v)];
+      return side;
+    };
+    if (D == 2 && table.is_non_manifold(id)) {
+      for (const local_id e : table.all_elements(id))
+        found.push_back(make_oriented<D>(in_skeleton(side_of_element(piece.mesh, table, id, e)), e));
+      continue;
+    }
+    vertices = in_skeleton(vertices);
     const auto side = make_oriented<D>(vertices, table.elements[s][0]);
     if (boundary) {
       found.push_back(side);
@@ -186,7 +197,7 @@ subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_
                              std::span<const local_id> listed) {
   subdomain_faults faults;
   faults.subdomain = piece.subdomain;
-  faults.inside = check_validity(piece.mesh, {.closed_boundary = D == 3});
+  faults.inside = check_validity(piece.mesh, {.closed_boundary = D == 3, .non_manifold_sides = D == 2});
   detail::check_shared_points(piece, skeleton, faults);
   detail::check_boundary(piece, skeleton, listed, faults);
   for (std::size_t e = 0; D == 3 && e < piece.mesh.tags.size(); ++e)

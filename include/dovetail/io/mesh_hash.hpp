@@ -10,6 +10,7 @@
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -94,27 +95,34 @@ std::uint64_t mesh_hash(const distributed_simplicial_mesh<D>& mesh) {
 }
 
 /// The hash of a mesh held in memory, its points numbered as they are stored.
-inline std::uint64_t mesh_hash(const simplicial_mesh<3>& mesh) {
+template <int D>
+std::uint64_t mesh_hash(const simplicial_mesh<D>& mesh) {
   mesh_hasher hasher;
   global_id id = 0;
   for (const auto& p : mesh.points)
     hasher.point(id++, p);
-  for (const auto& e : mesh.elements)
-    hasher.element(std::array<global_id, 4>{e[0], e[1], e[2], e[3]});
+  for (const auto& e : mesh.elements) {
+    std::array<global_id, D + 1> vertices;
+    std::copy(e.begin(), e.end(), vertices.begin());
+    hasher.element(vertices);
+  }
   return hasher.value();
 }
 
 /// The hash of a mesh read from a file, by the global numbers of the file: that of the mesh it was written
-/// from.
+/// from. Triangles count where there are no tetrahedra.
 inline std::uint64_t mesh_hash(const loaded_mesh& loaded) {
-  if (loaded.node_ids.size() != loaded.mesh.points.size())
-    return mesh_hash(loaded.mesh);
-  const auto id = [&](local_id v) { return loaded.node_ids[static_cast<std::size_t>(v)]; };
+  const bool numbered = loaded.node_ids.size() == loaded.mesh.points.size();
+  const auto id = [&](local_id v) { return numbered ? loaded.node_ids[static_cast<std::size_t>(v)] : v; };
   mesh_hasher hasher;
-  for (std::size_t v = 0; v < loaded.node_ids.size(); ++v)
-    hasher.point(loaded.node_ids[v], loaded.mesh.points[v]);
+  for (std::size_t v = 0; v < loaded.mesh.points.size(); ++v)
+    hasher.point(id(static_cast<local_id>(v)), loaded.mesh.points[v]);
   for (const auto& e : loaded.mesh.elements)
     hasher.element(std::array<global_id, 4>{id(e[0]), id(e[1]), id(e[2]), id(e[3])});
+  for (std::size_t t = 0; loaded.mesh.elements.empty() && t < loaded.triangles.size(); ++t) {
+    const auto& [a, b, c] = loaded.triangles[t];
+    hasher.element(std::array<global_id, 3>{id(a), id(b), id(c)});
+  }
   return hasher.value();
 }
 

@@ -159,7 +159,7 @@ private:
     const auto regions = cell_values({"region", "material", "gmsh:physical", "CellEntityIds"});
     const auto subdomains = cell_values({"subdomain"});
     const auto ghosts = cell_values({"vtkGhostType"});
-    const auto cad_faces = cell_values({"cad_face", "patch", "gmsh:physical", "CellEntityIds"});
+    const auto cad_faces = cell_values({"cad_face", "patch", "region", "gmsh:physical", "CellEntityIds"});
     constexpr local_id duplicate = 1; // vtkGhostType: the cell belongs to another piece
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < cells_; ++c) {

@@ -225,6 +225,16 @@ std::vector<local_id> side_table<D>::all_elements(local_id side) const {
   return all;
 }
 
+/// The vertices of a side as one of its elements passes it: oriented outwards of that element.
+template <int D>
+simplex<D - 1> side_of_element(const simplicial_mesh<D>& mesh, const side_table<D>& sides, local_id side,
+                               local_id element) {
+  const auto& of_element = sides.of_element[static_cast<std::size_t>(element)];
+  const auto local =
+      static_cast<std::size_t>(std::find(of_element.begin(), of_element.end(), side) - of_element.begin());
+  return detail::pick(mesh.elements[static_cast<std::size_t>(element)], numbering::sides<D>[local]);
+}
+
 /// Finds the unique sides of `elements`. About linear time. Throws `mesh_error` when an element refers to a
 /// point that does not exist.
 template <int D>

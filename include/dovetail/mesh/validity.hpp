@@ -230,11 +230,7 @@ void check_sides(const simplicial_mesh<D>& mesh, const side_table<D>& sides, con
         faults.add(mesh_fault::open_boundary, side);
       continue;
     }
-    const auto second = static_cast<std::size_t>(sides.elements[s][1]);
-    const auto& sides_of_second = sides.of_element[second];
-    const auto local = static_cast<std::size_t>(
-        std::find(sides_of_second.begin(), sides_of_second.end(), side) - sides_of_second.begin());
-    if (!opposite(sides.vertices[s], pick(mesh.elements[second], numbering::sides<D>[local])))
+    if (!opposite(sides.vertices[s], side_of_element(mesh, sides, side, sides.elements[s][1])))
       faults.add(mesh_fault::misoriented_side, side);
   }
 }

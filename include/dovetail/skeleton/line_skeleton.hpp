@@ -24,16 +24,6 @@ inline void append_line_edges(const numbered_lines& lines, local_id line, local_
   }
 }
 
-/// The direction in which a triangle passes a side: from the first of these vertices to the second.
-inline simplex<1> passage_of(const side_table<2>& sides, const simplicial_mesh<2>& mesh, local_id side,
-                             local_id triangle) {
-  const auto t = static_cast<std::size_t>(triangle);
-  const auto& of_element = sides.of_element[t];
-  const auto local =
-      static_cast<std::size_t>(std::find(of_element.begin(), of_element.end(), side) - of_element.begin());
-  return pick(mesh.elements[t], numbering::sides<2>[local]);
-}
-
 } // namespace detail
 
 /// The fine skeleton of a decomposed surface from its lines. `sides` is `build_sides(surface.mesh)`. Linear
@@ -50,7 +40,7 @@ inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, con
     const local_id side = detail::find_side<2>(sides, lines.keys[l].vertices);
     const auto at_side = sides.all_elements(side);
     const auto passage = [&](std::size_t k) {
-      return detail::passage_of(sides, surface.mesh, side, at_side[k]);
+      return side_of_element(surface.mesh, sides, side, at_side[k]);
     };
     if (at_side.size() == 2 && passage(0) != passage(1)) {
       const bool swap = part(at_side[1]) < part(at_side[0]);
