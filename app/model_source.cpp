@@ -52,7 +52,7 @@ model_source builtin_source(const model_options& options) {
   return {name, std::move(geometry), std::move(size), std::move(built.report)};
 }
 
-model_source file_source(const model_options& options) {
+model_source file_source(const model_options& options, int dimension) {
   const std::filesystem::path file = options.input;
   const auto with_sizing = [&](any_geometry geometry, report summary) {
     const box3 domain = geometry.bounds();
@@ -68,7 +68,8 @@ model_source file_source(const model_options& options) {
   if (!triangle_format_of(file).empty())
     return with_sizing(any_geometry(read_discrete_model(file)), {});
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
-  auto read = read_occt_model(file, {.unit = unit});
+  const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
+  auto read = read_occt_model(file, {.unit = unit, .entities = entities});
   return with_sizing(any_geometry(std::move(read.model)), std::move(read.report));
 }
 
@@ -82,10 +83,10 @@ background_field load_background(const std::filesystem::path& file, const std::s
 
 } // namespace
 
-model_source load_model(const model_options& options) {
+model_source load_model(const model_options& options, int dimension) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
-  return options.input.empty() ? builtin_source(options) : file_source(options);
+  return options.input.empty() ? builtin_source(options) : file_source(options, dimension);
 }
 
 any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,

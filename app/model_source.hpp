@@ -20,8 +20,9 @@ struct model_source {
 };
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict
-/// each other, and the library's errors for files and sizes that cannot be used.
-model_source load_model(const model_options& options);
+/// each other, and the library's errors for files and sizes that cannot be used. For elements of dimension 2,
+/// faces of a CAD file need not enclose solids.
+model_source load_model(const model_options& options, int dimension = 3);
 
 /// The sizing field of a JSON file, or the uniform one; empty when neither is given. A file may ask for sizes
 /// from the model, if there is one.

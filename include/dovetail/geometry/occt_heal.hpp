@@ -4,6 +4,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/occt_imprint.hpp"
+#include "dovetail/geometry/occt_open_shells.hpp"
 #include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
@@ -14,6 +15,9 @@
 
 namespace dovetail::occt {
 
+/// What of a shape is wanted: its solids, or all of its faces, whether they enclose solids or not.
+enum class wanted { solids, faces };
+
 /// Whether the faces of a solid point inwards, so that it is all of space but its inside.
 inline bool is_inside_out(const TopoDS_Solid& solid) {
   BRepClass3d_SolidClassifier classifier(solid);
@@ -21,8 +25,8 @@ inline bool is_inside_out(const TopoDS_Solid& solid) {
   return classifier.State() == TopAbs_IN;
 }
 
-/// The same shape as solids with outward faces; what is in no solid is left out.
-inline void keep_oriented_solids(attributed_shape& input) {
+/// The same shape as solids with outward faces; what is in no solid is left out, unless faces are wanted.
+inline void keep_oriented_solids(attributed_shape& input, wanted what) {
   TopoDS_Compound all;
   const BRep_Builder builder;
   builder.MakeCompound(all);
@@ -33,6 +37,9 @@ inline void keep_oriented_solids(attributed_shape& input) {
       solid.Reverse();
     builder.Add(all, solid);
   }
+  for (TopExp_Explorer faces(input.shape, TopAbs_FACE, TopAbs_SOLID); what == wanted::faces && faces.More();
+       faces.Next())
+    builder.Add(all, faces.Current());
   input.shape = all;
 }
 
@@ -55,15 +62,27 @@ inline void make_solids_of_faces(attributed_shape& input, report& made) {
                        "; close the surface in the CAD system");
 }
 
+/// A shape without a solid, of which all faces are wanted: solids where they enclose any, else shells.
+inline void make_solids_or_shells(attributed_shape& input, report& made) {
+  if (has_free(input.shape, TopAbs_EDGE, TopAbs_FACE))
+    imprint_free_edges(input);
+  try {
+    make_solids_of_faces(input, made);
+  } catch (const geometry_error&) { // they enclose nothing
+    make_shells(input, 1e-6 * size_of(input.shape));
+  }
+}
+
 /// Tries one repair on a copy and keeps it when it leaves fewer faults. Returns whether no fault is left.
 template <class Repair>
-bool try_repair(attributed_shape& input, brep& data, report& made, const std::string& what, Repair&& repair) {
+bool try_repair(attributed_shape& input, brep& data, report& made, wanted entities, const std::string& what,
+                Repair&& repair) {
   attributed_shape trial = input;
   try {
     repair(trial);
     if (sub_shapes(trial.shape, TopAbs_SOLID).Extent() < sub_shapes(input.shape, TopAbs_SOLID).Extent())
       return false;
-    keep_oriented_solids(trial);
+    keep_oriented_solids(trial, entities);
     brep better = brep_builder(trial.shape, trial.names).build();
     if (better.faults.size() >= data.faults.size())
       return false;
@@ -76,29 +95,60 @@ bool try_repair(attributed_shape& input, brep& data, report& made, const std::st
   return data.faults.empty();
 }
 
+/// Repairs of growing force until no fault is left. Returns whether that was reached.
+inline bool repair_faults(attributed_shape& input, brep& data, report& made, wanted what) {
+  const double size = size_of(input.shape);
+  const auto try_one = [&](const char* name, const auto& repair) {
+    return try_repair(input, data, made, what, name, repair);
+  };
+  const auto sew = [&](double tolerance) {
+    return [=](auto& shape) {
+      if (sub_shapes(shape.shape, TopAbs_SOLID).IsEmpty())
+        sew_shells(shape, tolerance);
+      else
+        sew_faces(shape, tolerance);
+    };
+  };
+  return try_one("fixing faces and wires", [](auto& shape) { fix_shape(shape); }) ||
+         try_one("removing small edges and faces",
+                 [&](auto& shape) { remove_small_entities(shape, 1e-5 * size); }) ||
+         try_one("sewing", sew(1e-6 * size)) || try_one("sewing", sew(1e-4 * size));
+}
+
+/// Faces whose solids are open or overlap, as shells. Returns whether no fault is left then.
+inline bool give_up_solids(attributed_shape& input, brep& data, report& made) {
+  attributed_shape shells = input;
+  make_shells(shells, 1e-6 * size_of(input.shape));
+  brep found = brep_builder(shells.shape, shells.names).build();
+  if (!found.faults.empty())
+    return false;
+  made.warnings.push_back("its faces are shells that bound no solid, for " + data.faults.front());
+  data = std::move(found);
+  input = std::move(shells);
+  return true;
+}
+
 /// The `brep` of a shape, healed. A shape without faults is not touched. Throws `geometry_error` naming the
 /// first entity that no repair mends.
-inline brep healed_brep(attributed_shape input, report& made) {
+inline brep healed_brep(attributed_shape input, report& made, wanted what = wanted::solids) {
   if (sub_shapes(input.shape, TopAbs_FACE).IsEmpty())
     throw geometry_error(input.source + ": the file has no faces, so nothing bounds a volume");
-  if (sub_shapes(input.shape, TopAbs_SOLID).IsEmpty())
+  if (!sub_shapes(input.shape, TopAbs_SOLID).IsEmpty()) {
+    if (what == wanted::solids && has_free(input.shape, TopAbs_FACE, TopAbs_SOLID))
+      made.warnings.emplace_back("faces that belong to no solid are left out");
+  } else if (what == wanted::solids) {
     make_solids_of_faces(input, made);
-  else if (TopExp_Explorer(input.shape, TopAbs_FACE, TopAbs_SOLID).More())
-    made.warnings.emplace_back("faces that belong to no solid are left out");
-  keep_oriented_solids(input);
+  } else {
+    make_solids_or_shells(input, made);
+  }
+  keep_oriented_solids(input, what);
 
   brep data = brep_builder(input.shape, input.names).build();
-  const double size = size_of(input.shape);
   if (!data.faults.empty()) {
     const std::string first = data.faults.front();
     const std::size_t count = data.faults.size();
-    const bool sound =
-        try_repair(input, data, made, "fixing faces and wires", [](auto& shape) { fix_shape(shape); }) ||
-        try_repair(input, data, made, "removing small edges and faces",
-                   [&](auto& shape) { remove_small_entities(shape, 1e-5 * size); }) ||
-        try_repair(input, data, made, "sewing", [&](auto& shape) { sew_faces(shape, 1e-6 * size); }) ||
-        try_repair(input, data, made, "sewing", [&](auto& shape) { sew_faces(shape, 1e-4 * size); });
-    if (!sound)
+    if (!repair_faults(input, data, made, what) &&
+        !(what == wanted::faces && give_up_solids(input, data, made)))
       throw geometry_error(input.source + ": " + first +
                            (count > 1 ? " (and " + std::to_string(count - 1) + " more faults)" : "") +
                            "; repair the model in the CAD system");

@@ -10,6 +10,7 @@
 #include <TopoDS_Wire.hxx>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -49,9 +50,12 @@ inline std::array<std::array<double, 2>, 2> box_of_loops(const face_loops& face,
 /// Orders and closes the loops of one face.
 class loop_builder {
 public:
-  /// `size` is the diagonal of the model.
-  loop_builder(const TopoDS_Face& forward_face, const face_surface& surface, double size)
-      : face_(forward_face), surface_(surface), worth_projecting_(1e-9 * size) {
+  /// `size` is the diagonal of the model. `with_inner_edges`: edges inside the face are loops too, there and
+  /// back; else they are left out, as they bound nothing.
+  loop_builder(const TopoDS_Face& forward_face, const face_surface& surface, double size,
+               bool with_inner_edges = false)
+      : face_(forward_face), surface_(surface), worth_projecting_(1e-9 * size),
+        with_inner_edges_(with_inner_edges) {
     for (std::size_t k = 0; k < 2; ++k)
       width_[k] = std::max(surface.box()[k][1] - surface.box()[k][0], 1e-300);
   }
@@ -68,6 +72,7 @@ public:
 private:
   face_loops build_once(bool with_projection) {
     result_ = {};
+    inner_ = {};
     with_projection_ = with_projection;
     for (TopoDS_Iterator wires(face_); wires.More(); wires.Next())
       if (wires.Value().ShapeType() == TopAbs_WIRE)
@@ -76,6 +81,7 @@ private:
       result_.faults.emplace_back("has no boundary");
     if (result_.faults.empty())
       check_orientation();
+    std::move(inner_.begin(), inner_.end(), std::back_inserter(result_.loops));
     return std::move(result_);
   }
 
@@ -84,8 +90,11 @@ private:
     std::vector<loop_edge> left;
     for (TopoDS_Iterator edges(wire); edges.More(); edges.Next()) {
       const TopoDS_Edge edge = TopoDS::Edge(edges.Value());
-      if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED)
-        continue; // an edge inside the face bounds nothing
+      if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) {
+        if (with_inner_edges_ && edge.Orientation() == TopAbs_INTERNAL)
+          add_inner_edge(edge);
+        continue;
+      }
       loop_edge made{edge, {}};
       if (!make_coedge_curve(edge, face_, made.curve)) {
         result_.faults.emplace_back("has an edge without a curve in its parameter plane");
@@ -104,6 +113,19 @@ private:
         return;
       result_.loops.push_back(std::move(loop));
     }
+  }
+
+  void add_inner_edge(const TopoDS_Edge& edge) {
+    std::vector<loop_edge> there_and_back;
+    for (const TopAbs_Orientation direction : {TopAbs_FORWARD, TopAbs_REVERSED}) {
+      loop_edge made{TopoDS::Edge(edge.Oriented(direction)), {}};
+      if (!make_coedge_curve(made.edge, face_, made.curve)) {
+        result_.faults.emplace_back("has an inner edge without a curve in its parameter plane");
+        return;
+      }
+      there_and_back.push_back(std::move(made));
+    }
+    inner_.push_back(std::move(there_and_back));
   }
 
   /// Replaces a parameter curve that strays from its 3D curve by the projection of that curve, if that helps.
@@ -218,9 +240,11 @@ private:
   const TopoDS_Face& face_;
   const face_surface& surface_;
   double worth_projecting_;
+  bool with_inner_edges_;
   bool with_projection_ = true;
   std::array<double, 2> width_{};
   face_loops result_;
+  std::vector<std::vector<loop_edge>> inner_; ///< of inner edges
 };
 
 } // namespace dovetail::occt

@@ -11,12 +11,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace dovetail {
 
-/// A CAD model of one or several solids. Models `geometry_model`.
+/// A CAD model of one or several solids, or of faces alone. Models `geometry_model`.
 ///
 /// Evaluation fills caches inside, so one object serves one thread; copies are independent of each other and
 /// cheap (they share the topology and OCCT's geometry), so give each thread a copy.
@@ -75,6 +76,16 @@ public:
     return query("face", f, [&] { return surfaces_[index(f)].project(p, seed); });
   }
 
+  /// The plane that a face lies in, if all its curves are in it too; meshers then evaluate it themselves.
+  std::optional<surface_frame> plane_of_face(local_id f) const {
+    if (surfaces_[index(f)].adaptor().GetType() != GeomAbs_Plane)
+      return std::nullopt;
+    for (const auto& coedge : topology().faces[index(f)].coedges)
+      if (topology().curves[index(coedge.curve)].tolerance > in_plane * bounds_.diagonal())
+        return std::nullopt;
+    return surfaces_[index(f)].frame({0, 0});
+  }
+
   /// Damped Newton from the seed, kept in the curve's range.
   double project_to_curve(local_id c, vec3 p, double seed) const {
     const auto& range = topology().curves[index(c)].t;
@@ -84,6 +95,8 @@ public:
   }
 
 private:
+  static constexpr double in_plane = 1e-6; // of the diagonal: the least tolerance that CAD files state
+
   static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
 
   vec3 pole(local_id c) const {
@@ -155,13 +168,14 @@ struct occt_read_result {
 
 /// Turns a shape into a model, healing as far as needed. Throws `geometry_error` naming the first entity that
 /// cannot be meshed.
-inline occt_read_result occt_model_from(occt::attributed_shape input) {
+inline occt_read_result occt_model_from(occt::attributed_shape input,
+                                        occt::wanted what = occt::wanted::solids) {
   const stopwatch watch;
   const std::string source = input.source;
   dovetail::report made;
   made.name = "geometry";
   const occt::silenced quiet;
-  occt::brep data = occt::guarded(source, [&] { return occt::healed_brep(std::move(input), made); });
+  occt::brep data = occt::guarded(source, [&] { return occt::healed_brep(std::move(input), made, what); });
   made.warnings.insert(made.warnings.end(), data.warnings.begin(), data.warnings.end());
   made.set("solids", static_cast<double>(data.topology.solids.size()));
   made.set("faces", static_cast<double>(data.topology.faces.size()));
@@ -173,21 +187,25 @@ inline occt_read_result occt_model_from(occt::attributed_shape input) {
 }
 
 /// The same for a shape made by the caller's own OCCT code. The shape may be changed by healing.
-inline occt_read_result occt_shape_from(const TopoDS_Shape& shape, std::string name = "shape") {
+inline occt_read_result occt_shape_from(const TopoDS_Shape& shape, std::string name = "shape",
+                                        occt::wanted what = occt::wanted::solids) {
   occt::attributed_shape input;
   input.shape = shape;
   input.source = std::move(name);
-  return occt_model_from(std::move(input));
+  return occt_model_from(std::move(input), what);
 }
 
 struct occt_read_options {
   occt::length_unit unit = occt::length_unit::millimetre;
+  /// For D = 2, `faces`: also open shells and single faces, such as a plane domain with holes and inner
+  /// edges.
+  occt::wanted entities = occt::wanted::solids;
 };
 
 /// Reads a STEP, IGES or BREP file. Throws `input_error` for a file that is missing, empty, truncated or
 /// foreign, `geometry_error` for a shape that cannot be meshed.
 inline occt_read_result read_occt_model(const std::filesystem::path& path, occt_read_options options = {}) {
-  return occt_model_from(occt::read_shape(path, options.unit));
+  return occt_model_from(occt::read_shape(path, options.unit), options.entities);
 }
 
 } // namespace dovetail

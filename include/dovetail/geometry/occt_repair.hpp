@@ -58,9 +58,9 @@ inline void remove_small_entities(attributed_shape& input, double size) {
   fix_shape(input);
 }
 
-/// Sews all faces together and makes a solid of each shell. Returns what is open: the first free edge, or an
+/// Sews all faces together to shells, which need not close. Returns what is open: the first free edge, or an
 /// empty text when all shells are closed.
-inline std::string sew_faces(attributed_shape& input, double tolerance) {
+inline std::string sew_shells(attributed_shape& input, double tolerance) {
   BRepBuilderAPI_Sewing sewing(tolerance);
   const TopTools_IndexedMapOfShape faces = sub_shapes(input.shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i)
@@ -69,19 +69,26 @@ inline std::string sew_faces(attributed_shape& input, double tolerance) {
   inherit_attributes(input.names, input.shape, [&](const TopoDS_Shape& old) {
     return old.ShapeType() == TopAbs_FACE && sewing.IsModified(old) ? sewing.Modified(old) : old;
   });
-  TopoDS_Compound all;
-  const BRep_Builder builder;
-  builder.MakeCompound(all);
-  const TopTools_IndexedMapOfShape shells = sub_shapes(sewing.SewedShape(), TopAbs_SHELL);
-  for (int i = 1; i <= shells.Extent(); ++i)
-    builder.Add(all, BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells(i))).Solid());
-  input.shape = all;
+  input.shape = sewing.SewedShape();
   if (sewing.NbFreeEdges() == 0)
     return {};
   TopoDS_Vertex first, last;
   TopExp::Vertices(sewing.FreeEdge(1), first, last);
   return std::to_string(sewing.NbFreeEdges()) + " edges belong to one face only, the first from " +
          to_text(to_vec3(BRep_Tool::Pnt(first))) + " to " + to_text(to_vec3(BRep_Tool::Pnt(last)));
+}
+
+/// The same, and makes a solid of each shell.
+inline std::string sew_faces(attributed_shape& input, double tolerance) {
+  std::string open = sew_shells(input, tolerance);
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  const TopTools_IndexedMapOfShape shells = sub_shapes(input.shape, TopAbs_SHELL);
+  for (int i = 1; i <= shells.Extent(); ++i)
+    builder.Add(all, BRepBuilderAPI_MakeSolid(TopoDS::Shell(shells(i))).Solid());
+  input.shape = all;
+  return open;
 }
 
 } // namespace dovetail::occt

@@ -16,7 +16,8 @@
 
 namespace dovetail::occt {
 
-/// Builds a `brep` from all solids of a shape. The order of entities is that of OCCT's explorer.
+/// Builds a `brep` from all solids of a shape and the faces beside them. The order of entities is that of
+/// OCCT's explorer.
 class brep_builder {
 public:
   brep_builder(const TopoDS_Shape& shape, const attribute_map& names) : names_(names), size_(size_of(shape)) {
@@ -27,6 +28,9 @@ public:
     const TopTools_IndexedMapOfShape solids = sub_shapes(result_.shape, TopAbs_SOLID);
     for (int s = 1; s <= solids.Extent(); ++s)
       add_solid(TopoDS::Solid(solids(s)));
+    for (TopExp_Explorer faces(result_.shape, TopAbs_FACE, TopAbs_SOLID); faces.More(); faces.Next())
+      if (!face_ids_.Contains(faces.Current()))
+        add_face(TopoDS::Face(faces.Current()), no_id);
     for (std::size_t f = 0; f < result_.faces.size(); ++f)
       add_loops(static_cast<local_id>(f));
     if (result_.faults.empty())
@@ -89,7 +93,8 @@ private:
   void add_loops(local_id f) {
     const auto index = static_cast<std::size_t>(f);
     face_surface& surface = result_.surfaces.emplace_back(result_.faces[index]);
-    const face_loops made = loop_builder(result_.faces[index], surface, size_).build();
+    const bool encloses = result_.topology.faces[index].solids[0] != no_id;
+    const face_loops made = loop_builder(result_.faces[index], surface, size_, !encloses).build();
     for (const auto& fault : made.faults)
       result_.faults.push_back(face_text(f) + " " + fault);
     if (made.faults.empty())
