@@ -205,6 +205,12 @@ private:
     std::vector<double> reach(made.patches.size(), 0), height(made.patches.size(), 0);
     for (std::size_t k = 0; k < made.patches.size(); ++k)
       made.patches[k].normal = normalized(sums[k]);
+    if (host_) {
+      for (surface_patch& patch : made.patches)
+        if (const vec3 n = host_.plane_normal ? host_.plane_normal(patch.tag) : vec3{}; norm_squared(n) > 0)
+          patch = {patch.tag, true, n};
+      return;
+    }
     for (std::size_t v = 0; v < made.patch.size(); ++v) {
       const std::size_t k = at(made.patch[v]);
       const vec3 away = made.point[v] - start[k];
@@ -212,7 +218,7 @@ private:
       height[k] = std::max(height[k], std::abs(dot(away, made.patches[k].normal)));
     }
     for (std::size_t k = 0; k < made.patches.size(); ++k)
-      made.patches[k].is_plane = !host_ && norm_squared(sums[k]) > 0 && height[k] <= 1e-12 * reach[k];
+      made.patches[k].is_plane = norm_squared(sums[k]) > 0 && height[k] <= 1e-12 * reach[k];
   }
 
   void find_normals(surface_complex& made) const {
@@ -230,7 +236,7 @@ private:
     for (std::size_t v = 0; v < count; ++v) {
       const surface_patch& patch = made.patches[at(made.patch[v])];
       made.normal.push_back(patch.is_plane ? patch.normal : normalized(sums[v]));
-      if (!host_)
+      if (!host_ || patch.is_plane)
         continue;
       const host_point found = host_.corner_uv.empty() || !host_.evaluate
                                    ? host_.project(patch.tag, made.point[v], made.uv[v])

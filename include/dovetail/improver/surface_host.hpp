@@ -34,6 +34,9 @@ struct surface_host {
   std::function<host_point(local_id face, vec2 uv)> evaluate = {};
   /// Parameters per triangle and corner to start from; empty when unknown: searches then start from (0, 0).
   std::vector<std::array<vec2, 3>> corner_uv = {};
+  /// The unit normal of a face that is a plane, along those of its triangles; zero for others; may be empty.
+  /// Vertices move in planes without calls, and keep the parameters they started from.
+  std::function<vec3(local_id face)> plane_normal = {};
 
   explicit operator bool() const { return static_cast<bool>(project); }
 };

@@ -4,10 +4,12 @@
 
 #include "dovetail/improver/surface_complex.hpp"
 #include "dovetail/improver/surface_limits.hpp"
-#include "dovetail/mesh/quality.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 namespace dovetail::improvement {
@@ -15,38 +17,53 @@ namespace dovetail::improvement {
 /// Triangles with a smaller angle are low; under half of it they are bad.
 inline constexpr double low_triangle_angle = 30;
 
-/// Counts triangles by their smallest angle. Limited are those that touch a point where two fixed sides meet
-/// at less than `low_triangle_angle` inside the mesh: no triangulation has a better angle there.
-/// O(triangles).
-inline quality_counts count_quality(const surface_complex& mesh) {
+/// Which points have two fixed sides that meet at less than `low_triangle_angle` inside the mesh: no
+/// triangulation has a better angle there.
+inline std::vector<bool> limiting_points(const surface_complex& mesh) {
   const auto& table = mesh.table;
-  const auto corners_of = [&](local_id t) {
-    std::array<vec3, 3> at;
-    for (std::size_t k = 0; k < 3; ++k)
-      at[k] = mesh.point[mesh.at(table.vertex[mesh.at(3 * t) + k])];
-    return at;
-  };
-  std::vector<double> turned(mesh.point.size(), 0);
-  for (local_id t = 0; t < table.triangle_slots(); ++t) {
-    if (!table.alive(t))
-      continue;
-    const auto angles = wedge_angles(corners_of(t));
-    for (std::size_t k = 0; k < 3; ++k)
-      turned[mesh.at(table.vertex[mesh.at(3 * t) + k])] += angles[k];
-  }
+  std::vector<double> turned(mesh.at(mesh.frozen), 0);
+  for (local_id c = 0; c < static_cast<local_id>(table.vertex.size()); ++c)
+    if (const local_id v = table.vertex[mesh.at(c)]; v != no_id && v < mesh.frozen) {
+      const vec3 p = mesh.point[mesh.at(v)];
+      const vec3 a = mesh.point[mesh.at(table.tail(c))] - p, b = mesh.point[mesh.at(table.head(c))] - p;
+      turned[mesh.at(v)] += std::atan2(norm(cross(a, b)), dot(a, b));
+    }
   std::vector<bool> is_limiting(mesh.point.size(), false);
   for (local_id v = 0; v < mesh.frozen; ++v) {
-    const bool is_sharp = turned[mesh.at(v)] < low_triangle_angle - 1e-9;
+    const bool is_sharp = turned[mesh.at(v)] < (low_triangle_angle - 1e-9) * std::numbers::pi / 180;
     for (local_id fan = v; is_sharp && !is_limiting[mesh.at(fan)]; fan = mesh.next_fan[mesh.at(fan)])
       is_limiting[mesh.at(fan)] = true;
   }
+  return is_limiting;
+}
+
+/// The cosines of the smallest and of the largest angle of a triangle.
+inline std::array<double, 2> extreme_cosines(vec3 a, vec3 b, vec3 c) {
+  std::array<double, 3> squares{norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)};
+  std::sort(squares.begin(), squares.end());
+  const auto& [x, y, z] = squares;
+  return {(y + z - x) / (2 * std::sqrt(y * z)), (x + y - z) / (2 * std::sqrt(x * y))};
+}
+
+/// Counts triangles by their smallest angle. Limited are those that touch a limiting point. O(triangles).
+inline quality_counts count_quality(const surface_complex& mesh) {
+  static const double cos_low = std::cos((low_triangle_angle - 1e-9) * std::numbers::pi / 180);
+  static const double cos_bad = std::cos(0.5 * low_triangle_angle * std::numbers::pi / 180);
+  const auto& table = mesh.table;
+  const auto is_limiting = limiting_points(mesh);
+  struct extremes {
+    double most = -1, least = 1; ///< cosines of the smallest and of the largest angle
+  };
+  extremes of_limited, of_free;
   quality_counts counts;
   for (local_id t = 0; t < table.triangle_slots(); ++t) {
     if (!table.alive(t))
       continue;
-    bool is_limited = false;
-    for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      is_limited = is_limited || is_limiting[mesh.at(table.vertex[mesh.at(c)])];
+    std::array<local_id, 3> v;
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = table.vertex[mesh.at(3 * t) + k];
+    const bool is_limited =
+        is_limiting[mesh.at(v[0])] || is_limiting[mesh.at(v[1])] || is_limiting[mesh.at(v[2])];
     auto& counted = is_limited ? counts.limited : counts.free;
     ++counted.elements;
     if (!(mesh.quality(t) > 0)) {
@@ -55,13 +72,23 @@ inline quality_counts count_quality(const surface_complex& mesh) {
       ++counted.low;
       continue;
     }
-    const auto angles = wedge_angles(corners_of(t));
-    const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-    counted.low += *least < low_triangle_angle - 1e-9;
-    counted.bad += *least < 0.5 * low_triangle_angle;
-    counted.min_angle = std::min(counted.min_angle, *least);
-    counted.max_angle = std::max(counted.max_angle, *most);
+    const auto [most, least] =
+        extreme_cosines(mesh.point[mesh.at(v[0])], mesh.point[mesh.at(v[1])], mesh.point[mesh.at(v[2])]);
+    counted.low += most > cos_low;
+    counted.bad += most > cos_bad;
+    auto& extreme = is_limited ? of_limited : of_free;
+    extreme.most = std::max(extreme.most, most);
+    extreme.least = std::min(extreme.least, least);
   }
+  const auto degrees = [](double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  };
+  for (const auto& [counted, extreme] :
+       {std::pair{&counts.limited, of_limited}, std::pair{&counts.free, of_free}})
+    if (counted->elements > counted->inverted) {
+      counted->min_angle = degrees(extreme.most);
+      counted->max_angle = degrees(extreme.least);
+    }
   return counts;
 }
 

@@ -18,6 +18,7 @@ namespace dovetail::improvement {
 
 struct surface_schedule_limits {
   double target = 0.33;     ///< triangles with a smaller quality (sin^2 of the smallest angle) are worked on
+  double few_poor = 0.005;  ///< with a smaller share of poor triangles nothing but those is worked on
   int relax_passes = 3;     ///< passes of the cheap smoothing over all free vertices
   int passes = 12;          ///< sweeps of flips and moves over the poor triangles
   int hard_passes = 8;      ///< sweeps in which vertices are removed and inserted as well
@@ -33,9 +34,12 @@ public:
       : s_(state), limits_(limits), smooth_(state), insertion_(state, smooth_) {}
 
   /// Deals with the worst triangles first: when all are worked on at once, moves for the sake of the many
-  /// that are nearly good stand in the way of the few that are not.
+  /// that are nearly good stand in the way of the few that are not. A mesh with few poor triangles is not
+  /// relaxed, which takes as long as making it.
   void run() {
-    relax();
+    collect_poor();
+    if (static_cast<double>(poor_.size()) > limits_.few_poor * s_.table.triangle_slots())
+      relax();
     const double last = limits_.target;
     for (const double rung : {sine_squared(30), sine_squared(36)})
       if (rung < last)

@@ -35,4 +35,15 @@ inline double oriented_quality(vec3 a, vec3 b, vec3 c, vec3 normal) {
   return full > 0 ? along / std::sqrt(full) - 1 : 0.0;
 }
 
+/// The same in a plane that is seen from the tip of its normal.
+inline double oriented_quality(vec2 a, vec2 b, vec2 c) {
+  const vec2 ab = b - a, bc = c - b, ca = a - c;
+  const double area = cross(ab, bc);
+  const double x = dot(ab, ab), y = dot(bc, bc), z = dot(ca, ca);
+  const double two_longest = std::max({x * y, y * z, z * x});
+  if (!(two_longest > 0))
+    return -1;
+  return area > 0 ? area * area / two_longest : area < 0 ? -2 : 0;
+}
+
 } // namespace dovetail::detail

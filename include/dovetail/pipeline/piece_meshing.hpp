@@ -7,8 +7,10 @@
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/skeleton/subdomain_surface.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 namespace dovetail::detail {
 
@@ -75,12 +77,16 @@ piece_source<2> source_of_pieces(const G& model, const simplicial_background<2>&
     for (const local_id r : skeleton.regions[static_cast<std::size_t>(s)]) {
       const skeleton_region& region = skeleton.coarse.regions[static_cast<std::size_t>(r)];
       patch_boundary boundary = region_patch(*evaluated, mesh.surface, region, skeleton.lines).boundary;
+      any_surface surface = surface_of_face(evaluated, region.cad_face);
+      if (surface.plane) // the model's own parameters of curves are as good as its tolerances
+        std::transform(boundary.points.begin(), boundary.points.end(), boundary.uv.begin(),
+                       [&](vec3 p) { return surface.plane->project(p); });
       for (local_id& label : boundary.labels)
         label = static_cast<local_id>(
             std::lower_bound(lines.skeleton_points.begin(), lines.skeleton_points.end(), label) -
             lines.skeleton_points.begin());
       input.boundary.regions.push_back(
-          {std::move(boundary), surface_of_face(evaluated, region.cad_face), region.cad_face,
+          {std::move(boundary), std::move(surface), region.cad_face,
            model.topology().faces[static_cast<std::size_t>(region.cad_face)].reversed,
            [rule, numbers, r](local_id a, local_id b) {
              return rule->forbids(r, (*numbers)[static_cast<std::size_t>(a)],

@@ -9,11 +9,12 @@
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/mesh/triangle_shape.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
-#include "dovetail/remesh/patch.hpp"
+#include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -131,8 +132,11 @@ public:
     if (a < frozen || b < frozen || c < frozen)
       if (vanishes(a, b, c))
         return 0.75;
-    return oriented_quality(point[at(a)], point[at(b)], point[at(c)],
-                            normal[at(a)] + normal[at(b)] + normal[at(c)]);
+    if constexpr (std::same_as<S, remesh::plane_surface>) // its scaled parameters are lengths
+      return oriented_quality(xy[at(a)], xy[at(b)], xy[at(c)]);
+    else
+      return oriented_quality(point[at(a)], point[at(b)], point[at(c)],
+                              normal[at(a)] + normal[at(b)] + normal[at(c)]);
   }
   double quality(local_id t) const {
     return quality(table.vertex[at(3 * t)], table.vertex[at(3 * t + 1)], table.vertex[at(3 * t + 2)]);
