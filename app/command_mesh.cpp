@@ -6,6 +6,7 @@
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
+#include "stage_figures.hpp"
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
@@ -60,27 +61,10 @@ interface_figures figures_of(const interface_contract& contract) {
   return figures;
 }
 
-const report& child(const report& parent, const std::string& name) {
-  static const report none;
-  const auto found = std::find_if(parent.children.begin(), parent.children.end(),
-                                  [&](const report& candidate) { return candidate.name == name; });
-  return found == parent.children.end() ? none : *found;
-}
-
 void collect_warnings(const report& from, std::vector<std::string>& to) {
   to.insert(to.end(), from.warnings.begin(), from.warnings.end());
   for (const auto& part : from.children)
     collect_warnings(part, to);
-}
-
-/// Mesher and improver run in one task, one after the other: the wall time of the stage is shared out in
-/// proportion to what the workers spent on each.
-void add_meshing_seconds(const report& meshing, stage_seconds& seconds) {
-  const double mesher = meshing.get("mesher_seconds");
-  const double improver = meshing.get("improver_seconds");
-  const double share = mesher + improver > 0 ? improver / (mesher + improver) : 0;
-  seconds.improvement = share * meshing.seconds;
-  seconds.meshing = meshing.seconds - seconds.improvement;
 }
 
 template <int D>
@@ -92,31 +76,25 @@ void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   figures.interfaces = figures_of(result.fine_contract);
   figures.coarse_interfaces = figures_of(result.coarse_contract);
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
-  const report& intersection = child(summary, "intersection");
+  const report& intersection = stage_report(summary, "intersection");
   figures.merges = static_cast<std::int64_t>(intersection.get("merges"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
-  figures.seconds.background = child(summary, "background").seconds;
-  figures.seconds.simplification = child(summary, "simplification").seconds;
-  figures.seconds.partition = child(summary, "partition").seconds;
-  figures.seconds.skeleton = child(summary, "skeleton").seconds;
-  figures.seconds.intersection = intersection.seconds;
-  add_meshing_seconds(child(summary, "meshing"), figures.seconds);
-  figures.peak_rss_bytes = std::max(
-      figures.peak_rss_bytes, static_cast<std::uint64_t>(child(summary, "meshing").get("peak_rss_bytes")));
+  const double geometry = figures.seconds.geometry;
+  figures.seconds = seconds_of_stages(summary);
+  figures.seconds.geometry = geometry;
+  figures.peak_rss_bytes =
+      std::max(figures.peak_rss_bytes,
+               static_cast<std::uint64_t>(stage_report(summary, "meshing").get("peak_rss_bytes")));
 }
 
 template <int D>
 void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& figures) {
   figures.vertices = static_cast<std::int64_t>(mesh.skeleton.points.size());
-  std::int64_t largest = 0;
-  for (const auto& piece : mesh.counts) {
-    figures.elements += piece.elements;
+  for (const auto& piece : mesh.counts)
     figures.vertices += piece.inner_points;
-    largest = std::max<std::int64_t>(largest, piece.elements);
-  }
-  if (figures.elements > 0)
-    figures.imbalance = static_cast<double>(largest) * static_cast<double>(mesh.counts.size()) /
-                        static_cast<double>(figures.elements);
+  const piece_figures pieces = figures_of_pieces(mesh.counts);
+  figures.elements = pieces.elements;
+  figures.imbalance = pieces.imbalance;
   figures.boundary_triangles = std::count_if(mesh.skeleton.subdomains.begin(), mesh.skeleton.subdomains.end(),
                                              [](const auto& sides) { return sides[1] == no_id; });
 }
@@ -133,21 +111,14 @@ std::string text_of(const std::vector<piece_failure>& failures) {
   return text + " give another size or --subdomains";
 }
 
-template <int D>
-policies_of<D> policies_for(const mesh_options& options) {
-  if constexpr (D == 3)
-    return make_policies(options);
-  else
-    return make_surface_policies(options);
-}
-
 /// One run of `dovetail mesh`.
 template <int D>
 class mesh_run {
 public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
-      : options_(options), policies_(policies_for<D>(options)), parameters_(make_generate_options(options)),
+      : options_(options), policies_(make_policies_of<D>(options)),
+        parameters_(make_generate_options(options)),
         formats_(make_formats<D>(options.formats, options.pieces)) {}
 
   int run() {
@@ -156,7 +127,7 @@ public:
     if (!options_.quiet)
       lines_.emplace(stderr);
     show("geometry");
-    const model_source source = load_model(options_.model);
+    const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const output_folder folder(options_.out);
     run_spool store(folder.path() / "spool", identity_of_run(options_, source), options_.resume);

@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "policies.hpp"
+#include "stage_figures.hpp"
 
 #include "dovetail/sizing/compose.hpp"
 
@@ -47,32 +48,6 @@ std::string kind_of(const error& problem) {
   return "error";
 }
 
-/// The stage's report; an empty one when there is none of that name.
-report stage(const report& summary, const std::string& name) {
-  for (const report& child : summary.children)
-    if (child.name == name)
-      return child;
-  return {};
-}
-
-/// As in the report of `dovetail mesh`: mesher and improver run in one task, one after the other, and share
-/// the stage's wall time in proportion to what the workers spent on each.
-stage_seconds seconds_of(const report& summary) {
-  stage_seconds seconds;
-  seconds.background = stage(summary, "background").seconds;
-  seconds.simplification = stage(summary, "simplification").seconds;
-  seconds.partition = stage(summary, "partition").seconds;
-  seconds.skeleton = stage(summary, "skeleton").seconds;
-  seconds.intersection = stage(summary, "intersection").seconds;
-  const report meshing = stage(summary, "meshing");
-  const double improver = meshing.get("improver_seconds");
-  const double both = meshing.get("mesher_seconds") + improver;
-  seconds.improvement = both > 0 ? meshing.seconds * improver / both : 0;
-  seconds.meshing = meshing.seconds - seconds.improvement;
-  seconds.total = summary.seconds;
-  return seconds;
-}
-
 interface_row row_of(const interface_contract& contract) {
   interface_row row;
   row.faces = static_cast<std::int64_t>(contract.interface_faces);
@@ -87,14 +62,10 @@ interface_row row_of(const interface_contract& contract) {
 void add_figures(const generate_result& result, comparison_row& row) {
   row.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   row.subdomains = static_cast<int>(result.mesh.counts.size());
-  std::int64_t largest = 0;
-  for (const auto& piece : result.mesh.counts) {
-    row.elements += piece.elements;
-    largest = std::max<std::int64_t>(largest, piece.elements);
-  }
-  if (row.elements > 0)
-    row.imbalance = static_cast<double>(largest) * row.subdomains / static_cast<double>(row.elements);
-  row.seconds = seconds_of(result.summary);
+  const piece_figures pieces = figures_of_pieces(result.mesh.counts);
+  row.elements = pieces.elements;
+  row.imbalance = pieces.imbalance;
+  row.seconds = seconds_of_stages(result.summary);
   row.quality = result.quality;
   row.coarse = row_of(result.coarse_contract);
   row.fine = row_of(result.fine_contract);
@@ -153,7 +124,7 @@ comparison_row run_combination(const model_source& source, const combination& po
     plain_or_not.simplify = policies.simplified;
     const auto [background, reused] = backgrounds.get(source, chosen, options);
     row.background_reused = reused;
-    const auto result = generate_mesh_from(background, source.geometry, source.size, chosen, plain_or_not);
+    const auto result = generate_mesh_from(background, source.geometry, chosen, plain_or_not);
     if (!result.failures.empty()) {
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +

@@ -21,9 +21,8 @@ background_result<3> make_background_mesh(const any_geometry& geometry, const an
 }
 
 generate_result generate_mesh_from(const background_result<3>& background, const any_geometry& geometry,
-                                   const any_sizing& size, const chosen_policies& policies,
-                                   const generate_options& options) {
-  return generate_from_background<3>(geometry, background, size, composed(policies, options));
+                                   const chosen_policies& policies, const generate_options& options) {
+  return generate_from_background<3>(geometry, background, composed(policies, options));
 }
 
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,

@@ -44,11 +44,12 @@ generate_result generate_mesh(const any_geometry& geometry, const any_sizing& si
 background_result<3> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
                                           const chosen_policies& policies, const generate_options& options);
 generate_result generate_mesh_from(const background_result<3>& background, const any_geometry& geometry,
-                                   const any_sizing& size, const chosen_policies& policies,
-                                   const generate_options& options);
+                                   const chosen_policies& policies, const generate_options& options);
 
 /// What `generate_mesh` would plan, without making anything but a first surface.
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
                           const chosen_policies& policies, const generate_options& options);
+mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
+                          const chosen_surface_policies& policies, const generate_options& options);
 
 } // namespace dovetail::app

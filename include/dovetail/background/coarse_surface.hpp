@@ -28,6 +28,9 @@ struct coarse_surface_parameters {
 
 struct coarse_surface_result {
   surface_mesh surface;
+  /// Where the surface needs smaller sizes than given: its curvature, and the places refined. Meant with
+  /// `coarse_surface_parameters::growth`.
+  std::vector<size_ball> bounds;
   report summary;
 };
 
@@ -43,7 +46,7 @@ public:
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
         }),
-        balls_(all_balls(model, given_, parameters), parameters.growth),
+        bounds_(all_balls(model, given_, parameters)), balls_(bounds_, parameters.growth),
         size_([this](vec3 p) { return balls_(p, given_(p)); }) {}
 
   coarse_surface_result run() {
@@ -62,7 +65,7 @@ public:
       mesh(pending);
       pending = repair(pending, round + 1 >= parameters_.rounds);
     }
-    coarse_surface_result result{assemble(), {}};
+    coarse_surface_result result{assemble(), std::move(bounds_), {}};
     result.summary.name = "coarse surface";
     summarise(result, round);
     result.summary.seconds = clock.seconds();
@@ -320,6 +323,7 @@ private:
   const E& run_tasks_;
   const geometry_topology& topology_;
   any_sizing given_; ///< the caller's field, never above a quarter of the model's diagonal
+  std::vector<size_ball> bounds_;
   graded_balls balls_;
   any_sizing size_;
   curve_points curves_;

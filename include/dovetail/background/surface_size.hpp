@@ -1,15 +1,16 @@
 /// @file
-/// The size field of the coarse surface: a given field, bounded by curvature and by refinement balls, with
-/// limited growth away from both.
+/// The size field of a surface: a given field, bounded by curvature and by refinement balls, with limited
+/// growth away from both.
 #pragma once
 
 #include "dovetail/core/vector.hpp"
-#include "dovetail/sizing/concepts.hpp"
+#include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace dovetail::background {
@@ -98,5 +99,35 @@ private:
   std::vector<node> nodes_;
   double growth_;
 };
+
+/// A field that is nowhere larger than its bounds allow. Models `bounded_below_sizing_field`.
+class bounded_size {
+public:
+  bounded_size(any_sizing field, std::vector<size_ball> bounds, double growth)
+      : field_(std::move(field)), bounds_(std::move(bounds), growth), growth_(growth) {}
+
+  double operator()(vec3 p) const { return bounds_(p, field_(p)); }
+  double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); }
+  double smallest_size_in(const box3& box) const {
+    const double of_field = dovetail::smallest_size_in(field_, box);
+    const double least = bounds_(box.center(), 1e300) - 0.5 * growth_ * box.diagonal();
+    return std::max(0.0, std::min(of_field, least));
+  }
+
+private:
+  any_sizing field_;
+  graded_balls bounds_;
+  double growth_;
+};
+
+/// `field`, held within those of the bounds that ask for less than it does at their centers.
+inline any_sizing within_bounds(any_sizing field, std::vector<size_ball> bounds, double growth) {
+  bounds.erase(std::remove_if(bounds.begin(), bounds.end(),
+                              [&](const size_ball& ball) { return !(ball.size < field(ball.center)); }),
+               bounds.end());
+  if (bounds.empty())
+    return field;
+  return keep_bounds(bounded_size(std::move(field), std::move(bounds), growth));
+}
 
 } // namespace dovetail::background

@@ -178,10 +178,27 @@ constexpr double elements_per_inverse_cubed_size() {
     return 0;
 }
 
+namespace detail {
+
+/// The size of a mesh that its coarse surface allows. In D = 3 that is the one given: where interfaces and
+/// surfaces cross, `realize` mends it. In D = 2 an edge turns with the surface by no more than an edge of the
+/// background mesh: beyond that, triangles of sheets that are near to each other would cross.
+template <int D, sizing_field H>
+any_sizing allowed_size(const H& size, const background::coarse_surface_result& coarse) {
+  if constexpr (D == 3)
+    return keep_bounds(size);
+  else
+    return background::within_bounds(keep_bounds(size), coarse.bounds,
+                                     background::coarse_surface_parameters{}.growth);
+}
+
+} // namespace detail
+
 template <int D>
 struct background_result {
   simplicial_background<D> mesh;
   mesh_plan plan;
+  any_sizing size; ///< the field given, smaller where the surface asks for it (D = 2)
   report summary;
 };
 
@@ -197,7 +214,7 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
   const auto first = surface_without_crossings(
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
   const mesh_plan plan = plan_mesh<D>(
-      predict_mesh<D>(first.surface, model.topology(), size,
+      predict_mesh<D>(first.surface, model.topology(), detail::allowed_size<D>(size, first),
                       elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>()),
       options);
   if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
@@ -219,6 +236,7 @@ background_result<D> make_background(const G& model, const H& size, const Parame
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
   auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
   result.summary.children.push_back(std::move(surface.summary));
+  result.size = detail::allowed_size<D>(size, surface);
   result.mesh.surface = std::move(surface.surface);
   if constexpr (D == 3) {
     options.on_progress("background volume", 0, 0);

@@ -79,9 +79,9 @@ distributed_simplicial_mesh<D> assemble_mesh(const G& model, simplicial_skeleton
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
 /// for the same model, field, mesher and options but `simplify`. For runs that differ in the partitioner or
 /// the improver alone.
-template <int D, geometry_model G, sizing_field H, class Parameters>
+template <int D, geometry_model G, class Parameters>
   requires(D == 2 || D == 3)
-generated<D> generate_from_background(const G& model, background_result<D> background, const H& size,
+generated<D> generate_from_background(const G& model, background_result<D> background,
                                       const Parameters& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
@@ -94,7 +94,7 @@ generated<D> generate_from_background(const G& model, background_result<D> backg
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
   const side_table<D> sides = build_sides(coarse.elements());
-  const auto weights = predict_elements<D>(coarse.elements(), size).per_element;
+  const auto weights = predict_elements<D>(coarse.elements(), background.size).per_element;
   report simplification_summary;
   const auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains, options,
                                                       simplification_summary);
@@ -110,7 +110,7 @@ generated<D> generate_from_background(const G& model, background_result<D> backg
 
   report partition_summary = pieces.summary;
   auto [skeleton, meshed] = detail::realize_and_mesh<D>(model, coarse, sides, simplified.side_states,
-                                                        std::move(pieces), weights, keep_bounds(size), given);
+                                                        std::move(pieces), weights, background.size, given);
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_contract =
       detail::fine_interface_contract(skeleton, coarse, sides, simplified.side_states, options);
@@ -140,7 +140,7 @@ template <int D, geometry_model G, sizing_field H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& model, const H& size, const Parameters& given) {
   detail::require_mesher<D, Parameters>();
-  return generate_from_background<D>(model, make_background<D>(model, size, given), size, given);
+  return generate_from_background<D>(model, make_background<D>(model, size, given), given);
 }
 
 } // namespace dovetail
