@@ -4,7 +4,8 @@
 Writes surface.png (the boundary by patch), cut.png (elements behind a plane, by subdomain), exploded.png (the
 decomposition, pulled apart) and worst.png (the elements with the smallest dihedral angles) with VTK, off screen;
 without a display, run it as `xvfb-run -a scripts/render.py OUT`. Faces on the sides of the bounding box are left
-out of the surface when there is something inside (--box keeps them).
+out of the surface when there is something inside (--box keeps them). Of a mesh of triangles it writes pieces.png: the
+triangles by subdomain, with the lines between the subdomains and the CAD curves.
 """
 
 import argparse
@@ -81,6 +82,26 @@ def surface_actor(points, triangles, colours, edges=True, opacity=1.0):
     actor.GetProperty().SetOpacity(opacity)
     actor.GetProperty().SetAmbient(0.25)
     actor.GetProperty().SetDiffuse(0.75)
+    return actor
+
+
+def line_actor(points, segments):
+    """Segments (indices into points; shape (n, 2)) as thick dark lines."""
+    cells = vtkCellArray()
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 2 * len(segments) + 1, 2, dtype=np.int64), True),
+                  numpy_to_vtkIdTypeArray(segments.astype(np.int64).ravel(), True))
+    poly, coordinates = vtkPolyData(), vtkPoints()
+    coordinates.SetData(numpy_to_vtk(points, True))
+    poly.SetPoints(coordinates)
+    poly.SetLines(cells)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(poly)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(0.05, 0.05, 0.1)
+    actor.GetProperty().SetLineWidth(2.5)
+    actor.GetProperty().SetLighting(False)
     return actor
 
 
@@ -186,6 +207,15 @@ def picture_exploded(surface, interfaces, options):
     return [surface_actor(moved.reshape(-1, 3), triangles, distinct_colours(owners), edges=len(corners) < 400000)]
 
 
+def picture_pieces(mesh, lines):
+    """A mesh of triangles by subdomain, and its lines."""
+    colours = distinct_colours(cell_array(mesh, "subdomain"))
+    actors = [surface_actor(points_of(mesh), cells_of(mesh.GetCells(), 3), colours)]
+    if lines is not None:
+        actors.append(line_actor(points_of(lines), cells_of(lines.GetLines(), 2)))
+    return actors
+
+
 def smallest_dihedral(p):
     """Degrees, per element; p has shape (elements, 4, 3)."""
     normals = [np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in SIDES]
@@ -221,7 +251,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("--to", help="folder of the pictures (default: OUT)")
-    parser.add_argument("--only", default="surface,cut,exploded,worst", help="which pictures, separated by commas")
+    parser.add_argument("--only", help="which pictures, separated by commas (default: all)")
     parser.add_argument("--axis", default="y", choices="xyz", help="normal of the cutting plane")
     parser.add_argument("--at", type=float, default=0.5, help="its place, as a fraction of the extent")
     parser.add_argument("--explode", type=float, default=0.5, help="how far pieces move away from the middle")
@@ -235,22 +265,27 @@ def main():
     options.size = [int(x) for x in options.size.split("x")]
     target = options.to or options.folder
     os.makedirs(target, exist_ok=True)
-    wanted = options.only.split(",")
+    of_triangles = not os.path.exists(os.path.join(options.folder, "surface.vtp"))
+    wanted = (options.only or ("pieces" if of_triangles else "surface,cut,exploded,worst")).split(",")
 
-    surface = read(vtkXMLPolyDataReader(), os.path.join(options.folder, "surface.vtp"))
+    def polydata(name):
+        path = os.path.join(options.folder, name)
+        return read(vtkXMLPolyDataReader(), path) if os.path.exists(path) else None
+
+    surface = None if wanted == ["pieces"] else read(vtkXMLPolyDataReader(), os.path.join(options.folder, "surface.vtp"))
     volume = None
-    if "cut" in wanted or "worst" in wanted:
+    if set(wanted) & {"cut", "worst", "pieces"}:
         found = glob.glob(os.path.join(glob.escape(options.folder), "*.pvtu"))
         if not found:
             sys.exit(f"render: there is no .pvtu file in {options.folder}")
         volume = read(vtkXMLPUnstructuredGridReader(), found[0])
-    between = os.path.join(options.folder, "interfaces.vtp")
-    interfaces = read(vtkXMLPolyDataReader(), between) if "exploded" in wanted and os.path.exists(between) else None
+    interfaces = polydata("interfaces.vtp") if "exploded" in wanted else None
     pictures = {
         "surface": lambda: picture_surface(surface, options),
         "cut": lambda: picture_cut(volume, options),
         "exploded": lambda: picture_exploded(surface, interfaces, options),
         "worst": lambda: picture_worst(volume, surface, options),
+        "pieces": lambda: picture_pieces(volume, polydata("lines.vtp")),
     }
     for name in wanted:
         if name not in pictures:
