@@ -46,19 +46,17 @@ template <geometry_model G>
 std::vector<sized_point> curvature_points(const G& model, double elements_per_circle,
                                           const model_size_range& range) {
   checked_size(elements_per_circle, "the number of elements per circle");
-  const auto size_at = [&](const surface_sample& s) {
-    const double turn = 2 * std::numbers::pi / elements_per_circle;
-    return s.curvature * range.largest > turn ? std::max(range.smallest, turn / s.curvature) : range.largest;
-  };
+  const double turn = 2 * std::numbers::pi / elements_per_circle;
+  constexpr double sizes_apart = 1.5;
   const auto spacing = [&](const surface_sample& s) {
-    constexpr double per_size = 1.5;
-    const double size = size_at(s);
-    return size < range.largest ? per_size * size : std::numeric_limits<double>::infinity();
+    if (s.curvature * range.largest <= turn)
+      return std::numeric_limits<double>::infinity();
+    return sizes_apart * std::max(range.smallest, turn / s.curvature);
   };
   std::vector<sized_point> points;
   for (const surface_sample& s : sample_surface(model, spacing))
-    if (const double size = size_at(s); size < range.largest)
-      points.push_back({s.point, size});
+    if (s.spacing < sizes_apart * range.largest)
+      points.push_back({s.point, s.spacing / sizes_apart});
   return points;
 }
 

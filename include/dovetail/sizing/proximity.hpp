@@ -142,9 +142,8 @@ double gap_to_face(const G& model, const surface_sample& from, const surface_sam
 template <geometry_model G, class Spacing>
 std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options& options,
                                          const model_size_range& range, const Spacing& spacing) {
-  constexpr int most_per_face = 20000;
   const double reach = options.elements * range.largest;
-  const facing_search search(sample_surface(model, spacing, most_per_face));
+  const facing_search search(sample_surface(model, spacing, {.per_face = 20000}));
   std::vector<sized_point> points;
   for (const surface_sample& s : search.samples()) {
     const auto& solids = model.topology().faces[static_cast<std::size_t>(s.face)].solids;
@@ -152,7 +151,7 @@ std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options
       if (!(solids[side] == no_id ? options.outside : options.inside))
         continue;
       const vec3 direction = side == 0 ? -s.normal : s.normal;
-      const surface_sample* facing = search.find(s, direction, reach, spacing(s));
+      const surface_sample* facing = search.find(s, direction, reach, s.spacing);
       if (!facing)
         continue;
       const double size = std::max(range.smallest, gap_to_face(model, s, *facing) / options.elements);

@@ -20,16 +20,24 @@ struct surface_sample {
   vec2 uv;
   double curvature = 0; ///< largest absolute principal curvature
   local_id face = no_id;
+  double spacing = 0; ///< what the rule gave for the other members
+};
+
+/// Where sampling ends, however small the spacing.
+struct sampling_limits {
+  int per_face = 4000;         ///< samples inside
+  int least_halvings = 4;      ///< of the parameter rectangle, whatever the spacing
+  int most_halvings = 24;      ///< of the parameter rectangle
+  int halvings_of_curves = 11; ///< of each quarter of a curve
 };
 
 /// Samples faces on their curves, and inside by halving the parameter rectangle, until neighbours are at
-/// most `spacing(sample)` apart or a face has `most_per_face` samples. Normals where the parametrisation is
-/// singular are zero.
+/// most `spacing(sample)` apart or a limit is met. Normals where the parametrisation is singular are zero.
 template <geometry_model G, class Spacing>
 class surface_sampler {
 public:
-  surface_sampler(const G& model, const Spacing& spacing, int most_per_face)
-      : model_(model), spacing_(spacing), most_per_face_(most_per_face) {}
+  surface_sampler(const G& model, const Spacing& spacing, const sampling_limits& limits)
+      : model_(model), spacing_(spacing), limits_(limits) {}
 
   std::vector<surface_sample> run() {
     for (std::size_t f = 0; f < model_.topology().faces.size(); ++f)
@@ -38,8 +46,6 @@ public:
   }
 
 private:
-  static constexpr int least_depth = 4; ///< of halvings, whatever the spacing
-  static constexpr int largest_depth = 24;
   static constexpr int outline_parts = 32;
 
   surface_sample sample_at(local_id f, vec2 uv) const {
@@ -47,12 +53,14 @@ private:
     const bool reversed = model_.topology().faces[static_cast<std::size_t>(f)].reversed;
     const vec3 n = normalized(cross(frame.du, frame.dv));
     const double curvature = model_.face_curvature(f, uv);
-    return {frame.point, reversed ? -n : n, uv, std::isfinite(curvature) ? curvature : 0, f};
+    surface_sample sample{frame.point, reversed ? -n : n, uv, std::isfinite(curvature) ? curvature : 0, f};
+    sample.spacing = spacing_(sample);
+    return sample;
   }
 
   void sample_face(local_id f) {
     outline_.clear();
-    budget_ = most_per_face_;
+    budget_ = limits_.per_face;
     const auto& face = model_.topology().faces[static_cast<std::size_t>(f)];
     for (std::size_t k = 0; k < face.coedges.size(); ++k)
       sample_coedge(f, static_cast<int>(k), face.coedges[k]);
@@ -96,8 +104,7 @@ private:
   template <class Uv>
   void sample_between(local_id f, const Uv& uv_at, double s0, const surface_sample& a, double s1,
                       const surface_sample& b, int depth) {
-    constexpr int most = 10;
-    if (depth > most || distance(a.point, b.point) <= std::min(spacing_(a), spacing_(b)))
+    if (depth == limits_.halvings_of_curves || distance(a.point, b.point) <= std::min(a.spacing, b.spacing))
       return;
     const double middle = 0.5 * (s0 + s1);
     const surface_sample m = sample_at(f, uv_at(middle));
@@ -119,7 +126,8 @@ private:
     const vec3 north = model_.face_point(f, {middle.x, upper.y});
     const double across = distance(west, m.point) + distance(m.point, east);
     const double along = distance(south, m.point) + distance(m.point, north);
-    if (depth >= largest_depth || (depth >= least_depth && std::max(across, along) <= spacing_(m)))
+    if (depth >= limits_.most_halvings ||
+        (depth >= limits_.least_halvings && std::max(across, along) <= m.spacing))
       return;
     if (across >= along) {
       sample_cell(f, lower, {middle.x, upper.y}, depth + 1);
@@ -140,7 +148,7 @@ private:
 
   const G& model_;
   const Spacing& spacing_;
-  int most_per_face_;
+  sampling_limits limits_;
   int budget_ = 0;
   std::vector<surface_sample> samples_;
   std::vector<std::array<vec2, 2>> outline_; ///< of the face at hand
@@ -148,8 +156,9 @@ private:
 
 /// All samples of a model. Throws what the model's queries throw.
 template <geometry_model G, class Spacing>
-std::vector<surface_sample> sample_surface(const G& model, const Spacing& spacing, int most_per_face = 4000) {
-  return surface_sampler<G, Spacing>(model, spacing, most_per_face).run();
+std::vector<surface_sample> sample_surface(const G& model, const Spacing& spacing,
+                                           const sampling_limits& limits = {}) {
+  return surface_sampler<G, Spacing>(model, spacing, limits).run();
 }
 
 } // namespace dovetail::sizing
