@@ -3,12 +3,14 @@
 /// growth away from both.
 #pragma once
 
+#include "dovetail/core/median_tree.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -25,10 +27,9 @@ struct size_ball {
 /// p -> min over balls of size + growth * distance to the ball. A tree over the balls: a query visits few.
 class graded_balls {
 public:
-  graded_balls(std::vector<size_ball> balls, double growth) : balls_(std::move(balls)), growth_(growth) {
-    if (!balls_.empty())
-      build(0, balls_.size());
-  }
+  graded_balls(std::vector<size_ball> balls, double growth)
+      : balls_(std::move(balls)), nodes_(build_median_tree<node>(balls_, leaf_size, center_of)),
+        growth_(growth) {}
 
   std::size_t size() const { return balls_.size(); }
 
@@ -36,38 +37,18 @@ public:
   double operator()(vec3 p, double bound) const { return nodes_.empty() ? bound : visit(0, p, bound); }
 
 private:
-  struct node {
-    box3 box; ///< of centers
-    double size;
-    double radius;
-    std::size_t first, last;
-    std::size_t right = 0; ///< 0 in a leaf; the left child follows its parent
+  struct node : median_node {
+    double size = std::numeric_limits<double>::infinity(); ///< smallest below
+    double radius = 0;                                     ///< largest below
+
+    void include(const size_ball& ball) {
+      size = std::min(size, ball.size);
+      radius = std::max(radius, ball.radius);
+    }
   };
   static constexpr std::size_t leaf_size = 8;
 
-  std::size_t build(std::size_t first, std::size_t last) {
-    const std::size_t id = nodes_.size();
-    node made{{}, 1e300, 0, first, last};
-    for (std::size_t i = first; i < last; ++i) {
-      made.box.include(balls_[i].center);
-      made.size = std::min(made.size, balls_[i].size);
-      made.radius = std::max(made.radius, balls_[i].radius);
-    }
-    nodes_.push_back(made);
-    if (last - first <= leaf_size)
-      return id;
-    const vec3 extent = made.box.upper - made.box.lower;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const std::size_t middle = first + (last - first) / 2;
-    const auto at = [&](std::size_t i) { return balls_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last), [axis](const size_ball& a, const size_ball& b) {
-      return a.center[axis] < b.center[axis];
-    });
-    build(first, middle);
-    const std::size_t right = build(middle, last);
-    nodes_[id].right = right;
-    return id;
-  }
+  static constexpr auto center_of = [](const size_ball& ball) { return ball.center; };
 
   double lower_bound(const node& n, vec3 p) const {
     double squared = 0;
@@ -82,7 +63,7 @@ private:
     const node& n = nodes_[id];
     if (lower_bound(n, p) >= bound)
       return bound;
-    if (n.right == 0) {
+    if (n.is_leaf()) {
       for (std::size_t i = n.first; i < n.last; ++i) {
         const size_ball& ball = balls_[i];
         bound = std::min(bound, ball.size + growth_ * std::max(0.0, distance(p, ball.center) - ball.radius));

@@ -2,6 +2,7 @@
 /// A field from sizes at many points: cones of limited growth around each.
 #pragma once
 
+#include "dovetail/core/median_tree.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
@@ -53,10 +54,9 @@ public:
 private:
   class tree {
   public:
-    tree(std::vector<sized_point> points, double growth) : points_(std::move(points)), growth_(growth) {
-      if (!points_.empty())
-        build(0, points_.size());
-    }
+    tree(std::vector<sized_point> points, double growth)
+        : points_(std::move(points)), nodes_(build_median_tree<node>(points_, leaf_size, point_of)),
+          growth_(growth) {}
 
     const std::vector<sized_point>& points() const { return points_; }
     double value(vec3 p, double bound) const { return nodes_.empty() ? bound : visit(0, box3{p, p}, bound); }
@@ -67,38 +67,13 @@ private:
     bool is_covered(const sized_point& p) const { return covered(0, p); }
 
   private:
-    struct node {
-      box3 box;
+    struct node : median_node {
       double size = std::numeric_limits<double>::infinity(); ///< smallest below
-      std::size_t first = 0;
-      std::size_t last = 0;
-      std::size_t right = 0; ///< 0 in a leaf; the left child follows its parent
+
+      void include(const sized_point& p) { size = std::min(size, p.size); }
     };
     static constexpr std::size_t leaf_size = 6;
-
-    std::size_t build(std::size_t first, std::size_t last) {
-      const std::size_t id = nodes_.size();
-      node made;
-      made.first = first;
-      made.last = last;
-      for (std::size_t i = first; i < last; ++i) {
-        made.box.include(points_[i].point);
-        made.size = std::min(made.size, points_[i].size);
-      }
-      nodes_.push_back(made);
-      if (last - first <= leaf_size)
-        return id;
-      const vec3 extent = made.box.upper - made.box.lower;
-      const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-      const std::size_t middle = first + (last - first) / 2;
-      const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
-      std::nth_element(at(first), at(middle), at(last), [axis](const sized_point& a, const sized_point& b) {
-        return a.point[axis] < b.point[axis];
-      });
-      build(first, middle);
-      nodes_[id].right = build(middle, last);
-      return id;
-    }
+    static constexpr auto point_of = [](const sized_point& p) { return p.point; };
 
     static double gap(const box3& a, const box3& b) {
       double squared = 0;
@@ -114,7 +89,7 @@ private:
       const node& n = nodes_[id];
       if (least_from(n, box) >= bound)
         return bound;
-      if (n.right == 0) {
+      if (n.is_leaf()) {
         for (std::size_t i = n.first; i < n.last; ++i)
           bound = std::min(bound, points_[i].size + growth_ * gap({points_[i].point, points_[i].point}, box));
         return bound;
@@ -130,7 +105,7 @@ private:
       const node& n = nodes_[id];
       if (n.size >= p.size || least_from(n, {p.point, p.point}) > p.size)
         return false;
-      if (n.right != 0)
+      if (!n.is_leaf())
         return covered(id + 1, p) || covered(n.right, p);
       for (std::size_t i = n.first; i < n.last; ++i)
         if (points_[i].size < p.size &&

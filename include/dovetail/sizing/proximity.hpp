@@ -2,6 +2,7 @@
 /// Sizes from how near faces are to each other: so many elements across a wall or a gap.
 #pragma once
 
+#include "dovetail/core/median_tree.hpp"
 #include "dovetail/sizing/curvature.hpp"
 
 #include <algorithm>
@@ -24,10 +25,8 @@ namespace sizing {
 /// Finds, for a sample, the nearest sample that faces it on one side.
 class facing_search {
 public:
-  explicit facing_search(std::vector<surface_sample> samples) : samples_(std::move(samples)) {
-    if (!samples_.empty())
-      build(0, samples_.size());
-  }
+  explicit facing_search(std::vector<surface_sample> samples)
+      : samples_(std::move(samples)), nodes_(build_median_tree<node>(samples_, leaf_size, point_of)) {}
 
   const std::vector<surface_sample>& samples() const { return samples_; }
 
@@ -41,11 +40,8 @@ public:
   }
 
 private:
-  struct node {
-    box3 box;
-    std::size_t first = 0;
-    std::size_t last = 0;
-    std::size_t right = 0; ///< 0 in a leaf; the left child follows its parent
+  struct node : median_node {
+    void include(const surface_sample&) {}
   };
   struct query {
     const surface_sample& from;
@@ -55,29 +51,10 @@ private:
     const surface_sample* best;
   };
   static constexpr std::size_t leaf_size = 8;
+  static constexpr auto point_of = [](const surface_sample& s) { return s.point; };
   static constexpr double looks_back =
       -0.8; ///< largest cosine between the two normals; across an edge they differ by less
   static constexpr double aside = 0.5; ///< largest offset along the plane per height
-
-  std::size_t build(std::size_t first, std::size_t last) {
-    const std::size_t id = nodes_.size();
-    node made{{}, first, last, 0};
-    for (std::size_t i = first; i < last; ++i)
-      made.box.include(samples_[i].point);
-    nodes_.push_back(made);
-    if (last - first <= leaf_size)
-      return id;
-    const vec3 extent = made.box.upper - made.box.lower;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const std::size_t middle = first + (last - first) / 2;
-    const auto at = [&](std::size_t i) { return samples_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(
-        at(first), at(middle), at(last),
-        [axis](const surface_sample& a, const surface_sample& b) { return a.point[axis] < b.point[axis]; });
-    build(first, middle);
-    nodes_[id].right = build(middle, last);
-    return id;
-  }
 
   /// Whether a box may hold a point above the plane, low enough and not too far aside.
   static bool may_hold(const box3& box, const query& q) {
@@ -98,7 +75,7 @@ private:
     const node& n = nodes_[id];
     if (!may_hold(n.box, q))
       return;
-    if (n.right == 0) {
+    if (n.is_leaf()) {
       for (std::size_t i = n.first; i < n.last; ++i)
         consider(samples_[i], q);
       return;
