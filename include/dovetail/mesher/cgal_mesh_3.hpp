@@ -7,6 +7,8 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
+#pragma push_macro("Handle") // Open CASCADE defines it
+#undef Handle
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
@@ -18,6 +20,7 @@
 #include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mesh_3.h>
+#pragma pop_macro("Handle")
 
 #include <array>
 #include <cstddef>
@@ -29,9 +32,9 @@
 
 namespace dovetail::mesher {
 
-/// A model of `piece_mesher<3>` that is no `boundary_keeping_mesher<3>`: the triangles given are the shape of
-/// the domain, and neither they nor their points are in the result. Its ridges are kept as lines. Slivers
-/// are left to an improver.
+/// A model of `piece_mesher<3>`, and of `line_keeping_mesher`, that is no `boundary_keeping_mesher<3>`: the
+/// triangles given are the shape of the domain, and neither they nor their points are in the result. Its
+/// ridges are kept as lines. Slivers are left to an improver.
 ///
 /// So it meshes whole bodies and never subdomains, whose meshes would not match. Shells must be manifold.
 /// Complexity: about n log n in the elements made, plus an inside test by a ray for each facet and cell.
@@ -48,6 +51,15 @@ struct cgal_mesh_3 {
   double facet_angle_deg = 25;     ///< lower bound for angles of boundary triangles; up to 30
   double size_scale = 1.0;         ///< multiplies the field
   double call_budget_factor = 400; ///< watchdog: sizing calls allowed per predicted element
+  /// Lines on the domain that the mesh follows, ends included, instead of the ridges; those that meet do so
+  /// in their ends.
+  std::vector<std::vector<vec3>> lines = {};
+
+  cgal_mesh_3 with_lines(std::vector<std::vector<vec3>> followed) const {
+    cgal_mesh_3 changed = *this;
+    changed.lines = std::move(followed);
+    return changed;
+  }
 
   /// Meshes the inside of `input.boundary`. Throws `mesher_error` when it is open, inverted, non-manifold or
   /// crosses itself, or when CGAL fails; `sizing_error` when the field gives an unusable size.
@@ -92,6 +104,15 @@ inline mesh_3_types::surface mesh_3_surface(const simplicial_mesh<2>& boundary) 
   if (processing::does_self_intersect(surface))
     throw mesher_error("the boundary crosses itself; make it finer where it does");
   return surface;
+}
+
+inline std::vector<std::vector<mesh_3_types::kernel::Point_3>>
+mesh_3_lines(const std::vector<std::vector<vec3>>& given) {
+  std::vector<std::vector<mesh_3_types::kernel::Point_3>> lines;
+  for (const auto& line : given)
+    for (auto& points = lines.emplace_back(); const vec3 p : line)
+      points.emplace_back(p.x, p.y, p.z);
+  return lines;
 }
 
 /// A sizing field as CGAL asks for it, in multiples of the size. Copies share one count of calls.
@@ -149,7 +170,10 @@ inline simplicial_mesh<3> run_mesh_3(const mesher::cgal_mesh_3& settings,
   CGAL::get_default_random() = CGAL::Random(0);
   CGAL::Random random(0);
   mesh_3_types::domain domain(surface, &random);
-  domain.detect_features(settings.feature_angle_deg);
+  constexpr double no_ridges = 180; // the surface is numbered, and that is all
+  domain.detect_features(settings.lines.empty() ? settings.feature_angle_deg : no_ridges);
+  const auto lines = mesh_3_lines(settings.lines);
+  domain.add_features(lines.begin(), lines.end());
   const mesh_3_types::criteria criteria(parameters::edge_size = field(edge_factor),
                                         parameters::facet_angle = settings.facet_angle_deg,
                                         parameters::facet_size = field(facet_factor),

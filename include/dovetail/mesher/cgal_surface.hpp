@@ -9,10 +9,13 @@
 #include "dovetail/remesh/constrained_triangulation.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 
+#pragma push_macro("Handle") // Open CASCADE defines it
+#undef Handle
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#pragma pop_macro("Handle")
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,58 @@
+/// @file
+/// The background mesh by a mesher that keeps no boundary, for `generate_from_background`.
+#pragma once
+
+#include "dovetail/background/whole_domain.hpp"
+#include "dovetail/pipeline/background.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A mesher of whole domains that follows given lines; `m.with_lines(lines)` -> M is told their points.
+template <class M>
+concept line_keeping_mesher = piece_mesher<M, 3> &&
+    requires(const M& m, std::vector<std::vector<vec3>> lines) {
+  { m.with_lines(lines) } -> std::same_as<M>;
+};
+
+/// `make_background<3>` with a mesher of whole domains; subdomains are meshed by another one:
+///
+///     auto background = make_background_by(mesher::cgal_mesh_3{}, model, size, given);
+///     auto mesh = generate_from_background<3>(model, std::move(background), given);
+///
+/// For models of one solid. The mesher's triangles become the coarse surface. Throws what its steps throw.
+template <line_keeping_mesher M, geometry_model G, sizing_field H, class Parameters>
+background_result<3> make_background_by(const M& mesh_whole, const G& model, const H& size,
+                                        const Parameters& given) {
+  const stopwatch clock;
+  const generate_options& options = given.options;
+  background_result<3> result;
+  result.summary.name = "background";
+  result.plan = plan_background<3>(model, size, given);
+
+  // The domain is finer than the mesh of it, so that its points are near to the CAD surface.
+  constexpr double finer = 0.4;
+  options.on_progress("background surface", 0, 0);
+  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
+  auto domain = surface_without_crossings(
+      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, options);
+  result.summary.children.push_back(domain.summary);
+  result.size = detail::allowed_size<3>(size, domain);
+
+  options.on_progress("background volume", 0, 0);
+  const simplicial_mesh<2> shape = detail::outer_surface(domain.surface, model.topology());
+  auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
+  result.summary.children.push_back(std::move(whole.summary));
+  result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
+  result.summary.children.push_back(options.background_improver(
+      result.mesh.volume, {.points = static_cast<local_id>(result.mesh.surface.mesh.points.size())}, coarse));
+  result.summary.set("predicted_elements", result.plan.predicted_elements);
+  result.summary.set("coarse_scale", result.plan.coarse_scale);
+  result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+} // namespace dovetail
