@@ -81,6 +81,30 @@ inline std::size_t inverted_count(const mesh_type& mesh) {
       }));
 }
 
+/// What must be the same before and after: the boundary, material interfaces, frozen sides and points, the
+/// volume of each tag; and there may not be more inverted elements. A valid mesh stays valid.
+inline void check_kept(const mesh_type& mesh, const mesh_type& result, const frozen_type& frozen = {}) {
+  const std::size_t inverted_before = inverted_count(mesh);
+  CHECK(inverted_count(result) <= inverted_before);
+  if (inverted_before == 0) {
+    const auto validity = dovetail::check_validity(result);
+    CHECK_MESSAGE(validity.valid(), validity.text());
+  }
+  CHECK(outer_and_material_sides(result) == outer_and_material_sides(mesh));
+  if (!frozen.sides.empty()) {
+    const auto sides = all_sides(result);
+    for (const auto& side : frozen.sides)
+      CHECK(sides.count(place(mesh, side)) == 1);
+  }
+  CHECK(result.points.size() >= static_cast<std::size_t>(frozen.points));
+  for (std::size_t v = 0; v < static_cast<std::size_t>(frozen.points); ++v)
+    CHECK(result.points[v] == mesh.points[v]);
+  const auto before = volume_per_tag(mesh), after = volume_per_tag(result);
+  CHECK(before.size() == after.size());
+  for (const auto& [tag, volume] : before)
+    CHECK(after.at(tag) == doctest::Approx(volume).epsilon(1e-9));
+}
+
 /// Improves a copy of `mesh` and checks all that the concept promises; returns the result. A mesh that is
 /// valid must stay valid and its worst element may not get worse; one with inverted elements must not get
 /// more.
@@ -89,26 +113,10 @@ mesh_type check_contract(const Improver& improver, const mesh_type& mesh, const 
                          const dovetail::any_sizing& size = {}) {
   mesh_type result = mesh;
   improver(result, frozen, size);
-  const std::size_t inverted_before = inverted_count(mesh);
-  const std::size_t inverted_after = inverted_count(result);
-  CHECK(inverted_after <= inverted_before);
-  if (inverted_before == 0) {
-    const auto validity = dovetail::check_validity(result);
-    CHECK_MESSAGE(validity.valid(), validity.text());
+  check_kept(mesh, result, frozen);
+  if (inverted_count(mesh) == 0)
     CHECK(dovetail::measure_quality(result).min_wedge_deg >=
           dovetail::measure_quality(mesh).min_wedge_deg - 1e-3);
-  }
-  CHECK(outer_and_material_sides(result) == outer_and_material_sides(mesh));
-  const auto sides = all_sides(result);
-  for (const auto& side : frozen.sides)
-    CHECK(sides.count(place(mesh, side)) == 1);
-  CHECK(result.points.size() >= static_cast<std::size_t>(frozen.points));
-  for (std::size_t v = 0; v < static_cast<std::size_t>(frozen.points); ++v)
-    CHECK(result.points[v] == mesh.points[v]);
-  const auto before = volume_per_tag(mesh), after = volume_per_tag(result);
-  CHECK(before.size() == after.size());
-  for (const auto& [tag, volume] : before)
-    CHECK(after.at(tag) == doctest::Approx(volume).epsilon(1e-9));
   return result;
 }
 

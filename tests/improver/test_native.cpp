@@ -1,5 +1,5 @@
 /// @file
-/// The native improver keeps its promises on thousands of small random meshes.
+/// The native improver keeps its promises: objectives, materials, frozen entities, sizes, tangled inputs.
 #include "dovetail/improver/native.hpp"
 #include "improver_checks.hpp"
 
@@ -34,8 +34,9 @@ mesh_type random_mesh(std::uint64_t seed) {
 
 } // namespace
 
-TEST_CASE("thousands of random meshes stay valid and do not get worse") {
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+TEST_CASE(
+    "squeezed and sheared cubes stay valid and do not get worse") { // test_random_meshes has ten thousand
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
     CAPTURE(seed);
     const auto mesh = random_mesh(seed);
     const auto result = check_contract(preset(seed), mesh);
@@ -57,7 +58,7 @@ TEST_CASE("every objective keeps the contract") {
 }
 
 TEST_CASE("materials keep their volume and their common sides") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
     auto mesh = random_mesh(seed);
     dovetail_test::random_numbers random(seed);
@@ -72,7 +73,7 @@ TEST_CASE("materials keep their volume and their common sides") {
 }
 
 TEST_CASE("frozen inner sides and points are kept") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
     const auto mesh = random_mesh(seed);
     dovetail_test::random_numbers random(seed + 1000);
@@ -118,7 +119,7 @@ TEST_CASE("a far-away or tiny mesh is improved like one at the origin") {
 }
 
 TEST_CASE("edges stay in the band around the size") {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
     const auto mesh = random_mesh(seed);
     double shortest = 1e300, longest = 0;

@@ -61,7 +61,7 @@ private:
     const auto counted = [&](float value, local_id end, int i, int j, int k) {
       const bool passes =
           !passing.empty() && has_edge_of({end, shell.ring[i], shell.ring[j], shell.ring[k]}, passing);
-      return !passes ? value : value > surely_positive ? 2.0F : -2.0F;
+      return !passes ? value : value > 0 ? 2.0F : -2.0F;
     };
     for (int i = 0; i + 1 < n; ++i)
       at(i, i + 1).worst = 2;

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/improver/cavity_topology.hpp"
 #include "dovetail/improver/tet_walks.hpp"
 
 #include <algorithm>
 
 namespace dovetail::improvement {
-
-inline constexpr int max_cavity = 128;
 
 /// The elements to take out and those to put in their place, with their values.
 struct local_change {
@@ -28,59 +27,18 @@ struct local_change {
   }
 };
 
-/// Values above this are computed from differences of coordinates with a relative error far smaller than
-/// themselves, so that a positive value proves a positive orientation; below it the exact test decides.
-inline constexpr float surely_positive = 1e-5F;
-
-/// A side between two fresh elements is already in the mesh outside the cavity. Possible in a tangled mesh
-/// only.
-inline bool repeats_a_side(const tet_complex& mesh, const local_change& change) {
-  const auto is_old = [&](local_id e) {
-    return std::find(change.old.begin(), change.old.end(), e) != change.old.end();
-  };
-  const auto has = [&](local_id e, const std::array<local_id, 3>& side) {
-    const auto& v = mesh.vertices(e);
-    return std::all_of(side.begin(), side.end(),
-                       [&v](local_id s) { return std::find(v.begin(), v.end(), s) != v.end(); });
-  };
-  for (int i = 0; i < change.fresh.size; ++i)
-    for (int side = 0; side < 4; ++side) {
-      const auto key = sorted_side(change.fresh[i], side);
-      bool is_inner = false;
-      for (int j = 0; j < change.fresh.size && !is_inner; ++j)
-        for (int other = 0; other < 4 && j != i; ++other)
-          is_inner = is_inner || sorted_side(change.fresh[j], other) == key;
-      if (!is_inner || !mesh.is_used(key[0]))
-        continue;
-      // All elements at the side's first vertex, without marks: this is rare.
-      bounded_list<local_id, 4 * max_star> star;
-      star.push(mesh.element_at(key[0]));
-      for (int k = 0; k < star.size; ++k) {
-        if (!is_old(star[k]) && has(star[k], key))
-          return true;
-        for (int s = 0; s < 4; ++s) {
-          const half_side beyond = mesh.across(star[k], s);
-          if (mesh.vertex(star[k], s) != key[0] && beyond != no_id &&
-              std::find(star.begin(), star.end(), element_of(beyond)) == star.end() &&
-              !star.push(element_of(beyond)))
-            return true;
-        }
-      }
-    }
-  return false;
-}
-
-/// Every fresh element is positively oriented, exactly, or has the right to be what the value says: a change
-/// of an inverted region may leave elements inverted, but never those that count as positive.
+/// Every fresh element is positively oriented, exactly: values are rounded, and that of an element with
+/// angles of 1e-8 degrees says nothing. In a tangled mesh one may stay inverted, but not count as positive
+/// and be inverted.
 inline bool is_sound(const tet_complex& mesh, const local_change& change) {
   for (int i = 0; i < change.fresh.size; ++i) {
-    if (change.values[i] > surely_positive || change.values[i] <= 0)
+    if (mesh.is_tangled() && change.values[i] <= 0)
       continue;
     const auto& v = change.fresh[i];
     if (orient3d(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) <= 0)
       return false;
   }
-  return !mesh.is_tangled() || !repeats_a_side(mesh, change);
+  return !mesh.is_tangled() || fills_a_ball(mesh, change.old.view(), change.fresh.view());
 }
 
 /// Replaces the old elements by the fresh ones.

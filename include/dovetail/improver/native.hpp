@@ -112,12 +112,12 @@ private:
     if (tangled == 0) {
       raise<Measure>(complex, surface, size, result);
     } else {
-      tet_complex original = complex;
+      const tet_complex original = complex;
       untangle(complex, surface, size);
-      evaluate<Measure>(complex);
+      complex.set_tangled(evaluate<Measure>(complex) > 0);
       raise<Measure>(complex, surface, size, result);
-      if (!has_distinct_sides(complex)) {
-        complex = std::move(original);
+      if (count_tangled(complex) > tangled || !has_distinct_sides(complex)) {
+        complex = original;
         result.warnings.emplace_back("the mesh is too tangled to be improved; it was left as it was");
       }
       report_tangled(complex, tangled, result);
@@ -184,10 +184,14 @@ private:
     }
     return true;
   }
-  static void report_tangled(const tet_complex& complex, std::size_t before, report& result) {
-    std::size_t left = 0;
+  static std::size_t count_tangled(const tet_complex& complex) {
+    std::size_t count = 0;
     for (local_id e = 0; e < complex.element_slots(); ++e)
-      left += complex.is_alive(e) && !is_positive(complex, e);
+      count += complex.is_alive(e) && !is_positive(complex, e);
+    return count;
+  }
+  static void report_tangled(const tet_complex& complex, std::size_t before, report& result) {
+    const std::size_t left = count_tangled(complex);
     result.set("inverted before", static_cast<double>(before));
     result.set("inverted after", static_cast<double>(left));
     if (left > 0)
@@ -210,7 +214,7 @@ private:
       const auto value = static_cast<float>(measure_of<Measure>(complex.point(v[0]), complex.point(v[1]),
                                                                 complex.point(v[2]), complex.point(v[3])));
       complex.set_value(e, value);
-      tangled += value <= surely_positive && !is_positive(complex, e);
+      tangled += !is_positive(complex, e);
     }
     return tangled;
   }

@@ -58,9 +58,8 @@ private:
       const auto& n = mesh.vertices(star_[i]);
       new_values_[i] = static_cast<float>(
           measure_of<Measure>(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])));
-      const bool doubtful = new_values_[i] > 0 && new_values_[i] <= surely_positive;
       if (!(new_values_[i] > old_worst) ||
-          (doubtful &&
+          ((new_values_[i] > 0 || !mesh.is_tangled()) &&
            !(orient3d(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])) > 0))) {
         mesh.set_point(v, from);
         return false;
