@@ -8,7 +8,8 @@ table of each and the ratios, as markdown. All programs run one after the other;
 With --mesher hxt the pieces are meshed by HXT, nothing is written, and the whole command is compared with Gmsh's own
 with HXT and two threads, at the size that gives it the same number of elements within 5 %. Gmsh writes its mesh, but
 the time between its messages that it begins and that it has done so is taken off. Its quality is that of the file,
-measured by `dovetail stats`; dovetail's is that of its own report.
+measured by `dovetail stats`; dovetail's is that of its own report. With --repeat N the two commands take turns N
+times, and the medians of their wall and processor seconds are compared: what a machine does besides hits both.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import json
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -33,8 +35,17 @@ class Failure(Exception):
     pass
 
 
+class Outcome:
+    """What a command printed, its wall seconds, those of all processors together, and its largest process in bytes."""
+
+    def __init__(self, text, seconds, usage):
+        self.text = text
+        self.seconds = seconds
+        self.processor_seconds = usage.ru_utime + usage.ru_stime
+        self.peak = 1024 * usage.ru_maxrss
+
+
 def run(command, limit):
-    """Output, seconds and peak memory in bytes of the largest process of a command."""
     begin = time.monotonic()
     with tempfile.TemporaryFile("w+", errors="replace") as output:
         process = subprocess.Popen(["timeout", str(limit)] + [str(word) for word in command],
@@ -46,7 +57,7 @@ def run(command, limit):
         text = output.read()
     if process.returncode != 0:
         raise Failure(f"{' '.join(map(str, command))}: exit status {process.returncode}: {text.strip()[-300:]}")
-    return text, seconds, 1024 * usage.ru_maxrss
+    return Outcome(text, seconds, usage)
 
 
 def read_json(path):
@@ -80,11 +91,12 @@ def model_diagonal(driver, model, folder, limit):
 
 def run_dovetail(driver, model, size, workers, out, options):
     report = f"{out}_{workers}.json"
-    _, seconds, peak = run([driver, "mesh", model, "--size", repr(size), "--workers", workers, "--out", out,
-                            "--report", report, "--quiet"] + driver_options(options), options.limit)
+    outcome = run([driver, "mesh", model, "--size", repr(size), "--workers", workers, "--out", out,
+                   "--report", report, "--quiet"] + driver_options(options), options.limit)
     result = read_json(report)
-    result["command_seconds"] = seconds
-    result["peak"] = max(peak, result["peak_rss_bytes"])
+    result["command_seconds"] = outcome.seconds
+    result["processor_seconds"] = outcome.processor_seconds
+    result["peak"] = max(outcome.peak, result["peak_rss_bytes"])
     return result
 
 
@@ -94,7 +106,8 @@ def driver_options(options):
 
 
 def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
-    """Seconds of the whole command, without those of writing, by HXT on several threads."""
+    """Wall seconds of the whole command without those of writing, and all its processor seconds, by HXT on several
+    threads."""
     begin = time.monotonic()
     written = []
     with subprocess.Popen(["timeout", str(limit), gmsh, "-3", "-algo", "hxt", "-clmin", repr(size), "-clmax",
@@ -104,17 +117,20 @@ def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
         for line in process.stdout:
             if "riting '" in line:  # "Writing ..." and "Done writing ..."
                 written.append(time.monotonic())
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
     end = time.monotonic()
     if process.returncode != 0 or len(written) != 2:
         raise Failure(f"gmsh -algo hxt -clmax {size}: exit status {process.returncode}")
-    return end - begin - (written[1] - written[0])
+    return end - begin - (written[1] - written[0]), usage.ru_utime + usage.ru_stime
 
 
 def run_gmsh(gmsh, algorithm, model, size, folder, limit):
-    """(elements, seconds of 3D meshing, seconds in all, peak) by one thread."""
+    """(elements, seconds of 3D meshing, peak) by one thread."""
     mesh = os.path.join(folder, "gmsh.msh")
-    text, seconds, peak = run([gmsh, "-3", "-algo", algorithm, "-clmin", repr(size), "-clmax", repr(size), "-nt", 1,
-                               "-format", "msh41", "-bin", "-o", mesh, model], limit)
+    outcome = run([gmsh, "-3", "-algo", algorithm, "-clmin", repr(size), "-clmax", repr(size), "-nt", 1, "-format",
+                   "msh41", "-bin", "-o", mesh, model], limit)
+    text = outcome.text
     if os.path.exists(mesh):
         os.remove(mesh)
     volume = re.search(r"Done meshing 3D \(Wall ([0-9.e+-]+)s", text)
@@ -122,11 +138,12 @@ def run_gmsh(gmsh, algorithm, model, size, folder, limit):
     tetrahedra = re.findall(r"(\d+) tetrahedra", text) or re.findall(r"(\d+) elements", text)
     if not volume or not tetrahedra:
         raise Failure(f"gmsh -algo {algorithm}: {text.strip()[-300:]}")
-    return int(tetrahedra[-1]), float(volume.group(1)) + float(optimise.group(1) if optimise else 0), seconds, peak
+    return int(tetrahedra[-1]), float(volume.group(1)) + float(optimise.group(1) if optimise else 0), \
+        outcome.peak
 
 
 def gmsh_with_as_many(driver, gmsh, size, elements, options, folder):
-    """Gmsh's run whose number of elements is within 5 % of the given one: size, seconds, and what stats says."""
+    """Gmsh's size that gives a number of elements within 5 % of the given one, and what stats says of that mesh."""
     mesh = os.path.join(folder, "gmsh.msh")
     report = os.path.join(folder, "gmsh.json")
     own = float(f"{options.gmsh_size or GMSH_SIZE_FACTOR * size:.4g}")
@@ -135,8 +152,9 @@ def gmsh_with_as_many(driver, gmsh, size, elements, options, folder):
         run([driver, "stats", mesh, "--report", report], options.limit)
         os.remove(mesh)
         result = read_json(report)
+        result["command_seconds"], result["processor_seconds"] = seconds
         if abs(result["elements"] / elements - 1) <= SAME_COUNT:
-            return own, seconds, result
+            return own, result
         own = float(f"{own * (result['elements'] / elements) ** (1 / 3):.4g}")
     raise Failure(f"no size gives Gmsh {elements} elements within 5 %; give --gmsh-size")
 
@@ -200,21 +218,36 @@ def print_others(rows, runs):
                   f"| {own / rate(elements, seconds):.2f} |")
 
 
-def print_whole_commands(runs, gmsh_run):
-    gmsh_size, gmsh_seconds, gmsh_result = gmsh_run
-    print("\n| whole command, nothing written | elements | seconds | over Gmsh's | smallest dihedral angle, degrees "
-          "| under 12 degrees, per million | under 24 degrees, per million |")
-    print("|---|--:|--:|--:|--:|--:|--:|")
+def take_turns(driver, gmsh, size, out, gmsh_size, runs, gmsh_result, options):
+    """Runs both commands again in turns, and puts the medians of their seconds in place of the first ones."""
+    workers = max(runs)
+    own = [runs[workers]]
+    other = [gmsh_result]
+    for _ in range(options.repeat - 1):
+        own.append(run_dovetail(driver, options.model, size, workers, out, options))
+        seconds = run_gmsh_unwritten(gmsh, options.model, gmsh_size, os.devnull, options.limit)
+        other.append(dict(zip(("command_seconds", "processor_seconds"), seconds)))
+    for result, turns in ((runs[workers], own), (gmsh_result, other)):
+        medians = {key: statistics.median(turn[key] for turn in turns)
+                   for key in ("command_seconds", "processor_seconds")}
+        result.update(medians)
 
-    def line(name, result, seconds):
+
+def print_whole_commands(runs, gmsh_size, gmsh_result):
+    print("\n| whole command, nothing written | elements | seconds | over Gmsh's | processor seconds "
+          "| smallest dihedral angle, degrees | under 12 degrees, per million | under 24 degrees, per million |")
+    print("|---|--:|--:|--:|--:|--:|--:|--:|")
+
+    def line(name, result):
         quality = result["quality"]
-        print(f"| {name} | {result['elements']:,} | {seconds:.2f} | {seconds / gmsh_seconds:.2f} "
-              f"| {quality['min_dihedral_deg']:.1f} | {quality['bad_per_million']:,.1f} "
-              f"| {quality['low_per_million']:,.1f} |")
+        seconds = result["command_seconds"]
+        print(f"| {name} | {result['elements']:,} | {seconds:.2f} | {seconds / gmsh_result['command_seconds']:.2f} "
+              f"| {result['processor_seconds']:.1f} | {quality['min_dihedral_deg']:.1f} "
+              f"| {quality['bad_per_million']:,.1f} | {quality['low_per_million']:,.1f} |")
 
     for workers, result in runs.items():
-        line(f"dovetail, {workers} worker{'s' if workers > 1 else ''}", result, result["command_seconds"])
-    line(f"gmsh -3 -algo hxt -nt {GMSH_THREADS}, size {gmsh_size:g}", gmsh_result, gmsh_seconds)
+        line(f"dovetail, {workers} worker{'s' if workers > 1 else ''}", result)
+    line(f"gmsh -3 -algo hxt -nt {GMSH_THREADS}, size {gmsh_size:g}", gmsh_result)
 
 
 def measure_others(options, build, size, out, folder):
@@ -222,15 +255,14 @@ def measure_others(options, build, size, out, folder):
     gmsh = shutil.which("gmsh")
     for algorithm in ("hxt", "del3d") if gmsh else ():
         def measure(algorithm=algorithm):
-            elements, seconds, _, peak = run_gmsh(gmsh, algorithm, options.model, size, folder, options.limit)
-            return elements, seconds, peak
+            return run_gmsh(gmsh, algorithm, options.model, size, folder, options.limit)
         yield f"gmsh -3 -algo {algorithm}, same model and size", measure
 
 
 def tetgen_alone(build, size, out, limit):
     program = os.path.join(build, "benchmarks", "tetgen_alone")
-    text, _, _ = run([program, os.path.join(out, "mesh.pvtu"), repr(size)], limit)
-    result = json.loads(text.strip().splitlines()[-1])
+    outcome = run([program, os.path.join(out, "mesh.pvtu"), repr(size)], limit)
+    result = json.loads(outcome.text.strip().splitlines()[-1])
     return result["elements"], result["seconds"], result["peak_gib"] * GIB
 
 
@@ -251,9 +283,13 @@ def main():
     parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
     parser.add_argument("--mesher", help="of `dovetail mesh`; hxt: compared with Gmsh's own command with HXT")
     parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --mesher hxt")
+    parser.add_argument("--repeat", type=int, default=1, help="turns of each command with --mesher hxt")
     parser.add_argument("--alone", action="store_true", help="leave TetGen and Gmsh out")
-    parser.add_argument("driver_options", nargs="*", help="after --: more options of `dovetail mesh`")
-    options = parser.parse_args()
+    parser.epilog = "After --: more options of `dovetail mesh`."
+    words = sys.argv[1:]
+    end = words.index("--") if "--" in words else len(words)
+    options = parser.parse_args(words[:end])
+    options.driver_options = words[end + 1:]
     driver = os.path.join(options.build, "app", "dovetail")
     with tempfile.TemporaryDirectory(prefix="dovetail_pipeline_") as folder:
         size = options.size or find_size(driver, options.model, options.elements, folder, options.limit)
@@ -266,7 +302,10 @@ def main():
             return
         if options.mesher == "hxt":
             elements = runs[max(runs)]["elements"]
-            print_whole_commands(runs, gmsh_with_as_many(driver, find_gmsh(), size, elements, options, folder))
+            gmsh = find_gmsh()
+            gmsh_size, gmsh_result = gmsh_with_as_many(driver, gmsh, size, elements, options, folder)
+            take_turns(driver, gmsh, size, out, gmsh_size, runs, gmsh_result, options)
+            print_whole_commands(runs, gmsh_size, gmsh_result)
         else:
             print_others([(name, attempt(measure))
                           for name, measure in measure_others(options, options.build, size, out, folder)], runs)
