@@ -22,9 +22,11 @@ struct by_regions {
   /// Costs what M does. Throws `mesher_error` naming the face whose lines cross, and what M throws.
   mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
     const stopwatch clock;
-    auto result = assemble_regions(input, [&](const any_surface& surface, const patch_boundary& boundary) {
-      return surface.plane ? remesher(*surface.plane, boundary, size) : remesher(surface, boundary, size);
-    });
+    const auto mesh_region = [&](const any_surface& surface, const patch_boundary& boundary,
+                                 const any_sizing& inner) {
+      return surface.plane ? remesher(*surface.plane, boundary, inner) : remesher(surface, boundary, inner);
+    };
+    auto result = assemble_regions(input, size, mesh_region);
     result.summary.seconds = clock.seconds();
     return result;
   }

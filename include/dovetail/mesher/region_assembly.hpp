@@ -137,29 +137,52 @@ patch_mesh mesh_without_forbidden_chords(const surface_region& region, const Mes
   return made;
 }
 
+/// Meshes a region, again with smaller sizes inside as long as triangles turn away from its surface; of these
+/// attempts the one with the fewest such triangles.
+template <class MeshRegion>
+patch_mesh mesh_without_folds(const surface_region& region, const any_sizing& size,
+                              const MeshRegion& mesh_region) {
+  const auto with_size = [&](const any_sizing& inner) {
+    return mesh_without_forbidden_chords(region,
+                                         [&](const any_surface& surface, const patch_boundary& boundary) {
+                                           return mesh_region(surface, boundary, inner);
+                                         });
+  };
+  patch_mesh best = with_size(size);
+  double factor = 1;
+  for (int round = 0; round < 6 && !best.folded.empty(); ++round) {
+    factor *= 0.8;
+    patch_mesh made = with_size([&size, factor](vec3 p) { return factor * size(p); });
+    if (made.folded.size() < best.folded.size())
+      best = std::move(made);
+  }
+  return best;
+}
+
 } // namespace detail
 
 namespace mesher {
 
-/// Meshes the regions of a piece one by one, `mesh_region(surface, boundary)` giving a `patch_mesh`, and
-/// joins them along their lines. Throws `mesher_error` when the lines of a region cross in its parameter
-/// plane.
+/// Meshes the regions of a piece one by one, `mesh_region(surface, boundary, size)` giving a `patch_mesh`,
+/// and joins them along their lines. Throws `mesher_error` naming the face when the lines of a region cross
+/// in its parameter plane or its triangles cannot be kept from folding over.
 template <class MeshRegion>
-mesher_result<2> assemble_regions(const mesher_input<2>& input, const MeshRegion& mesh_region) {
+mesher_result<2> assemble_regions(const mesher_input<2>& input, const any_sizing& size,
+                                  const MeshRegion& mesh_region) {
   mesher_result<2> result;
   result.mesh.points = input.boundary.points;
-  std::size_t folded = 0;
   for (const surface_region& region : input.regions) {
-    const patch_mesh made = dovetail::detail::mesh_without_forbidden_chords(region, mesh_region);
+    const patch_mesh made = dovetail::detail::mesh_without_folds(region, size, mesh_region);
     if (!made.crossings.empty() || !made.misplaced.empty())
       throw mesher_error("a region of face " + std::to_string(region.face) +
                          ": its boundary lines cross in the parameter plane");
-    folded += made.folded.size();
+    if (!made.folded.empty())
+      throw mesher_error("a region of face " + std::to_string(region.face) + ": " +
+                         std::to_string(made.folded.size()) +
+                         " triangles stay folded over; repair the face or give a smaller size there");
     dovetail::detail::append_region(region, made, result);
   }
   result.summary.set("regions", static_cast<double>(input.regions.size()));
-  if (folded > 0)
-    result.summary.warnings.push_back(std::to_string(folded) + " triangles turn away from the surface");
   return result;
 }
 
