@@ -5,7 +5,7 @@
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
 #include <cstddef>
@@ -40,6 +40,18 @@ struct surface_host {
 
   explicit operator bool() const { return static_cast<bool>(project); }
 };
+
+/// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
+/// triangles are left alone.
+inline std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh,
+                                              const std::vector<bool>& is_pole) {
+  std::vector<simplex<1>> sides;
+  for (const auto& [a, b, c] : mesh.elements)
+    if (is_pole[static_cast<std::size_t>(a)] || is_pole[static_cast<std::size_t>(b)] ||
+        is_pole[static_cast<std::size_t>(c)])
+      sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
+  return sides;
+}
 
 namespace improvement {
 

@@ -2,14 +2,13 @@
 /// Which elements cannot be good because of the fixed sides they touch, and quality counts of both classes.
 #pragma once
 
-#include "dovetail/core/report.hpp"
+#include "dovetail/improver/quality_counts.hpp"
 #include "dovetail/improver/tet_complex.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 namespace dovetail::improvement {
@@ -101,27 +100,6 @@ private:
   std::vector<std::uint8_t> is_limiting_;
 };
 
-/// Counts of poor elements, of those the surface limits and of the rest.
-struct quality_counts {
-  struct of_class {
-    std::size_t elements = 0, inverted = 0, bad = 0, low = 0;
-    double min_angle = 180, max_angle = 0; ///< dihedral, degrees; of elements that are not inverted
-  };
-  of_class limited, free;
-
-  void write_to(report& to, const std::string& when) const {
-    for (const auto& [name, counts] : {std::pair{"limited", limited}, std::pair{"free", free}}) {
-      const std::string prefix = when + " " + name + " ";
-      to.set(prefix + "elements", static_cast<double>(counts.elements));
-      to.set(prefix + "inverted", static_cast<double>(counts.inverted));
-      to.set(prefix + "bad", static_cast<double>(counts.bad));
-      to.set(prefix + "low", static_cast<double>(counts.low));
-      to.set(prefix + "min angle", counts.min_angle);
-      to.set(prefix + "max angle", counts.max_angle);
-    }
-  }
-};
-
 /// The smallest and largest cosine of an element's dihedral angles, and six times its signed volume.
 struct dihedral_cosines {
   double least, most, six_volumes;
@@ -138,44 +116,19 @@ inline dihedral_cosines dihedral_cosines_of(vec3 p, vec3 q, vec3 r, vec3 s) {
 
 /// O(elements).
 inline quality_counts count_quality(const tet_complex& mesh, const surface_limits& limits) {
-  static const double cos_bad = std::cos(12 * std::numbers::pi / 180);
-  static const double cos_low = std::cos(24 * std::numbers::pi / 180);
-  struct extremes {
-    double least = 1, most = -1;
-  };
-  quality_counts counts;
-  extremes of_limited, of_free;
+  quality_counter counter(24, 12);
   for (local_id e = 0; e < mesh.element_slots(); ++e) {
     if (!mesh.is_alive(e))
       continue;
     const auto& v = mesh.vertices(e);
-    const bool is_limited = limits.limits(v);
-    auto& counted = is_limited ? counts.limited : counts.free;
-    auto& extreme = is_limited ? of_limited : of_free;
     const auto cosines =
         dihedral_cosines_of(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-    ++counted.elements;
-    if (!(cosines.six_volumes > 0)) {
-      ++counted.inverted;
-      ++counted.bad;
-      ++counted.low;
-      continue;
-    }
-    counted.bad += cosines.most > cos_bad;
-    counted.low += cosines.most > cos_low;
-    extreme.least = std::min(extreme.least, cosines.least);
-    extreme.most = std::max(extreme.most, cosines.most);
+    if (cosines.six_volumes > 0)
+      counter.add(limits.limits(v), cosines.most, cosines.least);
+    else
+      counter.add_inverted(limits.limits(v));
   }
-  const auto degrees = [](double cosine) {
-    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-  };
-  for (const auto& [counted, extreme] :
-       {std::pair{&counts.limited, of_limited}, std::pair{&counts.free, of_free}})
-    if (counted->elements > counted->inverted) {
-      counted->min_angle = degrees(extreme.most);
-      counted->max_angle = degrees(extreme.least);
-    }
-  return counts;
+  return counter.result();
 }
 
 } // namespace dovetail::improvement

@@ -25,20 +25,14 @@ surface_host host_on_model(const G& model) {
           {}};
 }
 
-/// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
-/// triangles are left alone.
+/// Which points are poles of a face.
 template <geometry_model G>
-std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh, const G& model) {
+std::vector<bool> poles_of(const simplicial_mesh<2>& mesh, const G& model) {
   std::vector<bool> is_pole(mesh.points.size(), false);
   for (const auto& curve : model.topology().curves)
     if (curve.degenerate)
       is_pole[static_cast<std::size_t>(curve.vertices[0])] = true;
-  std::vector<simplex<1>> sides;
-  for (const auto& [a, b, c] : mesh.elements)
-    if (is_pole[static_cast<std::size_t>(a)] || is_pole[static_cast<std::size_t>(b)] ||
-        is_pole[static_cast<std::size_t>(c)])
-      sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
-  return sides;
+  return is_pole;
 }
 
 /// Improves a surface mesh in place by a native preset; points [0, vertices of the model) are its vertices.
@@ -48,7 +42,7 @@ report improve_on_model(const Preset& preset, surface_mesh& surface, const G& mo
                         const any_sizing& size = {}) {
   surface_host faces = host_on_model(model);
   faces.corner_uv = surface.corner_uv;
-  frozen_entities<2> frozen{0, sides_at_poles(surface.mesh, model)};
+  frozen_entities<2> frozen{0, sides_at_poles(surface.mesh, poles_of(surface.mesh, model))};
   for (const auto& edge : surface.curve_edges)
     frozen.sides.push_back(edge.vertices);
   report result = improve_surface(preset, surface.mesh, frozen, size, faces, &surface.corner_uv);

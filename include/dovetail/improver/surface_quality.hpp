@@ -2,8 +2,8 @@
 /// Quality counts of a surface, of the triangles that its fixed sides limit and of the rest.
 #pragma once
 
+#include "dovetail/improver/quality_counts.hpp"
 #include "dovetail/improver/surface_complex.hpp"
-#include "dovetail/improver/surface_limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,49 +47,25 @@ inline std::array<double, 2> extreme_cosines(vec3 a, vec3 b, vec3 c) {
 
 /// Counts triangles by their smallest angle. Limited are those that touch a limiting point. O(triangles).
 inline quality_counts count_quality(const surface_complex& mesh) {
-  static const double cos_low = std::cos((low_triangle_angle - 1e-9) * std::numbers::pi / 180);
-  static const double cos_bad = std::cos(0.5 * low_triangle_angle * std::numbers::pi / 180);
+  quality_counter counter(low_triangle_angle - 1e-9, 0.5 * low_triangle_angle);
   const auto& table = mesh.table;
   const auto is_limiting = limiting_points(mesh);
-  struct extremes {
-    double most = -1, least = 1; ///< cosines of the smallest and of the largest angle
-  };
-  extremes of_limited, of_free;
-  quality_counts counts;
   for (local_id t = 0; t < table.triangle_slots(); ++t) {
     if (!table.alive(t))
       continue;
-    std::array<local_id, 3> v;
+    std::array<std::size_t, 3> v;
     for (std::size_t k = 0; k < 3; ++k)
-      v[k] = table.vertex[mesh.at(3 * t) + k];
-    const bool is_limited =
-        is_limiting[mesh.at(v[0])] || is_limiting[mesh.at(v[1])] || is_limiting[mesh.at(v[2])];
-    auto& counted = is_limited ? counts.limited : counts.free;
-    ++counted.elements;
+      v[k] = mesh.at(table.vertex[mesh.at(3 * t) + k]);
+    const bool is_limited = is_limiting[v[0]] || is_limiting[v[1]] || is_limiting[v[2]];
     if (!(mesh.quality(t) > 0)) {
-      ++counted.inverted;
-      ++counted.bad;
-      ++counted.low;
+      counter.add_inverted(is_limited);
       continue;
     }
-    const auto [most, least] =
-        extreme_cosines(mesh.point[mesh.at(v[0])], mesh.point[mesh.at(v[1])], mesh.point[mesh.at(v[2])]);
-    counted.low += most > cos_low;
-    counted.bad += most > cos_bad;
-    auto& extreme = is_limited ? of_limited : of_free;
-    extreme.most = std::max(extreme.most, most);
-    extreme.least = std::min(extreme.least, least);
+    const auto [of_smallest, of_largest] =
+        extreme_cosines(mesh.point[v[0]], mesh.point[v[1]], mesh.point[v[2]]);
+    counter.add(is_limited, of_smallest, of_largest);
   }
-  const auto degrees = [](double cosine) {
-    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-  };
-  for (const auto& [counted, extreme] :
-       {std::pair{&counts.limited, of_limited}, std::pair{&counts.free, of_free}})
-    if (counted->elements > counted->inverted) {
-      counted->min_angle = degrees(extreme.most);
-      counted->max_angle = degrees(extreme.least);
-    }
-  return counts;
+  return counter.result();
 }
 
 } // namespace dovetail::improvement

@@ -44,25 +44,15 @@ inline surface_host host_of_piece(const mesher_input<2>& input, std::vector<std:
   return host;
 }
 
-/// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
-/// triangles are left alone.
-inline std::vector<simplex<1>> sides_at_poles(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
-  std::vector<bool> is_pole(mesh.points.size(), false);
-  bool any = false;
+/// Which points of a piece are poles: ends of segments that are a point in space.
+inline std::vector<bool> poles_of(const mesher_input<2>& input, std::size_t points) {
+  std::vector<bool> is_pole(points, false);
   for (const surface_region& region : input.regions)
     for (const auto& [a, b] : region.boundary.segments)
       if (const local_id label = region.boundary.labels[static_cast<std::size_t>(a)];
           label == region.boundary.labels[static_cast<std::size_t>(b)])
-        is_pole[static_cast<std::size_t>(label)] = any = true;
-  std::vector<simplex<1>> sides;
-  const auto at_pole = [&](const simplex<2>& t) {
-    return is_pole[static_cast<std::size_t>(t[0])] || is_pole[static_cast<std::size_t>(t[1])] ||
-           is_pole[static_cast<std::size_t>(t[2])];
-  };
-  for (const simplex<2>& t : mesh.elements)
-    if (any && at_pole(t))
-      sides.insert(sides.end(), {{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}});
-  return sides;
+        is_pole[static_cast<std::size_t>(label)] = true;
+  return is_pole;
 }
 
 /// Improves tetrahedra inside their frozen boundary.
@@ -105,7 +95,7 @@ report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const
   frozen_entities<2> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
-  const auto at_poles = sides_at_poles(input, made.mesh);
+  const auto at_poles = sides_at_poles(made.mesh, poles_of(input, made.mesh.points.size()));
   frozen.sides.insert(frozen.sides.end(), at_poles.begin(), at_poles.end());
   constexpr bool takes_host = requires(const surface_host& host) {
     improve(made.mesh, frozen, size, host);
