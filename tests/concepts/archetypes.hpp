@@ -11,6 +11,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
+#include "dovetail/remesh/concepts.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <filesystem>
@@ -72,6 +73,24 @@ public:
   static constexpr mesher_traits traits = M::traits;
   mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
     return held_(input, size);
+  }
+
+private:
+  M held_;
+};
+// end
+
+// for surface_mesher
+template <surface_mesher M>
+class surface_mesher_as {
+public:
+  explicit surface_mesher_as(M held) : held_(std::move(held)) {}
+  surface_mesher_as(const surface_mesher_as&) = default;
+  surface_mesher_as& operator=(const surface_mesher_as&) = delete;
+
+  template <patch_surface S>
+  patch_mesh operator()(const S& surface, const patch_boundary& boundary, const any_sizing& size) const {
+    return held_(surface, boundary, size);
   }
 
 private:

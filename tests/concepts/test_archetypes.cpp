@@ -2,6 +2,8 @@
 
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/pipeline/generate.hpp"
 
@@ -20,6 +22,7 @@ static_assert(sizing_field<archetype::sizing> && sizing_field<any_sizing>);
 static_assert(sizing_field<decltype([](vec3 p) { return p.x; })>);
 static_assert(piece_mesher<archetype::mesher, 3> && boundary_keeping_mesher<archetype::mesher, 3>);
 static_assert(!piece_mesher<archetype::mesher, 2>, "it makes tetrahedra");
+static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher>, any_surface>);
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
 static_assert(executor<archetype::executor>);
@@ -67,6 +70,20 @@ TEST_CASE("the pipeline needs no more of any policy than its concept says") {
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);
   CHECK(io::check_distributed(result.mesh).valid());
+}
+
+TEST_CASE("pieces of triangles need no more of a surface mesher than its concept says") {
+  using surface_mesher = archetype::surface_mesher_as<remesh::patch_remesher>;
+  const surface_mesher held(remesh::patch_remesher{});
+  const auto result = generate<2>(
+      unit_cube(), archetype::sizing(0),
+      parameters<>{}.with_mesher(mesher::by_regions<surface_mesher>{held}).with_options({.subdomains = 3}));
+  CHECK(result.failures.empty());
+  CHECK(io::check_distributed(result.mesh).valid());
+  CHECK(io::mesh_hash(result.mesh) ==
+        io::mesh_hash(
+            generate<2>(unit_cube(), archetype::sizing(0), parameters<>{}.with_options({.subdomains = 3}))
+                .mesh));
 }
 
 } // namespace
