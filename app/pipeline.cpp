@@ -1,14 +1,6 @@
 #include "pipeline.hpp"
 
 namespace dovetail::app {
-namespace {
-
-auto composed(const chosen_policies& policies, const generate_options& options) {
-  return parameters<any_mesher, any_partitioner, any_improver, any_executor>{
-      policies.mesher, policies.partitioner, policies.improver, policies.executor, options};
-}
-
-} // namespace
 
 generate_result generate_mesh(const any_geometry& geometry, const any_sizing& size,
                               const chosen_policies& policies, const generate_options& options) {

@@ -12,24 +12,26 @@
 namespace dovetail::app {
 
 /// The four policies of a run.
-struct chosen_policies {
-  any_mesher mesher;
+template <class Mesher>
+struct policies_with {
+  Mesher mesher;
   any_partitioner partitioner;
   any_improver improver;
   any_executor executor;
 };
-
-/// The four policies of a run of D = 2.
-struct chosen_surface_policies {
-  any_surface_mesher mesher;
-  any_partitioner partitioner;
-  any_improver improver;
-  any_executor executor;
-};
+using chosen_policies = policies_with<any_mesher>;
+using chosen_surface_policies = policies_with<any_surface_mesher>; ///< of D = 2
 
 /// The policies of a run of D.
 template <int D>
 using policies_of = std::conditional_t<D == 3, chosen_policies, chosen_surface_policies>;
+
+/// The library's parameters with these policies.
+template <class Mesher>
+auto composed(const policies_with<Mesher>& policies, const generate_options& options) {
+  return parameters<Mesher, any_partitioner, any_improver, any_executor>{
+      policies.mesher, policies.partitioner, policies.improver, policies.executor, options};
+}
 
 /// `generate<2>` with these policies.
 generated<2> generate_mesh(const any_geometry& geometry, const any_sizing& size,

@@ -1,14 +1,6 @@
 #include "pipeline.hpp"
 
 namespace dovetail::app {
-namespace {
-
-auto composed(const chosen_surface_policies& policies, const generate_options& options) {
-  return parameters<any_surface_mesher, any_partitioner, any_improver, any_executor>{
-      policies.mesher, policies.partitioner, policies.improver, policies.executor, options};
-}
-
-} // namespace
 
 generated<2> generate_mesh(const any_geometry& geometry, const any_sizing& size,
                            const chosen_surface_policies& policies, const generate_options& options) {
