@@ -79,23 +79,25 @@ private:
 };
 static_assert(boundary_keeping_mesher<any_mesher, 3> && has_fallbacks<any_mesher>);
 
-/// Holds any mesher of triangles that keeps its boundary.
+/// Holds any mesher of triangles that keeps its boundary; `actual_traits` are the held one's.
 class any_surface_mesher {
 public:
+  /// Threads are given to it only if `actual_traits` allow them.
   static constexpr mesher_traits traits{.keeps_boundary = true, .thread_safe = true};
 
   template <boundary_keeping_mesher<2> M>
-  any_surface_mesher(std::string name, M policy) : name_(std::move(name)), call_(std::move(policy)) {
-    static_assert(M::traits.thread_safe);
-  }
+  any_surface_mesher(std::string name, M policy)
+      : name_(std::move(name)), actual_traits_(M::traits), call_(std::move(policy)) {}
 
   const std::string& name() const { return name_; }
+  const mesher_traits& actual_traits() const { return actual_traits_; }
   mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
     return call_(input, size);
   }
 
 private:
   std::string name_;
+  mesher_traits actual_traits_;
   std::function<mesher_result<2>(const mesher_input<2>&, const any_sizing&)> call_;
 };
 static_assert(boundary_keeping_mesher<any_surface_mesher, 2>);

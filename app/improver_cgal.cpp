@@ -7,7 +7,8 @@
 namespace dovetail::app {
 
 any_improver cgal_improver() {
-  return {"cgal", improvement::cgal{}};
+  // CGAL 5.5 flips some pieces without end; others take seconds. A piece beyond the limit stays as it was.
+  return {"cgal", improvement::cgal{.limit_seconds = 30}};
 }
 
 } // namespace dovetail::app

@@ -138,14 +138,15 @@ any_improver make_improver(const std::string& name) {
   return chosen(improvers(), name, "--improver");
 }
 
-any_executor make_executor(const std::string& name, int workers, const any_mesher& mesher) {
+any_executor make_executor(const std::string& name, int workers, const std::string& mesher,
+                           const mesher_traits& traits) {
   if (workers < 0)
     throw command_line_error("--workers: " + std::to_string(workers) + " is negative");
   if (workers == 0)
     workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   if (name == "threads") {
-    if (!mesher.actual_traits().thread_safe)
-      throw command_line_error("--executor: the mesher " + mesher.name() +
+    if (!traits.thread_safe)
+      throw command_line_error("--executor: the mesher " + mesher +
                                " cannot run in several threads of one process; use processes");
     return {"threads", parallel::threads{.worker_count = workers}};
   }

@@ -21,8 +21,9 @@ any_partitioner make_partitioner(const std::string& name);
 any_mesher make_mesher(const std::string& name);
 any_improver make_improver(const std::string& name);
 
-/// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when the mesher
-/// cannot run in this executor.
-any_executor make_executor(const std::string& name, int workers, const any_mesher& mesher);
+/// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of
+/// these traits cannot run in this executor.
+any_executor make_executor(const std::string& name, int workers, const std::string& mesher,
+                           const mesher_traits& traits);
 
 } // namespace dovetail::app

@@ -11,14 +11,18 @@ namespace dovetail::app {
 
 chosen_policies make_policies(const mesh_options& options) {
   any_mesher mesher = make_mesher(options.mesher);
-  any_executor executor = make_executor(options.executor, options.workers, mesher);
+  any_executor executor =
+      make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
   return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
           std::move(executor)};
 }
 
 chosen_surface_policies make_surface_policies(const mesh_options& options) {
-  return {make_surface_mesher(options.mesher), make_partitioner(options.partitioner),
-          make_improver(options.improver), make_surface_executor(options.executor, options.workers)};
+  any_surface_mesher mesher = make_surface_mesher(options.mesher);
+  any_executor executor =
+      make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
+  return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
+          std::move(executor)};
 }
 
 generate_options make_generate_options(const mesh_options& options) {

@@ -4,9 +4,11 @@
 #include "policies.hpp"
 
 #include "dovetail/mesher/native_surface.hpp"
-#include "dovetail/parallel/threads.hpp"
-#ifdef DOVETAIL_DRIVER_WITH_CGAL_PLANE
-#include "dovetail/mesher/cgal_plane.hpp"
+#ifdef DOVETAIL_DRIVER_WITH_CGAL
+#include "dovetail/mesher/cgal_surface.hpp"
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_GMSH
+#include "dovetail/mesher/gmsh_surface.hpp"
 #endif
 
 namespace dovetail::app {
@@ -15,8 +17,11 @@ namespace {
 std::vector<any_surface_mesher> surface_meshers() {
   std::vector<any_surface_mesher> known;
   known.emplace_back("native", mesher::native_surface{});
-#ifdef DOVETAIL_DRIVER_WITH_CGAL_PLANE
-  known.emplace_back("cgal", mesher::cgal_plane{});
+#ifdef DOVETAIL_DRIVER_WITH_CGAL
+  known.emplace_back("cgal", mesher::cgal_surface{});
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_GMSH
+  known.emplace_back("gmsh", mesher::gmsh_surface{});
 #endif
   return known;
 }
@@ -38,12 +43,6 @@ any_surface_mesher make_surface_mesher(const std::string& name) {
     known += (known.empty() ? "" : ", ") + policy.name();
   }
   throw command_line_error("--mesher: there is no '" + name + "' for triangles; there are: " + known);
-}
-
-any_executor make_surface_executor(const std::string& name, int workers) {
-  if (name == "threads" && workers >= 0)
-    return {"threads", parallel::threads{.worker_count = workers}};
-  return make_executor(name, workers, make_mesher({}));
 }
 
 } // namespace dovetail::app
