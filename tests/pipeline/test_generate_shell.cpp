@@ -5,10 +5,12 @@
 #include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/mesh/crossing_triangles.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "io/scratch_folder.hpp"
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -62,6 +64,21 @@ TEST_CASE("the shell's mesh is the same for any number of workers") {
   for (const int workers : {1, 2, 4})
     CHECK(io::mesh_hash(mesh_shell(sphere, 0.08, 6, parallel::processes{.worker_count = workers}).mesh) ==
           expected);
+}
+
+TEST_CASE("with a size as large as the model, sheets that are near to each other do not cross") {
+  const auto outside = BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape();
+  const auto pipe = BRepAlgoAPI_Cut(outside, BRepPrimAPI_MakeCylinder(0.85, 2.0).Shape()).Shape();
+  const auto result = mesh_shell(pipe, 3.4, 2);
+  const auto whole_mesh = require_valid(result);
+  CHECK(euler_characteristic(whole_mesh) == 0);
+  std::vector<vec3> points;
+  for (const auto& [id, p] : whole_mesh.points)
+    points.push_back(p);
+  std::vector<simplex<2>> triangles;
+  for (const auto& [a, b, c] : whole_mesh.triangles)
+    triangles.push_back({static_cast<local_id>(a), static_cast<local_id>(b), static_cast<local_id>(c)});
+  CHECK(crossing_triangles(points, triangles, {}, parallel::serial{}).empty());
 }
 
 TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, with its faces") {
