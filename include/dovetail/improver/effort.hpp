@@ -9,7 +9,8 @@
 namespace dovetail::improvement {
 
 /// What to expect of an element: *narrow* are those at a limiting part of the fixed surface and those with
-/// fixed vertices only that are not bad. Thin parts consist of nothing else, and most of them are beyond help.
+/// fixed vertices only that are not bad. Thin parts consist of nothing else, and most of them are beyond
+/// help.
 enum class prospect : std::size_t { open, narrow, count };
 
 /// For one prospect.
