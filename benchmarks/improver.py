@@ -26,10 +26,11 @@ def run(*command, limit=1800, **options):
 class Meshes:
     """Raw meshes by name, made when they are missing."""
 
-    def __init__(self, build):
+    def __init__(self, build, elements):
+        self.coarser = (1e6 / elements) ** (1 / 3)  # the sizes below give about a million elements
         self.generate = os.path.join(build, "benchmarks", "improver_generate")
         self.driver = os.path.join(build, "app", "dovetail")
-        self.folder = os.path.join(build, "benchmarks", "improver_meshes")
+        self.folder = os.path.join(build, "benchmarks", "improver_meshes", f"{elements:.0f}")
         self.models = os.path.join(os.environ.get("DOVETAIL_SHARED", ""), "models")
         os.makedirs(self.folder, exist_ok=True)
 
@@ -46,6 +47,7 @@ class Meshes:
 
     def surface(self, name, model, *options):
         out = os.path.join(self.folder, name + ".msh")
+        options = [self.coarser * word if isinstance(word, float) else word for word in options]
         run("gmsh", "-2", "-algo", "front2d", "-format", "msh22", "-o", out, model, *options)
         return out
 
@@ -56,6 +58,7 @@ class Meshes:
         return path
 
     def cube(self, name, size):
+        """`size` for a million elements."""
         return self.path(name, lambda raw: self.fill(
             self.surface(name, self.cube_file(), "-clmin", size, "-clmax", size), raw))
 
@@ -70,14 +73,15 @@ class Meshes:
         def make(raw):
             out = os.path.join(self.folder, "aircraft")
             run(self.driver, "mesh", "--model", "aircraft", "--improver", "none", "--format", "msh", "--out", out,
-                "--quiet", "--size", 2.5)
+                "--quiet", "--size", 2.5 * self.coarser)
             self.fill(out, raw)
         return self.path("aircraft", make)
 
     def cube_of_hxt(self):
         def make(raw):
             out = os.path.join(self.folder, "hxt.msh")
-            run("gmsh", "-3", "-algo", "hxt", "-nt", 1, "-clmin", 0.0155, "-clmax", 0.0155, "-format", "msh41", "-bin",
+            run("gmsh", "-3", "-algo", "hxt", "-nt", 1, "-clmin", 0.0155 * self.coarser, "-clmax",
+                0.0155 * self.coarser, "-format", "msh41", "-bin",
                 "-o", out, self.cube_file())
             run(self.generate, "copy", out, raw)
             os.remove(out)
@@ -154,16 +158,18 @@ def main():
     parser.add_argument("build", help="build folder")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--picture", help="PNG to write")
+    parser.add_argument("--elements", type=float, default=1e6, metavar="N",
+                        help="about so many in each mesh, and a tenth to ten times as many for the scaling")
     parser.add_argument("--only", nargs="+", default=[], help="names of meshes")
     parser.add_argument("--no-scaling", action="store_true")
     options = parser.parse_args()
     if not shutil.which("gmsh"):
         sys.exit("improver.py: the command line of Gmsh is needed to make the surfaces")
-    made = Meshes(options.build)
+    made = Meshes(options.build, options.elements)
     inputs = {"cube": lambda: made.cube("cube", 0.0165),
               "linkrods": lambda: made.part("linkrods", "linkrods.step", "-clmin", 0.0245, "-clmax", 0.0245),
               "aircraft": made.aircraft,
-              "A319": lambda: made.part("A319", "A319_in_a_box.brep", "-clcurv", 36, "-clmax", 3000, "-clmin", 40),
+              "A319": lambda: made.part("A319", "A319_in_a_box.brep", "-clcurv", 36, "-clmax", 3000.0, "-clmin", 40.0),
               "cube of HXT": made.cube_of_hxt}
     native = os.path.join(options.build, "benchmarks", "improver")
     programs = [(native, "fast,fine,finest")]
@@ -176,7 +182,7 @@ def main():
         if mesh:
             tables[name] = print_table(name, mesh, programs, options.repeats)
     if not options.no_scaling:
-        print_scaling([made.cube("cube 0.1 M", 0.0385), made.cube("cube", 0.0165), made.cube("cube 10 M", 0.0077)],
+        print_scaling([made.cube("cube, a tenth", 0.0385), made.cube("cube", 0.0165), made.cube("cube, times ten", 0.0077)],
                       native, options.repeats)
     if options.picture:
         draw(tables, options.picture)

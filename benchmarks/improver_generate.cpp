@@ -8,13 +8,9 @@
 ///
 /// The raw file holds three int64 (points, elements, frozen points), the points (3 doubles each) and the
 /// elements (4 int32 each). A benchmark tool, not part of the library.
-#ifndef TETLIBRARY
-#define TETLIBRARY
-#endif
-#include <tetgen.h>
-
 #include "dovetail/improver/tet_adjacency.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/mesher/tetgen_library.hpp"
 
 #include <algorithm>
 #include <array>
@@ -97,7 +93,7 @@ simplicial_mesh<3> fill_hull(const simplicial_mesh<2>& surface) {
     facet.polygonlist->vertexlist = new int[3]{t[0], t[1], t[2]};
   }
   char switches[] = "pYqmQ";
-  tetrahedralize(switches, &in, &out);
+  detail::tetgen_entry()(switches, &in, &out, nullptr, nullptr);
   simplicial_mesh<3> mesh;
   for (int v = 0; v < out.numberofpoints; ++v)
     mesh.points.push_back({out.pointlist[3 * v], out.pointlist[3 * v + 1], out.pointlist[3 * v + 2]});
