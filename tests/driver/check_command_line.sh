@@ -15,6 +15,7 @@ expect_error "not expected|nonsense" nonsense
 expect_error "nonsense" mesh --nonsense
 expect_error "nonsense" mesh --model nonsense
 expect_error "nonsense.*tetgen" mesh --model combustor --mesher nonsense
+expect_error "nonsense.*native" mesh --model combustor --dimension 2 --mesher nonsense
 expect_error "nonsense.*metis" mesh --model combustor --partitioner nonsense
 expect_error "nonsense.*native" mesh --model combustor --improver nonsense
 expect_error "nonsense.*processes" mesh --model combustor --executor nonsense

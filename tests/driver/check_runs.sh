@@ -111,6 +111,17 @@ grep -q "cannot be resumed.*sizes" "$sandbox/stderr" || fault "the difference is
 resume
 expect_error "no run to resume" mesh "$inputs/cube.off" --size 0.2 --resume
 
+# Triangles by every mesher that is offered.
+surface_meshers=$("$driver" mesh --help | sed -n 's/.*of --dimension 2: //p' | tr -d ,)
+[[ $surface_meshers == *native* ]] || fault "no mesher of triangles is listed"
+for name in $surface_meshers; do
+  mesh --dimension 2 --size 0.1 --subdomains 3 --mesher "$name"
+  [[ $(figure mesher) == "$name" ]] || fault "the mesher was $(figure mesher)"
+  rm -rf "$inputs/triangles" && cp -r "$sandbox/work/out" "$inputs/triangles"
+  expect_success check "$inputs/triangles/mesh.pvtu"
+  grep -q "a valid mesh of .* triangles" "$sandbox/stdout" || fault "not a valid mesh of triangles"
+done
+
 # A file that may not grow any further is like a full disk.
 what="a limit to the size of files"
 rm -rf "$sandbox/work"
