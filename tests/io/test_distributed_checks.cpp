@@ -167,7 +167,7 @@ TEST_CASE("statistics of the pieces are those of the whole") {
   CHECK(statistics.quality.min_wedge_deg == quality.min_wedge_deg);
   CHECK(statistics.quality.max_wedge_deg == quality.max_wedge_deg);
   CHECK(statistics.quality.min_wedges.bins == quality.min_wedges.bins);
-  CHECK(statistics.quality.face_angles.bins == quality.face_angles.bins);
+  CHECK(statistics.quality.min_face_deg == quality.min_face_deg);
   CHECK(statistics.elements == 6 * 6 * 6 * 6);
   CHECK(statistics.points == 7 * 7 * 7);
   CHECK(statistics.largest_subdomain == 6 * 27);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <string>
@@ -55,74 +56,71 @@ inline double smallest_corner_angle(const std::array<vec3, 3>& p) {
 
 namespace detail {
 
-/// An angle of 0 to 180 degrees by its sine and cosine, both times the same factor.
-struct unscaled_angle {
-  double sine; ///< not negative
-  double cosine;
+/// What the angles of a tetrahedron are made of.
+struct tetrahedron_parts {
+  std::array<vec3, 4> normals;           ///< of the sides, twice their areas long
+  std::array<double, 6> lengths_squared; ///< of the edges, as `numbering::ridges<3>`
+  double six_volumes;
 
-  double degrees() const { return degrees_per_radian * std::atan2(sine, cosine); }
-  /// Within 1e-3 of `degrees`, several times as fast: Abramowitz and Stegun 4.4.49. Not a number for 0, 0.
-  double coarse_degrees() const {
-    const double flat = std::abs(cosine);
-    const double x = std::min(flat, sine) / std::max(flat, sine);
-    const double square = x * x;
-    const double arc =
-        x * (0.9998660 +
-             square * (-0.3302995 + square * (0.1801410 + square * (-0.0851330 + square * 0.0208351))));
-    const double acute = degrees_per_radian * arc;
-    const double turned = sine > flat ? 90.0 : 0.0; // no branches: which way they go is random
-    const double upper = std::abs(turned - acute);
-    const double mirrored = cosine < 0 ? 180.0 : 0.0;
-    return std::abs(mirrored - upper);
+  explicit tetrahedron_parts(const std::array<vec3, 4>& p) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& side = numbering::sides<3>[i];
+      const vec3 a = p[static_cast<std::size_t>(side[0])];
+      normals[i] = cross(p[static_cast<std::size_t>(side[1])] - a, p[static_cast<std::size_t>(side[2])] - a);
+    }
+    for (std::size_t r = 0; r < 6; ++r) {
+      const auto& edge = numbering::ridges<3>[r];
+      lengths_squared[r] =
+          norm_squared(p[static_cast<std::size_t>(edge[1])] - p[static_cast<std::size_t>(edge[0])]);
+    }
+    six_volumes = std::abs(dot(normals[3], p[3] - p[0]));
   }
-  bool operator<(unscaled_angle other) const {
-    if (sine == 0 && other.sine == 0) // 0 or 180 degrees each
-      return cosine > other.cosine;
-    return sine * other.cosine < cosine * other.sine;
+
+  /// The sine and the cosine of the angle at an edge, times the same factor. The sine comes from the volume
+  /// (|n1 x n2| = 6 V |edge|), which stays accurate for slivers; it is not negative.
+  std::array<double, 2> wedge(std::size_t r) const {
+    const auto& sides = numbering::sides_of_ridge<3>[r];
+    return {six_volumes * std::sqrt(lengths_squared[r]),
+            -dot(normals[static_cast<std::size_t>(sides[0])], normals[static_cast<std::size_t>(sides[1])])};
   }
 };
 
-/// The dihedral angles that `wedge_angles` gives.
-inline std::array<unscaled_angle, 6> unscaled_wedges(const std::array<vec3, 4>& p) {
-  std::array<vec3, 4> normals;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto& side = numbering::sides<3>[i];
-    const vec3 a = p[static_cast<std::size_t>(side[0])];
-    normals[i] = cross(p[static_cast<std::size_t>(side[1])] - a, p[static_cast<std::size_t>(side[2])] - a);
-  }
-  const double six_volumes = std::abs(dot(normals[3], p[3] - p[0]));
-  std::array<unscaled_angle, 6> angles;
+} // namespace detail
+
+/// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`. An
+/// inverted tetrahedron gives the angles of its mirror image.
+inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
+  const detail::tetrahedron_parts parts(p);
+  std::array<double, 6> angles;
   for (std::size_t r = 0; r < 6; ++r) {
-    const auto& edge = numbering::ridges<3>[r];
-    const auto& sides = numbering::sides_of_ridge<3>[r];
-    const double length =
-        distance(p[static_cast<std::size_t>(edge[0])], p[static_cast<std::size_t>(edge[1])]);
-    const double cosine =
-        -dot(normals[static_cast<std::size_t>(sides[0])], normals[static_cast<std::size_t>(sides[1])]);
-    angles[r] = {six_volumes * length, cosine};
+    const auto [sine, cosine] = parts.wedge(r);
+    angles[r] = degrees_per_radian * std::atan2(sine, cosine);
   }
   return angles;
+}
+
+namespace detail {
+
+/// The smallest and the largest dihedral angle. Six cotangents are compared, without branches, and two arc
+/// tangents taken.
+inline std::array<double, 2> extremes_of(const tetrahedron_parts& parts) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double largest_cotangent = -infinity, smallest_cotangent = infinity;
+  for (std::size_t r = 0; r < 6; ++r) {
+    const auto [sine, cosine] = parts.wedge(r);
+    const double cotangent = sine > 0 ? cosine / sine : cosine < 0 ? -infinity : infinity;
+    largest_cotangent = std::max(largest_cotangent, cotangent);
+    smallest_cotangent = std::min(smallest_cotangent, cotangent);
+  }
+  return {degrees_per_radian * std::atan2(1.0, largest_cotangent),
+          degrees_per_radian * std::atan2(1.0, smallest_cotangent)};
 }
 
 } // namespace detail
 
-/// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`.
-///
-/// The sine comes from the volume (|n1 x n2| = 6 V |edge|), which stays accurate for slivers. An inverted
-/// tetrahedron gives the angles of its mirror image.
-inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
-  std::array<double, 6> angles;
-  const auto unscaled = detail::unscaled_wedges(p);
-  for (std::size_t r = 0; r < 6; ++r)
-    angles[r] = unscaled[r].degrees();
-  return angles;
-}
-
-/// The smallest and the largest of `wedge_angles`, with two arc tangents instead of six.
+/// The smallest and the largest of `wedge_angles`, but for rounding.
 inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 4>& p) {
-  const auto unscaled = detail::unscaled_wedges(p);
-  const auto [smallest, largest] = std::minmax_element(unscaled.begin(), unscaled.end());
-  return {smallest->degrees(), largest->degrees()};
+  return detail::extremes_of(detail::tetrahedron_parts(p));
 }
 inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 3>& p) {
   const auto angles = wedge_angles(p);
@@ -164,7 +162,6 @@ struct quality_statistics {
   global_id worst_element = -1;    ///< the element with the smallest wedge angle; the first of several
   angle_histogram min_wedges;      ///< each element's smallest wedge angle
   angle_histogram max_wedges;      ///< each element's largest wedge angle
-  angle_histogram face_angles;     ///< all face angles
 
   /// Elements with a wedge angle under 6, 12, 18 and 24 degrees.
   std::array<std::int64_t, 4> under_6_12_18_24() const {
@@ -191,38 +188,60 @@ struct quality_statistics {
     sum_of_min_wedge_deg += piece.sum_of_min_wedge_deg;
     min_wedges.merge(piece.min_wedges);
     max_wedges.merge(piece.max_wedges);
-    face_angles.merge(piece.face_angles);
   }
 };
 
 namespace detail {
 
-/// Twelve of these per tetrahedron: arc tangents are taken only where the bin or the smallest depends on
-/// them.
-inline void add_face_angle(quality_statistics& statistics, unscaled_angle angle) {
-  constexpr double error = 2e-3; // twice that of the coarse angle
-  const double coarse = angle.coarse_degrees();
-  if (coarse > statistics.min_face_deg + error) { // not when it is not a number
-    const double in_bin = coarse - static_cast<int>(coarse);
-    if (in_bin > error && in_bin < 1 - error) {
-      statistics.face_angles.add(coarse);
+/// The smallest corner angle of triangles that come one by one. They are compared by the squares of their
+/// sines; arc tangents are taken only where one may be the smallest so far.
+class smallest_face_angle {
+public:
+  double degrees() const { return degrees_; }
+
+  /// A triangle, twice its area and its edges, squared. The smallest angle is opposite the shortest edge, and
+  /// at most 60 degrees, so that it grows with its sine.
+  void include(const std::array<vec3, 3>& p, double twice_area_squared, double a, double b, double c) {
+    const double by_sine = twice_area_squared * std::min({a, b, c});
+    constexpr double rounding = 1 + 1e-9;
+    if (by_sine > rounding * sine_squared_ * (a * b * c))
       return;
+    const auto angles = wedge_angles(p);
+    degrees_ = std::min({degrees_, angles[0], angles[1], angles[2]});
+    if (a * b * c > 0)
+      sine_squared_ = std::min(sine_squared_, by_sine / (a * b * c));
+  }
+  void include(const std::array<vec3, 3>& p) {
+    const vec3 ab = p[1] - p[0], bc = p[2] - p[1], ca = p[0] - p[2];
+    include(p, norm_squared(cross(ab, bc)), norm_squared(ab), norm_squared(bc), norm_squared(ca));
+  }
+  void include(const std::array<vec3, 4>& p, const tetrahedron_parts& parts) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& side = numbering::sides<3>[i];
+      const auto& edges = edges_of_sides[i];
+      include({p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
+               p[static_cast<std::size_t>(side[2])]},
+              norm_squared(parts.normals[i]), parts.lengths_squared[edges[0]],
+              parts.lengths_squared[edges[1]], parts.lengths_squared[edges[2]]);
     }
   }
-  const double degrees = angle.degrees();
-  statistics.face_angles.add(degrees);
-  statistics.min_face_deg = std::min(statistics.min_face_deg, degrees);
-}
 
-inline void add_face_angles(quality_statistics& statistics, const std::array<vec3, 3>& p) {
-  const vec3 ab = p[1] - p[0];
-  const vec3 bc = p[2] - p[1];
-  const vec3 ca = p[0] - p[2];
-  const double twice_area = norm(cross(ab, bc));
-  add_face_angle(statistics, {twice_area, -dot(ca, ab)});
-  add_face_angle(statistics, {twice_area, -dot(ab, bc)});
-  add_face_angle(statistics, {twice_area, -dot(bc, ca)});
-}
+private:
+  /// Per side the three edges on it, as `numbering::ridges<3>`.
+  static constexpr auto edges_of_sides = [] {
+    std::array<std::array<std::size_t, 3>, 4> edges{};
+    std::array<std::size_t, 4> found{};
+    for (std::size_t r = 0; r < 6; ++r)
+      for (const int side : numbering::sides_of_ridge<3>[r]) {
+        const auto i = static_cast<std::size_t>(side);
+        edges[i][found[i]++] = r;
+      }
+    return edges;
+  }();
+
+  double degrees_ = 180;
+  double sine_squared_ = 1;
+};
 
 } // namespace detail
 
@@ -231,9 +250,19 @@ template <int D>
 quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
   quality_statistics statistics;
   statistics.elements = static_cast<std::int64_t>(mesh.elements.size());
+  detail::smallest_face_angle face_angle;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto at = corners(std::span(mesh.points), mesh.elements[e]);
-    const auto [smallest, largest] = extreme_wedge_angles(at);
+    std::array<double, 2> extremes;
+    if constexpr (D == 2) {
+      extremes = extreme_wedge_angles(at);
+      face_angle.include(at);
+    } else {
+      const detail::tetrahedron_parts parts(at);
+      extremes = detail::extremes_of(parts);
+      face_angle.include(at, parts);
+    }
+    const auto [smallest, largest] = extremes;
     if (smallest < statistics.min_wedge_deg || e == 0) {
       statistics.min_wedge_deg = smallest;
       statistics.worst_element = static_cast<global_id>(e);
@@ -242,15 +271,8 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
     statistics.sum_of_min_wedge_deg += smallest;
     statistics.min_wedges.add(smallest);
     statistics.max_wedges.add(largest);
-    if constexpr (D == 2) {
-      detail::add_face_angles(statistics, at);
-    } else {
-      for (const auto& side : numbering::sides<D>)
-        detail::add_face_angles(statistics,
-                                {at[static_cast<std::size_t>(side[0])], at[static_cast<std::size_t>(side[1])],
-                                 at[static_cast<std::size_t>(side[2])]});
-    }
   }
+  statistics.min_face_deg = face_angle.degrees();
   return statistics;
 }
 
