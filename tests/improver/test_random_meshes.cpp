@@ -37,6 +37,8 @@ native improver_for(std::uint64_t seed) {
                                      : native::hard();
   if (seed % 64 != 7)
     improver.hard_passes = 1; // the costly operations are tried, but not again and again
+  if (seed % 4 == 1)
+    improver.global_passes = 2;
   improver.objective = seed % 7 == 5   ? objective::radius_ratio
                        : seed % 7 == 6 ? objective::mean_ratio
                                        : objective::minimum_dihedral;

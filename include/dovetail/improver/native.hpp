@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/global_smoothing.hpp"
 #include "dovetail/improver/mesh_exchange.hpp"
 #include "dovetail/improver/schedule.hpp"
 #include "dovetail/improver/surface_improver.hpp"
@@ -31,6 +32,9 @@ struct native {
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
   int hard_passes = 8;
+  /// Sweeps at the end over all free vertices, for the mean of the elements; 0: none. See
+  /// global_smoothing.hpp.
+  int global_passes = 0;
   /// Two sweeps in a row that mend a smaller part of what the poor elements lack are the last ones.
   double least_gain = 0.01;
   /// Edges that an operation makes stay between these two, times the size there, or between the shortest and
@@ -56,6 +60,7 @@ struct native {
     preset.target_angle = 35;
     preset.passes = 40;
     preset.hard_passes = 12;
+    preset.global_passes = 1;
     preset.least_gain = 0.002;
     preset.search_iterations = 12;
     return preset;
@@ -107,7 +112,7 @@ private:
     if (statistics)
       count_quality(complex, surface).write_to(result, "before");
     lap("statistics before");
-    if (!size)
+    if (!size || global_passes > 0)
       complex.set_sizes(present_sizes(complex));
     if (tangled == 0) {
       raise<Measure>(complex, surface, size, result);
@@ -149,8 +154,19 @@ private:
     limits.hard_effort.narrow.share = 0.0005;
     plan.set_limits(limits);
     plan.run();
+    if (global_passes > 0)
+      smooth_globally<Measure>(complex, mender, result);
     plan.log().write_to(result);
     result.set("passes", plan.passes());
+  }
+  template <shape_measure Measure>
+  void smooth_globally(tet_complex& complex, const mender_limits& mender, report& result) const {
+    const stopwatch clock;
+    const auto counts = global_smoothing<Measure>().run(
+        complex, {.passes = global_passes, .target = mender.target, .band = mender.band});
+    result.set("global smoothing tried", static_cast<double>(counts.tried));
+    result.set("global smoothing accepted", static_cast<double>(counts.accepted));
+    result.set("global smoothing seconds", clock.seconds());
   }
   schedule_limits limits_for(const any_sizing& size) const {
     schedule_limits limits;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/apex_search.hpp"
-#include "dovetail/improver/size_band.hpp"
+#include "dovetail/improver/star_move.hpp"
 
 namespace dovetail::improvement {
 
@@ -13,26 +13,23 @@ public:
   /// Moves `v` when that raises the worst value of its star by more than rounding could feign and keeps the
   /// edges in the band. O(star).
   bool improve(tet_complex& mesh, local_id v, const apex_search_limits& limits, const size_band& band) {
-    if (!collect_star(mesh, v, star_))
+    if (!star_.start(mesh, v))
       return false;
     const vec3 old_point = mesh.point(v);
-    const float old_worst = worst_value(mesh, star_.view());
+    const float old_worst = star_.worst(mesh);
     double length = 0;
-    for (int i = 0; i < star_.size; ++i)
-      length = std::max(length, norm_squared(mesh.point(other_vertex(mesh, star_[i], v)) - old_point));
+    for (const local_id e : star_.elements())
+      length = std::max(length, norm_squared(mesh.point(other_vertex(mesh, e, v)) - old_point));
     batch_.start(old_point, std::sqrt(length));
-    for (const local_id e : star_) {
-      const auto& local = numbering::sides<3>[static_cast<std::size_t>(mesh.corner_of(e, v))];
-      // (v, s0, s1, s2) is positive: the normal of a side points away from the vertex opposite it.
-      batch_.add(mesh.point(mesh.vertex(e, local[0])), mesh.point(mesh.vertex(e, local[1])),
-                 mesh.point(mesh.vertex(e, local[2])));
+    for (const local_id e : star_.elements()) {
+      const auto [a, b, c] = star_.opposite_side(mesh, e);
+      batch_.add(a, b, c);
     }
     batch_.finish();
     triple<float> p{0, 0, 0};
     if (!(search_.climb(batch_, p, limits) > old_worst + 1e-4F))
       return false;
-    const vec3 place = batch_.to_global(p);
-    return keeps_lengths(mesh, v, place, band) && move(mesh, v, place, old_point, old_worst);
+    return star_.move(mesh, batch_.to_global(p), {.worst = old_worst}, band);
   }
 
 private:
@@ -40,42 +37,7 @@ private:
     return mesh.vertex(e, 0) == v ? mesh.vertex(e, 1) : mesh.vertex(e, 0);
   }
 
-  bool keeps_lengths(const tet_complex& mesh, local_id v, vec3 place, const size_band& band) const {
-    edge_lengths before, after;
-    for (const local_id e : star_)
-      for (const local_id other : mesh.vertices(e))
-        if (other != v) {
-          before.add(mesh.point(v), mesh.point(other));
-          after.add(place, mesh.point(other));
-        }
-    return band.admits(mesh, before, after, mesh.vertices(star_[0]), place);
-  }
-
-  /// Verifies the new position in double precision and keeps it only if it is better.
-  bool move(tet_complex& mesh, local_id v, vec3 to, vec3 from, float old_worst) {
-    mesh.set_point(v, to);
-    for (int i = 0; i < star_.size; ++i) {
-      const auto& n = mesh.vertices(star_[i]);
-      new_values_[i] = static_cast<float>(
-          measure_of<Measure>(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])));
-      if (!(new_values_[i] > old_worst) ||
-          ((new_values_[i] > 0 || !mesh.is_tangled()) &&
-           !(orient3d(mesh.point(n[0]), mesh.point(n[1]), mesh.point(n[2]), mesh.point(n[3])) > 0))) {
-        mesh.set_point(v, from);
-        return false;
-      }
-    }
-    mesh.start_change();
-    for (int i = 0; i < star_.size; ++i) {
-      mesh.set_value(star_[i], new_values_[i]);
-      for (const local_id other : mesh.vertices(star_[i]))
-        mesh.touch(other);
-    }
-    return true;
-  }
-
-  bounded_list<local_id, max_star> star_;
-  bounded_list<float, max_star> new_values_;
+  star_move<Measure> star_;
   star_batch<Measure> batch_;
   apex_search<Measure> search_;
 };
