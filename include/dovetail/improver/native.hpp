@@ -32,7 +32,7 @@ struct native {
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
   int hard_passes = 8;
-  /// Sweeps at the end over all free vertices, for the mean of the elements; 0: none. See
+  /// Sweeps at the end over all free vertices of tetrahedra, for the mean of the elements; 0: none. See
   /// global_smoothing.hpp.
   int global_passes = 0;
   /// Two sweeps in a row that mend a smaller part of what the poor elements lack are the last ones.
