@@ -118,7 +118,7 @@ mesh_3_lines(const std::vector<std::vector<vec3>>& given) {
 /// A sizing field as CGAL asks for it, in multiples of the size. Copies share one count of calls.
 class mesh_3_sizing {
 public:
-  using FT = mesh_3_types::kernel::FT;
+  using FT = mesh_3_types::kernel::FT; // NOLINT(readability-identifier-naming): CGAL asks for it
 
   mesh_3_sizing(const any_sizing& size, double factor, std::size_t& calls, std::size_t budget)
       : size_(&size), factor_(factor), calls_(&calls), budget_(budget) {}
