@@ -10,25 +10,6 @@ using namespace improver_checks;
 
 namespace {
 
-using cell_type = std::array<std::uint32_t, 3>;
-
-/// The cells of a small grid, `stride` apart, in the order of the curve.
-std::vector<std::pair<std::uint64_t, cell_type>> grid_along_curve(std::uint32_t cells, std::uint32_t stride) {
-  std::vector<std::pair<std::uint64_t, cell_type>> placed;
-  for (std::uint32_t x = 0; x < cells; ++x)
-    for (std::uint32_t y = 0; y < cells; ++y)
-      for (std::uint32_t z = 0; z < cells; ++z)
-        placed.emplace_back(detail::place_on_curve({stride * x, stride * y, stride * z}), cell_type{x, y, z});
-  std::sort(placed.begin(), placed.end());
-  return placed;
-}
-int steps_between(const cell_type& a, const cell_type& b) {
-  int steps = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    steps += std::abs(static_cast<int>(a[k]) - static_cast<int>(b[k]));
-  return steps;
-}
-
 /// Elements by the places of their points, in any order.
 std::multiset<std::array<std::array<double, 3>, 4>> placed_elements(const mesh_type& mesh) {
   std::multiset<std::array<std::array<double, 3>, 4>> result;
@@ -44,19 +25,6 @@ std::multiset<std::array<std::array<double, 3>, 4>> placed_elements(const mesh_t
 }
 
 } // namespace
-
-TEST_CASE("the curve goes from each cell to a neighbour, on all scales, and leaves none out") {
-  for (std::uint32_t stride = 1; stride <= 4096; stride *= 2) {
-    CAPTURE(stride);
-    const auto placed = grid_along_curve(16, stride);
-    const std::uint64_t volume = std::uint64_t{stride} * stride * stride;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      REQUIRE(placed[i].first / volume == i); // the curve fills a cell of the grid before it leaves it
-      if (i > 0)
-        REQUIRE(steps_between(placed[i - 1].second, placed[i].second) == 1);
-    }
-  }
-}
 
 TEST_CASE("ordering renames points and moves elements, and changes nothing else") {
   auto mesh = dovetail_test::shuffled(dovetail_test::jittered_cubes(5, 0.2, 3), 8);
