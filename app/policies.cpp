@@ -1,6 +1,6 @@
 #include "policies.hpp"
 
-#include "failure.hpp"
+#include "named_policies.hpp"
 
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/improver/native.hpp"
@@ -38,27 +38,6 @@
 
 namespace dovetail::app {
 namespace {
-
-template <class Policy>
-std::vector<std::string> names_of(const std::vector<Policy>& policies) {
-  std::vector<std::string> names;
-  for (const auto& policy : policies)
-    names.push_back(policy.name());
-  return names;
-}
-
-template <class Policy>
-Policy chosen(const std::vector<Policy>& policies, const std::string& name, const std::string& option) {
-  if (name.empty())
-    return policies.front();
-  for (const auto& policy : policies)
-    if (policy.name() == name)
-      return policy;
-  std::string known;
-  for (const auto& policy : policies)
-    known += (known.empty() ? "" : ", ") + policy.name();
-  throw command_line_error(option + ": there is no '" + name + "'; there are: " + known);
-}
 
 std::vector<any_partitioner> partitioners() {
   std::vector<any_partitioner> known{{"metis", partition::metis{}},

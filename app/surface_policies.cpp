@@ -1,7 +1,6 @@
 #include "surface_policies.hpp"
 
-#include "failure.hpp"
-#include "policies.hpp"
+#include "named_policies.hpp"
 
 #include "dovetail/mesher/native_surface.hpp"
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
@@ -29,20 +28,11 @@ std::vector<any_surface_mesher> surface_meshers() {
 } // namespace
 
 std::vector<std::string> surface_mesher_names() {
-  std::vector<std::string> names;
-  for (const auto& policy : surface_meshers())
-    names.push_back(policy.name());
-  return names;
+  return names_of(surface_meshers());
 }
 
 any_surface_mesher make_surface_mesher(const std::string& name) {
-  std::string known;
-  for (const auto& policy : surface_meshers()) {
-    if (name.empty() || policy.name() == name)
-      return policy;
-    known += (known.empty() ? "" : ", ") + policy.name();
-  }
-  throw command_line_error("--mesher: there is no '" + name + "' for triangles; there are: " + known);
+  return chosen(surface_meshers(), name, "--mesher with --dimension 2");
 }
 
 } // namespace dovetail::app

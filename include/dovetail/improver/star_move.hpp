@@ -66,7 +66,6 @@ private:
     return band.admits(mesh, before, after, mesh.vertices(elements_[0]), place);
   }
   bool is_better(const tet_complex& mesh, const move_conditions& wanted) {
-
     double sum = 0;
     for (int i = 0; i < elements_.size; ++i) {
       const auto& n = mesh.vertices(elements_[i]);
