@@ -7,13 +7,19 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/shape_measure.hpp"
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/recursive_bisection.hpp"
 #include "dovetail/remesh/concepts.hpp"
-#include "dovetail/sizing/concepts.hpp"
+#include "dovetail/sizing/bounds.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -42,10 +48,42 @@ struct partitioner : copyable_only {
 };
 // end
 
+// for bisection_rule
+/// Splits the nodes in their order.
+struct bisection {
+  bisection() = default;
+  bisection(const bisection&) = delete;
+  bisection& operator=(const bisection&) = delete;
+  std::vector<local_id> operator()(const csr_graph& graph, int left, int right) const {
+    const std::size_t nodes = graph.offsets.size() - 1;
+    std::vector<local_id> half(nodes, 1);
+    std::fill_n(half.begin(), nodes * static_cast<std::size_t>(left) / static_cast<std::size_t>(left + right),
+                0);
+    return half;
+  }
+};
+// end
+
 // for sizing_field
 struct sizing : copyable_only {
   using copyable_only::copyable_only;
   float operator()(vec3) const { return 0.2f; } // convertible to double is enough
+};
+// end
+
+// for bounded_below_sizing_field
+struct bounded_sizing : copyable_only {
+  using copyable_only::copyable_only;
+  float operator()(vec3) const { return 0.2f; }
+  float smallest_size_in(const box3&) const { return 0.2f; }
+};
+// end
+
+// for feature_aware_sizing_field
+struct aware_sizing : copyable_only {
+  using copyable_only::copyable_only;
+  float operator()(vec3) const { return 0.2f; }
+  float feature_size(vec3) const { return 0.5f; }
 };
 // end
 
@@ -80,6 +118,64 @@ private:
 };
 // end
 
+// for line_keeping_mesher
+/// M keeps the whole boundary, so the lines are kept as well; this one does not say that it does.
+template <boundary_keeping_mesher<3> M>
+class line_keeping_mesher_as {
+public:
+  explicit line_keeping_mesher_as(M held) : held_(std::move(held)) {}
+  line_keeping_mesher_as(const line_keeping_mesher_as&) = default;
+  line_keeping_mesher_as& operator=(const line_keeping_mesher_as&) = delete;
+
+  static constexpr mesher_traits traits{};
+  line_keeping_mesher_as with_lines(const std::vector<std::vector<vec3>>&) const { return *this; }
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    return held_(input, size);
+  }
+
+private:
+  M held_;
+};
+// end
+
+// for has_fallbacks
+/// Fails at the first try.
+template <boundary_keeping_mesher<3> M>
+class mesher_after_failure {
+public:
+  explicit mesher_after_failure(M held, bool fails = true) : held_(std::move(held)), fails_(fails) {}
+
+  static constexpr mesher_traits traits = M::traits;
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    if (fails_)
+      throw mesher_error("the first try fails");
+    return held_(input, size);
+  }
+  std::vector<mesher_after_failure> fallbacks() const { return {mesher_after_failure(held_, false)}; }
+
+private:
+  M held_;
+  bool fails_;
+};
+// end
+
+// for patch_surface
+/// Neither copyable nor movable: a surface is passed by reference.
+template <patch_surface S>
+class surface_as {
+public:
+  explicit surface_as(const S& held) : held_(held) {}
+  surface_as(const surface_as&) = delete;
+  surface_as& operator=(const surface_as&) = delete;
+
+  surface_frame frame(vec2 uv) const { return held_.frame(uv); }
+  vec2 project(vec3 p, vec2 seed) const { return held_.project(p, seed); }
+
+private:
+  const S& held_;
+};
+// end
+
 // for surface_mesher
 template <surface_mesher M>
 class surface_mesher_as {
@@ -90,11 +186,25 @@ public:
 
   template <patch_surface S>
   patch_mesh operator()(const S& surface, const patch_boundary& boundary, const any_sizing& size) const {
-    return held_(surface, boundary, size);
+    return held_(surface_as<S>(surface), boundary, size);
   }
 
 private:
   M held_;
+};
+// end
+
+// for shape_measure
+/// The volume over the cube of the longest of the apex's edges: positive, zero or negative with the
+/// element's.
+struct shape_measure {
+  shape_measure() = delete;
+  template <class T>
+  static T of_apex(improvement::triple<T> a, improvement::triple<T> b, improvement::triple<T> c) {
+    const T longest = std::max({dot(a, a), dot(b, b), dot(c, c), T(1e-30)});
+    return dot(cross(a, b), c) / (longest * std::sqrt(longest));
+  }
+  static double from_angle(double degrees) { return degrees / 60; }
 };
 // end
 

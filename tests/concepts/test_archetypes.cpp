@@ -1,15 +1,20 @@
 #include "archetypes.hpp"
+#include "graph_archetypes.hpp"
 
 #include "dovetail/geometry/discrete_model.hpp"
+#include "dovetail/graph/traversal.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/pipeline/whole_background.hpp"
 
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <iterator>
+#include <utility>
 
 // What each concept rejects is in compile_fail/.
 
@@ -20,8 +25,16 @@ static_assert(graph_partitioner<archetype::partitioner>);
 static_assert(graph_partitioner<std::function<std::vector<local_id>(const csr_graph&, int)>>);
 static_assert(sizing_field<archetype::sizing> && sizing_field<any_sizing>);
 static_assert(sizing_field<decltype([](vec3 p) { return p.x; })>);
+static_assert(bounded_below_sizing_field<archetype::bounded_sizing>);
+static_assert(!feature_aware_sizing_field<archetype::bounded_sizing>);
+static_assert(feature_aware_sizing_field<archetype::aware_sizing>);
+static_assert(!bounded_below_sizing_field<archetype::aware_sizing>);
+static_assert(bisection_rule<archetype::bisection> && !graph_partitioner<archetype::bisection>);
+static_assert(improvement::shape_measure<archetype::shape_measure>);
+static_assert(patch_surface<archetype::surface_as<any_surface>>);
 static_assert(piece_mesher<archetype::mesher, 3> && boundary_keeping_mesher<archetype::mesher, 3>);
 static_assert(!piece_mesher<archetype::mesher, 2>, "it makes tetrahedra");
+static_assert(!line_keeping_mesher<archetype::mesher> && !has_fallbacks<archetype::mesher>);
 static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher>, any_surface>);
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
@@ -29,6 +42,61 @@ static_assert(executor<archetype::executor>);
 static_assert(geometry_model<archetype::geometry>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
+
+/// How many of the graph concepts G models.
+template <class G>
+constexpr int graph_concepts =
+    incidence_graph<G> + adjacency_graph<G> + vertex_list_graph<G> + edge_list_graph<G>;
+static_assert(graph<archetype::named_graph> && graph_concepts<archetype::named_graph> == 0);
+static_assert(incidence_graph<archetype::incidence_graph> && graph_concepts<archetype::incidence_graph> == 1);
+static_assert(adjacency_graph<archetype::adjacency_graph> && graph_concepts<archetype::adjacency_graph> == 1);
+static_assert(vertex_list_graph<archetype::vertex_list_graph> &&
+              graph_concepts<archetype::vertex_list_graph> == 1);
+static_assert(edge_list_graph<archetype::edge_list_graph> && graph_concepts<archetype::edge_list_graph> == 1);
+static_assert(accessible_graph<archetype::accessible_graph> &&
+              graph_concepts<archetype::accessible_graph> == 4);
+
+/// Cuts an order of the nodes that a walk over a graph archetype gives into parts of nearly equal count.
+template <class Graph>
+struct walk_partitioner {
+  std::vector<local_id> operator()(const csr_graph& csr, int parts) const {
+    const Graph viewed(csr);
+    std::vector<local_id> part(num_vertices(viewed), 0);
+    local_id rank = 0;
+    const auto nodes = static_cast<local_id>(part.size());
+    for (const local_id v : breadth_first_order(viewed, local_id{0})) // the cube's graph is connected
+      part[static_cast<std::size_t>(v)] = rank++ * parts / nodes;
+    return part;
+  }
+};
+
+/// A partitioner by the archetype of a rule.
+struct rule_partitioner {
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    return recursive_bisection(graph, parts, archetype::bisection());
+  }
+};
+
+/// The native improver's schedule with the archetype of a measure.
+struct measure_improver {
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing&) const {
+    using namespace improvement;
+    using measure = archetype::shape_measure;
+    tet_complex complex = take_mesh(mesh, frozen, layout::along_curve);
+    for (local_id e = 0; e < complex.element_slots(); ++e)
+      if (const auto& v = complex.vertices(e); complex.is_alive(e))
+        complex.set_value(e,
+                          static_cast<float>(measure_of<measure>(complex.point(v[0]), complex.point(v[1]),
+                                                                 complex.point(v[2]), complex.point(v[3]))));
+    complex.set_sizes(present_sizes(complex));
+    const surface_limits surface(complex);
+    schedule_limits limits;
+    limits.mender.target = static_cast<float>(measure::from_angle(20));
+    schedule<measure>(complex, surface, limits).run();
+    give_back(complex, mesh);
+    return {};
+  }
+};
 
 /// The unit cube, two triangles per face.
 discrete_model unit_cube() {
@@ -70,6 +138,77 @@ TEST_CASE("the pipeline needs no more of any policy than its concept says") {
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);
   CHECK(io::check_distributed(result.mesh).valid());
+}
+
+TEST_CASE("the pipeline needs no more of what policies are made of than the concepts say") {
+  const auto check = [](const auto& size, const auto& given) {
+    const auto result = generate<3>(unit_cube(), size, given);
+    CHECK(result.failures.empty());
+    CHECK(result.mesh.counts.size() == 3);
+    CHECK(io::check_distributed(result.mesh).valid());
+  };
+  const auto given = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 3});
+  SUBCASE("a bound of the size") {
+    check(archetype::bounded_sizing(0), given);
+  }
+  SUBCASE("the size of features") {
+    check(archetype::aware_sizing(0), given);
+  }
+  SUBCASE("a rule that bisects") {
+    check(archetype::sizing(0), given.with_partitioner(rule_partitioner{}));
+  }
+  SUBCASE("a graph to walk over") {
+    check(archetype::sizing(0), given.with_partitioner(walk_partitioner<archetype::walkable_graph>{}));
+  }
+  SUBCASE("a graph to read") {
+    check(archetype::sizing(0), given.with_partitioner(walk_partitioner<archetype::accessible_graph>{}));
+  }
+  SUBCASE("a measure of shape") {
+    check(archetype::sizing(0), given.with_improver(measure_improver{}));
+  }
+  SUBCASE("what to try next") {
+    check(archetype::sizing(0), given.with_mesher(archetype::mesher_after_failure(mesher::tetgen{})));
+  }
+}
+
+TEST_CASE("a background needs no more of a mesher of whole domains than its concept says") {
+  const archetype::line_keeping_mesher_as whole(mesher::tetgen{});
+  static_assert(line_keeping_mesher<archetype::line_keeping_mesher_as<mesher::tetgen>>);
+  static_assert(!boundary_keeping_mesher<archetype::line_keeping_mesher_as<mesher::tetgen>, 3>);
+  const discrete_model cube = unit_cube();
+  const auto given = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 3});
+  auto background = make_background_by(whole, cube, archetype::sizing(0), given);
+  const auto result = generate_from_background<3>(cube, std::move(background), given);
+  CHECK(result.failures.empty());
+  CHECK(result.mesh.counts.size() == 3);
+  CHECK(io::check_distributed(result.mesh).valid());
+}
+
+TEST_CASE("graph archetypes tell the same graph") {
+  csr_graph csr; // a triangle and an edge that hangs on it
+  csr.offsets = {0, 2, 4, 7, 8};
+  csr.neighbours = {1, 2, 0, 2, 0, 1, 3, 2};
+  const archetype::vertex_list_graph listed(csr);
+  const archetype::incidence_graph incident(csr);
+  const archetype::adjacency_graph adjacent(csr);
+  const archetype::edge_list_graph edged(csr);
+  const archetype::accessible_graph read(csr);
+  std::size_t met = 0;
+  for (auto [v, end] = vertices(listed); v != end; ++v) {
+    auto [w, last] = adjacent_vertices(*v, adjacent);
+    for (auto [e, stop] = out_edges(*v, incident); e != stop; ++e, ++w, ++met) {
+      CHECK(source(*e, incident) == *v);
+      CHECK(target(*e, incident) == *w);
+    }
+    CHECK(out_degree(*v, read) == out_degree(*v, incident));
+  }
+  CHECK(met == 2 * num_edges(edged));
+  const auto [first, last] = edges(edged);
+  CHECK(std::distance(first, last) == 4);
+  CHECK(num_edges(read) == 4);
+  CHECK(breadth_first_order(read, local_id{3}) == std::vector<local_id>{3, 2, 0, 1});
+  CHECK(breadth_first_order(archetype::walkable_graph(csr), local_id{3}) ==
+        std::vector<local_id>{3, 2, 0, 1});
 }
 
 TEST_CASE("pieces of triangles need no more of a surface mesher than its concept says") {

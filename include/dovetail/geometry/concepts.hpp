@@ -1,30 +1,5 @@
 /// @file
-/// The role `geometry_model`: what the pipeline asks of a CAD model.
-///
-/// Valid expressions for `const G& g`, indices `local_id f` of a face and `c` of a curve, `vec2 uv`, `double
-/// t`, `vec3 p`:
-///
-/// - `g.topology()`: const geometry_topology&; vertices, curves, faces, solids as plain data
-/// - `g.curve_point(c, t)`: vec3; point of a curve
-/// - `g.curve_frame(c, t)`: curve_frame; point and first derivative
-/// - `g.curve_uv(f, k, t)`: vec2; parameters on face f of the point t of its coedge k (index into the face's
-/// coedges)
-/// - `g.face_point(f, uv)`: vec3; point of a face's surface
-/// - `g.face_frame(f, uv)`: surface_frame; point and both first derivatives
-/// - `g.face_curvature(f, uv)`: largest absolute principal curvature, 1 / length
-/// - `g.project_to_face(f, p, uv)`: vec2; parameters of the point of the surface nearest p, started from the
-/// seed uv
-/// - `g.project_to_curve(c, p, t)`: parameter of the point of the curve nearest p, started from the seed t
-/// - `g.bounds()`: box3 of the model
-/// - `g.thread_safe()`: whether queries may run in several threads at once
-///
-/// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
-/// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
-/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes. A
-/// copy is cheap, and may be queried in another thread even where `thread_safe()` is false.
-/// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
-/// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
-/// Models: occt_model, discrete_model.
+/// What the pipeline asks of a CAD model, and the plain data that describes one.
 #pragma once
 
 #include "dovetail/core/vector.hpp"
@@ -90,6 +65,35 @@ struct geometry_topology {
   std::vector<solid> solids;
 };
 
+/// The role `geometry_model`: what the pipeline asks of a CAD model.
+///
+/// Valid expressions for `const G& g`, indices `local_id f` of a face and `c` of a curve, `vec2 uv`, `double
+/// t`, `vec3 p`:
+///
+/// - `g.topology()`: const geometry_topology&; vertices, curves, faces, solids as plain data
+/// - `g.curve_point(c, t)`: vec3; point of a curve
+/// - `g.curve_frame(c, t)`: curve_frame; point and first derivative
+/// - `g.curve_uv(f, k, t)`: vec2; parameters on face f of the point t of its coedge k (index into the face's
+/// coedges)
+/// - `g.face_point(f, uv)`: vec3; point of a face's surface
+/// - `g.face_frame(f, uv)`: surface_frame; point and both first derivatives
+/// - `g.face_curvature(f, uv)`: largest absolute principal curvature, 1 / length
+/// - `g.project_to_face(f, p, uv)`: vec2; parameters of the point of the surface nearest p, started from the
+/// seed uv
+/// - `g.project_to_curve(c, p, t)`: parameter of the point of the curve nearest p, started from the seed t
+/// - `g.bounds()`: box3 of the model
+/// - `g.thread_safe()`: whether queries may run in several threads at once
+///
+/// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
+/// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
+/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes. A
+/// copy is cheap, and may be queried in another thread even where `thread_safe()` is false.
+///
+/// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
+///
+/// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
+///
+/// Models: occt_model, discrete_model, implicit_model, plane_domain.
 template <class G>
 concept geometry_model = std::copy_constructible<G> &&
     requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {

@@ -30,25 +30,42 @@ struct graph_edge {
   friend constexpr bool operator==(const graph_edge& a, const graph_edge& b) { return a.index == b.index; }
 };
 
-/// Specialise with these static members. A *slot* is a place where an edge may be; empty slots are skipped.
-///   std::size_t vertex_count(const G&)
-///   std::size_t row_slots(const G&, local_id v)                       slots of the row of vertex v
-///   bool row_edge(const G&, local_id v, std::size_t slot, graph_edge&) false for an empty slot
-///   std::size_t edge_slots(const G&)                                  slots of the edge list
-///   bool list_edge(const G&, std::size_t slot, graph_edge&)           false for an empty slot
-///   using edge_parallel_category = ...                                of Boost
-///   local_id row_neighbour(const G&, local_id v, std::size_t slot)    optional, where no slot is empty and
-///   the
-///                                                                     neighbour is cheaper to read than the
-///                                                                     edge
+/// Base for graphs of another namespace, so that argument-dependent lookup finds the functions of this file.
+struct graph_functions {};
+
+/// Specialise with the static members that `accessible_graph` asks for.
 template <class G>
 struct graph_access;
 
+/// A graph whose rows can be read by index: a specialisation of `graph_access<G>` makes it a model of the
+/// other graph concepts and of Boost's own. A type outside namespace dovetail derives from `graph_functions`.
+///
+/// Valid expressions for `const G& g`, `local_id v`, `std::size_t k`, `graph_edge& e`, `A = graph_access<G>`:
+///
+/// - `A::vertex_count(g)`: the number of vertices, 0, 1, 2, ...
+/// - `A::row_slots(g, v)`: the number of *slots*, places where an edge may be, of the row of v
+/// - `A::row_edge(g, v, k, e)`: sets e to the edge in slot k; false for an empty slot, which is skipped
+/// - `A::edge_slots(g)`, `A::list_edge(g, k, e)`: the same for the list of all edges
+/// - `A::edge_parallel_category`: of Boost
+/// - `A::row_neighbour(g, v, k)`: optional, where no slot is empty and the neighbour is cheaper to read than
+/// the edge
+///
+/// Semantics: an edge out of v has source v; it has the same index in the rows of both its ends and in the
+/// list, where it comes once.
+///
+/// Complexity: constant.
+///
+/// Failure: none; an index out of range is undefined behaviour.
+///
+/// Models: csr_graph, element_dual, side_dual.
 template <class G>
-concept accessible_graph = requires(const G& g, graph_edge& e) {
-  graph_access<G>::vertex_count(g);
-  graph_access<G>::row_edge(g, local_id{0}, std::size_t{0}, e);
-  graph_access<G>::list_edge(g, std::size_t{0}, e);
+concept accessible_graph = requires(const G& g, local_id v, std::size_t k, graph_edge& e) {
+  typename graph_access<G>::edge_parallel_category;
+  { graph_access<G>::vertex_count(g) } -> std::convertible_to<std::size_t>;
+  { graph_access<G>::row_slots(g, v) } -> std::convertible_to<std::size_t>;
+  { graph_access<G>::row_edge(g, v, k, e) } -> std::convertible_to<bool>;
+  { graph_access<G>::edge_slots(g) } -> std::convertible_to<std::size_t>;
+  { graph_access<G>::list_edge(g, k, e) } -> std::convertible_to<bool>;
 };
 
 template <accessible_graph G>

@@ -1,26 +1,5 @@
 /// @file
-/// The roles `mesh_writer` and `mesh_reader`.
-///
-/// mesh_writer. Valid expression for `const W& w`, `const distributed_mesh& mesh`, `const
-/// std::filesystem::path& folder`: `w(mesh, folder)` -> report.
-///
-/// Semantics: writes the mesh into the folder (made when missing), with the global numbers of
-/// distributed_mesh.hpp. The mesh is streamed: besides the skeleton, one piece is in memory at a time;
-/// `mesh.load` may be called more than once per piece. Files appear under their final names when all of
-/// them are complete.
-/// Complexity: linear in the size of the mesh. The report has the counters elements, bytes and files.
-/// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
-/// `mesh_error` when pieces and skeleton disagree.
-/// Models: io::vtu_writer, io::msh_writer.
-///
-/// mesh_reader. Valid expression for `const R& r`, `const std::filesystem::path& file`: `r(file)` ->
-/// loaded_mesh.
-///
-/// Semantics: reads the tetrahedra with their tags, and the triangles, arrays and names the file has.
-/// Complexity: linear; the whole mesh is held.
-/// Failure: throws `input_error` naming the file and what is wrong with it when it is missing, truncated,
-/// malformed, foreign, or has elements other than simplices.
-/// Models: io::vtu_reader, io::msh_reader.
+/// What is asked of the writers and readers of mesh files.
 #pragma once
 
 #include "dovetail/core/report.hpp"
@@ -32,12 +11,40 @@
 
 namespace dovetail {
 
+/// The role `mesh_writer`: a distributed mesh becomes files.
+///
+/// Valid expression for `const W& w`, `const distributed_mesh& mesh`, `const std::filesystem::path& folder`:
+/// `w(mesh, folder)` -> report.
+///
+/// Semantics: writes the mesh into the folder (made when missing), with the global numbers of
+/// distributed_mesh.hpp. The mesh is streamed: besides the skeleton, one piece is in memory at a time;
+/// `mesh.load` may be called more than once per piece. Files appear under their final names when all of
+/// them are complete.
+///
+/// Complexity: linear in the size of the mesh. The report has the counters elements, bytes and files.
+///
+/// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
+/// `mesh_error` when pieces and skeleton disagree.
+///
+/// Models: io::vtu_writer, io::msh_writer.
 template <class W>
 concept mesh_writer = std::copy_constructible<W> &&
     requires(const W& w, const distributed_mesh& mesh, const std::filesystem::path& folder) {
   { w(mesh, folder) } -> std::same_as<report>;
 };
 
+/// The role `mesh_reader`: a file becomes a mesh.
+///
+/// Valid expression for `const R& r`, `const std::filesystem::path& file`: `r(file)` -> loaded_mesh.
+///
+/// Semantics: reads the tetrahedra with their tags, and the triangles, arrays and names the file has.
+///
+/// Complexity: linear; the whole mesh is held.
+///
+/// Failure: throws `input_error` naming the file and what is wrong with it when it is missing, truncated,
+/// malformed, foreign, or has elements other than simplices.
+///
+/// Models: io::vtu_reader, io::msh_reader.
 template <class R>
 concept mesh_reader = std::copy_constructible<R> && requires(const R& r, const std::filesystem::path& file) {
   { r(file) } -> std::same_as<io::loaded_mesh>;

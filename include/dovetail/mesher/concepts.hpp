@@ -1,24 +1,5 @@
 /// @file
-/// The role `piece_mesher<M, D>`: fill a bounded piece with elements without touching its boundary.
-///
-/// Valid expressions for `const M& m`, `const mesher_input<D>& in`, `const any_sizing& h`:
-///
-/// - `m(in, h)`: mesher_result<D>
-/// - `M::traits`: mesher_traits, constexpr static
-///
-/// Semantics: every boundary side of `in` is a side of exactly one element of the result (two for a side
-/// listed in both directions); points [0, in.boundary.points.size()) of the result are the input's, bit for
-/// bit; all elements are positively oriented and fill exactly the inside of the oriented shells (outer
-/// shells and voids). The mean edge length on a uniform field equals the size within 5 %.
-/// Complexity: about linear in the number of elements made.
-/// Failure: throws `mesher_error`; with `traits.may_crash` it may also end the process, so run it in a
-/// worker.
-///
-/// In D = 2 a piece consists of regions on CAD faces or planes: points lie exactly on the region's surface,
-/// and elements are oriented along the oriented face. Models for D = 2: native_surface, cgal_surface,
-/// gmsh_surface. Models for D = 3: tetgen, gmsh_hxt, gmsh_delaunay, netgen (mean edge within 12 %);
-/// cgal_mesh_3, which keeps no boundary, is a `piece_mesher` only. A mesher is a local (not collective)
-/// operation.
+/// What the pipeline asks of meshers of pieces and of whole domains, and what goes in and out.
 #pragma once
 
 #include "dovetail/core/report.hpp"
@@ -70,6 +51,23 @@ struct mesher_result<2> {
   std::vector<std::array<vec2, 3>> corner_uv = {}; ///< per triangle: parameters on its face; may be empty
 };
 
+/// The role `piece_mesher<M, D>`: fill the inside of a closed boundary with elements.
+///
+/// Valid expressions for `const M& m`, `const mesher_input<D>& in`, `const any_sizing& h`:
+///
+/// - `m(in, h)`: mesher_result<D>
+/// - `M::traits`: mesher_traits, constexpr static
+///
+/// Semantics: all elements are positively oriented and fill the inside of the oriented shells (outer shells
+/// and voids). The mean edge length on a uniform field equals the size within 5 % (netgen: 12 %). The traits
+/// are true. A mesher is a local (not collective) operation.
+///
+/// Complexity: about linear in the number of elements made.
+///
+/// Failure: throws `mesher_error`; with `traits.may_crash` it may also end the process, so run it in a
+/// worker.
+///
+/// Models: those of `boundary_keeping_mesher`; cgal_mesh_3, which keeps no boundary, for whole domains.
 template <class M, int D>
 concept piece_mesher = std::copy_constructible<M> &&
     requires(const M& m, const mesher_input<D>& in, const any_sizing& h) {
@@ -77,8 +75,48 @@ concept piece_mesher = std::copy_constructible<M> &&
   { M::traits } -> std::convertible_to<mesher_traits>;
 };
 
-/// A mesher that may be used on subdomains: it keeps the boundary it is given.
+/// The role `boundary_keeping_mesher<M, D>`: a mesher that may be used on subdomains, since it does not touch
+/// the boundary it is given.
+///
+/// Valid expressions: those of `piece_mesher<M, D>`; `M::traits.keeps_boundary` is true in a constant
+/// expression.
+///
+/// Semantics: every boundary side of `in` is a side of exactly one element of the result (two for a side
+/// listed in both directions); points [0, in.boundary.points.size()) of the result are the input's, bit for
+/// bit; elements fill exactly the inside. In D = 2 a piece consists of regions on CAD faces or planes: points
+/// lie exactly on the region's surface, and elements are oriented along the oriented face.
+///
+/// Complexity: about linear in the number of elements made.
+///
+/// Failure: as `piece_mesher`.
+///
+/// Models: native_surface, cgal_surface, gmsh_surface for D = 2; tetgen, gmsh_hxt, gmsh_delaunay, netgen for
+/// D = 3.
 template <class M, int D>
 concept boundary_keeping_mesher = piece_mesher<M, D> && M::traits.keeps_boundary;
+
+/// The role `line_keeping_mesher`: a mesher of whole domains that follows given lines, for
+/// `make_background_by`.
+///
+/// Valid expressions for `const M& m`, `std::vector<std::vector<vec3>> lines`: those of `piece_mesher<M, 3>`,
+/// and
+///
+/// - `m.with_lines(lines)`: M, the same mesher told the lines
+///
+/// Semantics: `lines` are chains of points on the boundary that will be given, ends included; those that meet
+/// do so in their ends. The result of `m.with_lines(lines)(in, h)` has its own boundary triangles, near the
+/// given ones; a chain of their edges runs from end to end of each line, with points on the line.
+///
+/// Complexity: `with_lines` is linear in the points; the mesher's is its own.
+///
+/// Failure: as `piece_mesher`.
+///
+/// Models: cgal_mesh_3. A mesher that keeps its whole boundary can be made one by a `with_lines` that returns
+/// a copy.
+template <class M>
+concept line_keeping_mesher = piece_mesher<M, 3> &&
+    requires(const M& m, std::vector<std::vector<vec3>> lines) {
+  { m.with_lines(lines) } -> std::same_as<M>;
+};
 
 } // namespace dovetail

@@ -7,7 +7,18 @@
 
 namespace dovetail {
 
-/// A mesher, or another policy, that knows what to try next: `m.fallbacks()` -> std::vector<M>.
+/// A mesher, or another policy, that knows what to try next.
+///
+/// Valid expression for `const M& m`: `m.fallbacks()` -> std::vector<M>.
+///
+/// Semantics: what to try, in this order, on a piece on which `m` failed; `m` itself is not in it, and the
+/// fallbacks of fallbacks are not asked for. It may be empty.
+///
+/// Complexity: constant.
+///
+/// Failure: none; when all have failed the piece is merged with a neighbour.
+///
+/// Models: mesher::tetgen.
 template <class M>
 concept has_fallbacks = requires(const M& m) {
   { m.fallbacks() } -> std::same_as<std::vector<M>>;

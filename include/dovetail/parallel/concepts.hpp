@@ -1,17 +1,5 @@
 /// @file
-/// The role `executor`: run independent tasks and collect their encoded results.
-///
-/// Valid expression for `const E& e`: `e.run(count, task, options)` -> std::vector<task_outcome> of length
-/// count, outcome i being that of `task(i)`.
-///
-/// Semantics: `task(i)` depends on i and on data fixed before the call only; it may run in another thread
-/// or process, so all it gives back is its return value. A task that throws, crashes or exceeds the limit
-/// gives an outcome with `ok == false` and the reason; the others go on. Outcomes are the same for every
-/// model and number of workers. `options.order` lists tasks in the order they are started (largest
-/// predicted cost first).
-/// Complexity: the tasks' own, plus one copy of each result.
-/// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
-/// Models: serial, threads, processes.
+/// What the pipeline asks of an executor, and what becomes of a task.
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
@@ -48,6 +36,25 @@ struct run_options {
 
 using task_function = std::function<byte_buffer(std::size_t)>;
 
+/// The role `executor`: run independent tasks and collect their encoded results.
+///
+/// Valid expressions for `const E& e`:
+///
+/// - `e.run(count, task, options)`: std::vector<task_outcome> of length count, outcome i being that of
+/// `task(i)`
+/// - `e.workers()`: how many tasks run at a time, an int
+///
+/// Semantics: `task(i)` depends on i and on data fixed before the call only; it may run in another thread
+/// or process, so all it gives back is its return value. A task that throws, crashes or exceeds the limit
+/// gives an outcome with `ok == false` and the reason; the others go on. Outcomes are the same for every
+/// model and number of workers. `options.order` lists tasks in the order they are started (largest
+/// predicted cost first).
+///
+/// Complexity: the tasks' own, plus one copy of each result.
+///
+/// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
+///
+/// Models: serial, threads, processes.
 template <class E>
 concept executor = requires(const E& e, std::size_t count, const task_function& task,
                             const run_options& options) {

@@ -14,11 +14,22 @@
 
 namespace dovetail {
 
-/// A rule that bisects a graph: 0 or 1 for every node, such that part 0 weighs about left / (left + right) of
-/// the whole and the two have at least `left` and `right` nodes.
+/// A rule that bisects a graph; `recursive_bisection` makes a partitioner of it.
+///
+/// Valid expression for `const B& b`, `const csr_graph& g`, `int left`, `int right`: `b(g, left, right)` ->
+/// std::vector<local_id>, 0 or 1 for every node.
+///
+/// Semantics: part 0 weighs about left / (left + right) of the whole, and the two have at least `left` and
+/// `right` nodes when the graph has so many.
+///
+/// Complexity: at most n log n in the nodes and edges.
+///
+/// Failure: throws `partition_error`.
+///
+/// Models: the rules inside spectral, greedy, inertial, recursive_coordinate.
 template <class B>
-concept bisection_rule = requires(const B& bisect, const csr_graph& graph, int left, int right) {
-  { bisect(graph, left, right) } -> std::same_as<std::vector<local_id>>;
+concept bisection_rule = requires(const B& b, const csr_graph& g, int left, int right) {
+  { b(g, left, right) } -> std::same_as<std::vector<local_id>>;
 };
 
 /// Splits a graph into `parts` parts of about equal weight by repeated bisection. The rule's cost times about

@@ -3,19 +3,13 @@
 #pragma once
 
 #include "dovetail/background/whole_domain.hpp"
+#include "dovetail/mesher/concepts.hpp"
 #include "dovetail/pipeline/background.hpp"
 
 #include <utility>
 #include <vector>
 
 namespace dovetail {
-
-/// A mesher of whole domains that follows given lines; `m.with_lines(lines)` -> M is told their points.
-template <class M>
-concept line_keeping_mesher = piece_mesher<M, 3> &&
-    requires(const M& m, std::vector<std::vector<vec3>> lines) {
-  { m.with_lines(lines) } -> std::same_as<M>;
-};
 
 /// `make_background<3>` with a mesher of whole domains; subdomains are meshed by another one:
 ///

@@ -29,9 +29,20 @@ struct patch_boundary {
   std::vector<std::array<local_id, 2>> forbidden_edges = {};
 };
 
-/// A parametric surface under a patch. `s.frame(uv)` is its point and derivatives, `s.project(p, uv)` the
-/// parameters of the point nearest p, started from seed uv. Models: plane_surface, triangle_surface,
-/// model_surface.
+/// A parametric surface under a patch.
+///
+/// Valid expressions for `const S& s`, `vec3 p`, `vec2 uv`:
+///
+/// - `s.frame(uv)`: surface_frame; point and first derivatives
+/// - `s.project(p, uv)`: vec2; parameters of the point of the surface nearest p, started from the seed uv
+///
+/// Semantics: `s.project(s.frame(uv).point, uv)` is uv. Queries are const; they need not be thread-safe.
+///
+/// Complexity: constant; a projection takes a few Newton steps.
+///
+/// Failure: throws `geometry_error` naming the face when its kernel cannot evaluate it.
+///
+/// Models: remesh::plane_surface, triangle_surface, model_surface, any_surface.
 template <class S>
 concept patch_surface = requires(const S& s, vec3 p, vec2 uv) {
   { s.frame(uv) } -> std::same_as<surface_frame>;

@@ -14,8 +14,20 @@
 
 namespace dovetail {
 
-/// A sizing field that knows, for every box, a positive lower bound of its values there. Bounds get sharp as
-/// the box shrinks: for a box that shrinks to a point they tend to the field's value.
+/// A sizing field that knows, for every box, a positive lower bound of its values there.
+///
+/// Valid expression for `const H& h`, `const box3& box`: `h.smallest_size_in(box)`, a double, and those of
+/// `sizing_field`.
+///
+/// Semantics: `h(p) >= h.smallest_size_in(box)` for every p in the box. Bounds get sharp as the box shrinks:
+/// for a box that shrinks to a point they tend to the field's value.
+///
+/// Complexity: O(log n) for n sources, as an evaluation.
+///
+/// Failure: never throws; 0 says "unknown".
+///
+/// Models: source_field, background_field, point_sizes, graded_size, minimum_of and scaled of such fields,
+/// uniform_size.
 template <class H>
 concept bounded_below_sizing_field = sizing_field<H> && requires(const H& h, const box3& box) {
   { h.smallest_size_in(box) } -> std::convertible_to<double>;
@@ -31,6 +43,18 @@ double smallest_size_in(const H& h, const box3& box) {
 }
 
 /// A sizing field that knows the length scale of its own features (sources) at a point.
+///
+/// Valid expression for `const H& h`, `vec3 p`: `h.feature_size(p)`, a positive double, and those of
+/// `sizing_field`.
+///
+/// Semantics: a mesh whose edges at p are no longer than that cannot step over a feature; infinite where
+/// there is none.
+///
+/// Complexity: O(log n) for n sources, as an evaluation.
+///
+/// Failure: never throws.
+///
+/// Models: source_field, point_sizes; minimum_of and scaled of such fields.
 template <class H>
 concept feature_aware_sizing_field = sizing_field<H> && requires(const H& h, vec3 p) {
   { h.feature_size(p) } -> std::convertible_to<double>;

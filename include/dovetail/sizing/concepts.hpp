@@ -1,14 +1,5 @@
 /// @file
-/// The role `sizing_field`: position -> target edge length.
-///
-/// Valid expression for `const H& h`, `vec3 p`: `h(p)`, a positive finite double in the unit of the model.
-///
-/// Semantics: pure; the same point always gives the same value. Callable from several threads at once.
-/// Complexity: O(log n) for n sources.
-/// Failure: construction throws `sizing_error`, evaluation never throws.
-/// Models: uniform_size, source_field, background_field, point_sizes (curvature, proximity, automatic),
-/// minimum_of, scaled, graded_size, any_sizing, a user's
-/// lambda.
+/// What a sizing field is, and one chosen at run time.
 #pragma once
 
 #include "dovetail/core/vector.hpp"
@@ -18,6 +9,18 @@
 
 namespace dovetail {
 
+/// The role `sizing_field`: position -> target edge length.
+///
+/// Valid expression for `const H& h`, `vec3 p`: `h(p)`, a positive finite double in the unit of the model.
+///
+/// Semantics: pure; the same point always gives the same value. Callable from several threads at once.
+///
+/// Complexity: O(log n) for n sources.
+///
+/// Failure: construction throws `sizing_error`, evaluation never throws.
+///
+/// Models: uniform_size, source_field, background_field, point_sizes (curvature, proximity, automatic),
+/// minimum_of, scaled, graded_size, any_sizing, a user's lambda.
 template <class H>
 concept sizing_field = std::copy_constructible<H> && requires(const H& h, vec3 p) {
   { h(p) } -> std::convertible_to<double>;
