@@ -1,5 +1,6 @@
 #include "model_source.hpp"
 
+#include "crash_message.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
 
@@ -14,23 +15,75 @@
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <utility>
 
 namespace dovetail::app {
 namespace {
 
 constexpr double default_elements_across = 25; ///< of a model's diagonal
+constexpr double most_elements_across = 1e9;   ///< beyond, coordinates have too few digits
+
+std::string text_of(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
 
 /// A size that is no use for a model is refused here, where the option's name is known.
 double checked_size(double size, const box3& domain) {
+  const std::string given = "--size: " + text_of(size);
   if (!(size > 0) || !std::isfinite(size))
-    throw sizing_error("--size: " + std::to_string(size) + " is not a length; give a positive number");
+    throw sizing_error(given + " is not a length; give a positive number");
   if (size > domain.diagonal())
-    throw sizing_error("--size: " + std::to_string(size) + " is larger than the model, whose diagonal is " +
-                       std::to_string(domain.diagonal()));
+    throw sizing_error(given + " is larger than the model, whose diagonal is " + text_of(domain.diagonal()));
+  if (size < domain.diagonal() / most_elements_across)
+    throw sizing_error(given + " is less than a billionth of the model's diagonal, " +
+                       text_of(domain.diagonal()));
   return size;
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+/// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
+any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
+  if (dimension != 2)
+    throw input_error(file.string() + ": a plane domain is meshed with triangles, by dovetail mesh --dimension 2");
+  const plane_drawing drawing = ending_of(file) == ".svg" ? read_svg(file) : read_polygons(file);
+  try {
+    return any_geometry(plane_domain(drawing));
+  } catch (const geometry_error& problem) {
+    throw geometry_error(file.string() + ": " + problem.what());
+  }
+}
+
+any_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension,
+                          report& summary) {
+  const crash_message if_it_crashes(
+      file.string() + ": Open CASCADE crashed while reading it; the file is damaged, export it again");
+  const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
+  const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
+  auto read = read_occt_model(file, {.unit = unit, .entities = entities});
+  summary = std::move(read.report);
+  return any_geometry(std::move(read.model));
+}
+
+/// `summary` receives what reading and healing report.
+any_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options, int dimension,
+                              report& summary) {
+  if (ending_of(file) == ".svg" || ending_of(file) == ".txt")
+    return plane_geometry(file, dimension);
+  if (!triangle_format_of(file).empty())
+    return any_geometry(read_discrete_model(file));
+  return cad_geometry(file, options, dimension, summary);
 }
 
 /// The built-in model's own sizes; a size given scales all of them.
@@ -54,23 +107,15 @@ model_source builtin_source(const model_options& options) {
 
 model_source file_source(const model_options& options, int dimension) {
   const std::filesystem::path file = options.input;
-  const auto with_sizing = [&](any_geometry geometry, report summary) {
-    const box3 domain = geometry.bounds();
-    any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry);
-    if (!size)
-      size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
-    return model_source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
-  };
-  if (file.extension() == ".svg")
-    return with_sizing(any_geometry(plane_domain(read_svg(file))), {});
-  if (file.extension() == ".txt")
-    return with_sizing(any_geometry(plane_domain(read_polygons(file))), {});
-  if (!triangle_format_of(file).empty())
-    return with_sizing(any_geometry(read_discrete_model(file)), {});
-  const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
-  const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
-  auto read = read_occt_model(file, {.unit = unit, .entities = entities});
-  return with_sizing(any_geometry(std::move(read.model)), std::move(read.report));
+  report summary;
+  any_geometry geometry = geometry_of_file(file, options, dimension, summary);
+  const box3 domain = geometry.bounds();
+  if (!std::isfinite(domain.diagonal()))
+    throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
+  any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry);
+  if (!size)
+    size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
+  return {file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
 }
 
 background_field load_background(const std::filesystem::path& file, const std::string& array) {

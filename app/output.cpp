@@ -58,6 +58,8 @@ std::vector<output_format<D>> make_formats(const std::vector<std::string>& names
 }
 
 output_folder::output_folder(std::filesystem::path path) : path_(std::move(path)) {
+  if (path_.empty())
+    throw command_line_error("--out: the name of a folder is missing");
   for (auto folder = std::filesystem::absolute(path_).lexically_normal(); !folder.empty();
        folder = folder.parent_path()) {
     std::error_code ignored;
@@ -85,6 +87,8 @@ void check_can_create(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw io_error(file.string() + ": cannot write the file, there is a folder of this name");
+  if (std::filesystem::is_fifo(file, ignored))
+    return;                      // opened twice, its reader would see the end of the file after the first
   const output_file probe(file); // removes itself, since it is never committed
 }
 

@@ -49,6 +49,41 @@ expect_error "truncated.step" mesh "$inputs/truncated.step"
 expect_error "no_solid.step" mesh "$inputs/no_solid.step"
 printf 'DBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\nLocations 1\n' >"$inputs/truncated.brep"
 expect_error "truncated.brep" mesh "$inputs/truncated.brep"
+# Open CASCADE crashes on a surface whose control point is missing.
+cat >"$inputs/dangling.step" <<'STEP'
+ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
+ENDSEC;
+DATA;
+#1=CARTESIAN_POINT('',(0.,0.,0.));
+#2=CARTESIAN_POINT('',(1.,0.,0.));
+#3=CARTESIAN_POINT('',(0.,1.,0.));
+#5=B_SPLINE_SURFACE_WITH_KNOTS('',1,1,((#1,#2),(#3,#4)),.UNSPECIFIED.,.F.,.F.,.F.,(2,2),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.);
+#6=VERTEX_POINT('',#1);
+#7=VERTEX_LOOP('',#6);
+#8=FACE_BOUND('',#7,.T.);
+#9=ADVANCED_FACE('',(#8),#5,.T.);
+#10=CLOSED_SHELL('',(#9));
+#11=MANIFOLD_SOLID_BREP('',#10);
+#12=ADVANCED_BREP_SHAPE_REPRESENTATION('',(#11),#13);
+#13=(GEOMETRIC_REPRESENTATION_CONTEXT(3)REPRESENTATION_CONTEXT('',''));
+#14=PRODUCT('p','p','',(#15));
+#15=PRODUCT_CONTEXT('',#16,'mechanical');
+#16=APPLICATION_CONTEXT('automotive');
+#17=PRODUCT_DEFINITION_FORMATION('','',#14);
+#18=PRODUCT_DEFINITION('design','',#17,#19);
+#19=PRODUCT_DEFINITION_CONTEXT('',#16,'design');
+#20=PRODUCT_DEFINITION_SHAPE('','',#18);
+#21=SHAPE_DEFINITION_REPRESENTATION(#20,#12);
+ENDSEC;
+END-ISO-10303-21;
+STEP
+for dimension in 2 3; do
+  expect_error "dangling.step" mesh "$inputs/dangling.step" --dimension $dimension
+done
 
 # Surfaces of triangles.
 facet() { printf 'facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n' "$@"; }
@@ -69,6 +104,27 @@ expect_error "words.stl" mesh "$inputs/words.stl"
 expect_error "nan.stl" mesh "$inputs/nan.stl"
 printf '%080d\377\377\377\177' 0 >"$inputs/promise.stl" # a binary file that promises 2^31 triangles and has none
 expect_error "promise.stl" mesh "$inputs/promise.stl"
+
+# Plane domains.
+svg() { printf '<svg><path d="%s"/></svg>\n' "$2" >"$inputs/$1.svg"; }
+svg square 'M0 0 L9 0 L9 9 L0 9 Z'
+expect_error "square.svg.*--dimension 2" mesh "$inputs/square.svg"
+expect_error "square.svg.*--dimension 2" compare "$inputs/square.svg"
+svg bow 'M0 0 L9 9 L9 0 L0 9 Z'
+svg words 'M0 0 L nan 0 L9 9 Z'
+svg open 'M0 0 L9 0 L9 9'
+svg two_points 'M0 0 L9 0 Z'
+svg nothing ''
+svg far 'M0 0 L1e300 0 L1e300 1e300 Z'
+printf '<svg><path d="M0 0 L9 0 L9' >"$inputs/cut.svg"
+printf 'polygon a\n0 0\n9 0\n9 9\n0 9\nline c\n-5 4\n5 4\n' >"$inputs/line_leaves.txt"
+printf 'polygon a\n0 0\nnan 0\n9 9\n' >"$inputs/nan.txt"
+printf '0 0\n9 0\n9 9\n' >"$inputs/no_heading.txt"
+for name in bow.svg words.svg open.svg two_points.svg nothing.svg far.svg cut.svg line_leaves.txt nan.txt no_heading.txt; do
+  expect_error "$name" mesh "$inputs/$name" --dimension 2
+done
+cp "$inputs/square.svg" "$inputs/UPPER.SVG"
+expect_success mesh "$inputs/UPPER.SVG" --dimension 2 --format none
 
 # Sizing files.
 json() { printf '%s' "$2" >"$inputs/$1.json"; }

@@ -8,6 +8,7 @@ coarse=(mesh --model combustor --size 12 --subdomains 2 --workers 1)
 : >"$inputs/file"
 expect_error "file" "${coarse[@]}" --out "$inputs/file"
 expect_error "file/out" "${coarse[@]}" --out "$inputs/file/out"
+expect_error "--out" "${coarse[@]}" --out ""
 expect_error "/proc/out" "${coarse[@]}" --out /proc/out
 expect_error "/proc/report.json" "${coarse[@]}" --report /proc/report.json
 expect_error "no_such_folder/report.json" "${coarse[@]}" --report no_such_folder/report.json

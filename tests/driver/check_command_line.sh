@@ -40,4 +40,5 @@ for size in 0 -1 nan -nan inf 1e-400; do
 done
 expect_error "--size" mesh --model combustor --size large
 expect_error "larger than the model" mesh --model combustor --size 1e9
+expect_error "--size: 1e-20 is less" mesh --model combustor --size 1e-20
 finish

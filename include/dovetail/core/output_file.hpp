@@ -27,9 +27,13 @@ namespace dovetail {
 /// A buffered, sequential output file. It is written as `<path>.part` and gets its final name in `commit`;
 /// without a commit the destructor removes it. Every failure throws `io_error` naming the path. (A process
 /// that wants an `io_error` at a file size limit must ignore SIGXFSZ, as for any program.)
+/// What is no plain file (`/dev/null`, `/dev/stdout`, a pipe) is written to as it is, since a rename would
+/// put a file in its place; a symbolic link stays, and the file it names is replaced.
 class output_file {
 public:
-  explicit output_file(std::filesystem::path path) : path_(std::move(path)), part_(path_.string() + ".part") {
+  explicit output_file(std::filesystem::path path)
+      : path_(std::move(path)), target_(behind_links(path_)), in_place_(is_special(path_)),
+        part_(in_place_ ? path_.string() : target_ + ".part") {
     descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
       fail("cannot create");
@@ -40,7 +44,7 @@ public:
   ~output_file() {
     if (descriptor_ >= 0)
       ::close(descriptor_);
-    if (!committed_)
+    if (!committed_ && !in_place_)
       ::unlink(part_.c_str());
   }
 
@@ -89,13 +93,27 @@ public:
   /// Closes the file and gives it its final name, replacing an older file at once.
   void commit() {
     close();
-    if (::rename(part_.c_str(), path_.c_str()) != 0)
+    if (!in_place_ && ::rename(part_.c_str(), target_.c_str()) != 0)
       fail("cannot rename the finished file to");
     committed_ = true;
   }
 
 private:
   static constexpr std::size_t capacity = 1 << 18;
+
+  static bool is_special(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto found = std::filesystem::status(path, ignored);
+    return std::filesystem::exists(found) && !std::filesystem::is_regular_file(found) &&
+           !std::filesystem::is_directory(found);
+  }
+  static std::string behind_links(const std::filesystem::path& path) {
+    std::error_code none;
+    if (!std::filesystem::is_symlink(path, none))
+      return path.string();
+    const auto target = std::filesystem::canonical(path, none);
+    return none ? path.string() : target.string();
+  }
 
   void flush() { write_out(buffer_.get(), std::exchange(used_, 0)); }
   void write_out(const char* data, std::size_t size) {
@@ -115,6 +133,8 @@ private:
   }
 
   std::filesystem::path path_;
+  std::string target_; ///< what a link names; the path itself otherwise
+  bool in_place_;      ///< no plain file: neither renamed nor removed
   std::string part_;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
