@@ -1,15 +1,14 @@
 /// @file
 /// Constrained Delaunay triangulation of a plane domain given by closed loops.
 ///
-/// Points are inserted one by one along a space-filling curve and made Delaunay by flips; missing segments
-/// are recovered by flips (S. W. Sloan, "A fast algorithm for generating constrained Delaunay
-/// triangulations", doi 10.1016/0045-7949(93)90239-A); the outside is removed by winding number. All
-/// decisions are exact.
+/// The points are made a Delaunay triangulation; missing segments are recovered by flips (S. W. Sloan, "A
+/// fast algorithm for generating constrained Delaunay triangulations", doi 10.1016/0045-7949(93)90239-A); the
+/// outside is removed by winding number. All decisions are exact.
 #pragma once
 
-#include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/mesh/corner_table.hpp"
+#include "dovetail/remesh/point_triangulation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,162 +32,35 @@ struct loop_triangulation {
 
 namespace detail {
 
-/// The permutation that sorts points along a Hilbert curve through their bounding box.
-inline std::vector<local_id> order_along_curve(std::span<const vec2> points) {
-  vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
-  for (const vec2 p : points) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-  }
-  constexpr int bits = 16;
-  constexpr double cells = (1U << bits) - 1;
-  const double wx = upper.x > lower.x ? cells / (upper.x - lower.x) : 0;
-  const double wy = upper.y > lower.y ? cells / (upper.y - lower.y) : 0;
-  std::vector<std::pair<std::uint64_t, local_id>> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    keyed[i] = {hilbert_place<2>({static_cast<std::uint32_t>((points[i].x - lower.x) * wx),
-                                  static_cast<std::uint32_t>((points[i].y - lower.y) * wy)},
-                                 bits),
-                static_cast<local_id>(i)};
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<local_id> order(points.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i)
-    order[i] = keyed[i].second;
-  return order;
-}
-
 /// Builds a `loop_triangulation`; see `triangulate_loops`.
 class loop_triangulator {
 public:
   loop_triangulator(std::span<const vec2> points, std::span<const std::array<local_id, 2>> segments)
-      : points_(points.begin(), points.end()), segments_(segments) {}
+      : triangulation_(points), segments_(segments) {}
 
   loop_triangulation run() {
-    insert_points();
     net_.assign(segments_.size(), 0);
     for (local_id s = 0; s < static_cast<local_id>(segments_.size()); ++s)
       recover_segment(s);
     if (result_.crossings.empty())
       remove_outside();
+    result_.table = std::move(triangulation_.table);
+    result_.same_as = std::move(triangulation_.same_as);
     return std::move(result_);
   }
 
 private:
   static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  vec2 xy(local_id v) const { return points_[at(v)]; }
-  vec2 corner_xy(local_id c) const { return xy(table().vertex[at(c)]); }
-  corner_table& table() { return result_.table; }
-  const corner_table& table() const { return result_.table; }
-
-  void insert_points() {
-    const std::size_t count = points_.size();
-    const std::vector<local_id> order = order_along_curve(points_);
-    table().corner_of.assign(count, no_id);
-    result_.same_as.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-      result_.same_as[i] = static_cast<local_id>(i);
-    add_enclosing_triangle();
-    for (const local_id v : order)
-      insert(v);
-    // The first of a group of equal points was whichever came first along the curve; name it by lowest index.
-    for (local_id v = 0; v < static_cast<local_id>(count); ++v)
-      rename_to_lowest(v);
-  }
-
-  /// Adds a triangle that holds all points far from its sides. Its vertices are ordinary points: the domain
-  /// is bounded by constraints, so they have no influence on the triangles that stay.
-  void add_enclosing_triangle() {
-    vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
-    for (const vec2 p : points_) {
-      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-    }
-    const vec2 center = 0.5 * (lower + upper);
-    const double far = std::max(std::abs(center.x), std::abs(center.y));
-    double size = std::max({upper.x - lower.x, upper.y - lower.y, 1e-12 * far});
-    if (!(size > 0))
-      size = 1; // all points are the origin
-    enclosing_ = static_cast<local_id>(points_.size());
-    for (const vec2 corner : {vec2{-30, -20}, vec2{30, -20}, vec2{0, 40}}) {
-      points_.push_back(center + size * corner);
-      table().add_vertex();
-    }
-    last_ = table().add_triangle(enclosing_, enclosing_ + 1, enclosing_ + 2);
-  }
-
-  void insert(local_id v) {
-    const vec2 p = xy(v);
-    local_id t = last_;
-    local_id came_from = no_id;
-    for (bool moved = true; moved;) { // walk; exact orientations and a Delaunay triangulation: it ends
-      moved = false;
-      for (local_id i = 0; i < 3 && !moved; ++i) {
-        const local_id c = 3 * t + i, across = table().twin[at(c)];
-        if (across == no_id || across == came_from)
-          continue;
-        if (orient2d(xy(table().tail(c)), xy(table().head(c)), p) < 0) {
-          came_from = c;
-          t = corner_table::triangle_of(across);
-          moved = true;
-        }
-      }
-    }
-    last_ = t;
-    local_id on_side = no_id;
-    for (local_id i = 0; i < 3; ++i) {
-      const local_id c = 3 * t + i;
-      if (corner_xy(c) == p) {
-        result_.same_as[at(v)] = table().vertex[at(c)];
-        return;
-      }
-      if (orient2d(xy(table().tail(c)), xy(table().head(c)), p) == 0)
-        on_side = c;
-    }
-    if (on_side == no_id) {
-      for (const local_id s : table().split_triangle(t, v))
-        legalise_.push_back(3 * s + 2);
-    } else {
-      for (const local_id c : table().split_side(on_side, v))
-        legalise_.push_back(c);
-    }
-    restore_delaunay();
-    last_ = corner_table::triangle_of(table().corner_of[at(v)]);
-  }
-
-  /// Flips the sides opposite the queued corners, and those their flips expose, until all are Delaunay.
-  void restore_delaunay() {
-    while (!legalise_.empty()) {
-      const local_id c = legalise_.back();
-      legalise_.pop_back();
-      if (!table().free_side(c))
-        continue;
-      const local_id d = table().twin[at(c)];
-      if (in_circle(corner_xy(c), xy(table().tail(c)), xy(table().head(c)), corner_xy(d)) <= 0)
-        continue;
-      table().flip(c); // inside the circle implies strictly convex
-      for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
-        legalise_.push_back(e);
-    }
-  }
-
-  void rename_to_lowest(local_id v) {
-    const local_id group = result_.same_as[at(v)];
-    if (group <= v)
-      return;
-    // v is the lowest index of its group, as indices are visited upwards: it takes over the group's corners.
-    const local_id first = table().corner_of[at(group)];
-    table().for_each_corner(group, [&](local_id c) { table().vertex[at(c)] = v; });
-    table().corner_of[at(v)] = first;
-    table().corner_of[at(group)] = no_id;
-    for (local_id w = v; w < enclosing_; ++w)
-      if (result_.same_as[at(w)] == group)
-        result_.same_as[at(w)] = v;
-  }
+  vec2 xy(local_id v) const { return triangulation_.xy(v); }
+  corner_table& table() { return triangulation_.table; }
+  const corner_table& table() const { return triangulation_.table; }
+  local_id enclosing() const { return triangulation_.enclosing(); }
+  local_id first_of_equal(local_id v) const { return triangulation_.same_as[at(v)]; }
 
   /// Makes segment s a constrained side, or reports what it crosses.
   void recover_segment(local_id s) {
-    const local_id a = result_.same_as[at(segments_[at(s)][0])];
-    const local_id b = result_.same_as[at(segments_[at(s)][1])];
+    const local_id a = first_of_equal(segments_[at(s)][0]);
+    const local_id b = first_of_equal(segments_[at(s)][1]);
     if (a == b) {
       result_.crossings.push_back({s, s});
       return;
@@ -292,12 +164,12 @@ private:
     for (const auto& [x, y] : created_)
       if (const local_id e = corner_opposite(x, y); e != no_id)
         legalise_.push_back(e);
-    restore_delaunay();
+    triangulation_.restore_delaunay(legalise_);
   }
 
   /// The corner whose opposite side joins p and q, in either direction; no_id when they are not neighbours.
   local_id corner_opposite(local_id p, local_id q) const {
-    if (p >= enclosing_) // its fan is not closed; no segment crosses a side of the enclosing triangle
+    if (p >= enclosing()) // its fan is not closed; no segment crosses a side of the enclosing triangle
       std::swap(p, q);
     local_id found = no_id;
     table().for_each_corner(p, [&](local_id c) {
@@ -320,7 +192,7 @@ private:
       mine = table().constraint[at(table().twin[at(c)])] = s;
     net_[at(mine)] += start_of(mine) == start_of(s) ? 1 : -1;
   }
-  local_id start_of(local_id s) const { return result_.same_as[at(segments_[at(s)][0])]; }
+  local_id start_of(local_id s) const { return first_of_equal(segments_[at(s)][0]); }
 
   void report_touched(local_id s, local_id v) {
     local_id other = s;
@@ -332,7 +204,7 @@ private:
     if (other == s) // the touched segment has not been recovered yet
       for (local_id k = 0; k < static_cast<local_id>(segments_.size()) && other == s; ++k)
         for (const local_id end : segments_[at(k)])
-          if (k != s && result_.same_as[at(end)] == v)
+          if (k != s && first_of_equal(end) == v)
             other = k;
     result_.crossings.push_back({std::min(s, other), std::max(s, other)});
   }
@@ -340,7 +212,7 @@ private:
   /// Keeps the triangles of winding number one.
   void remove_outside() {
     std::vector<std::int32_t> winding(at(table().triangle_slots()), unknown);
-    std::vector<local_id> stack{corner_table::triangle_of(table().corner_of[at(enclosing_)])};
+    std::vector<local_id> stack{corner_table::triangle_of(table().corner_of[at(enclosing())])};
     winding[at(stack[0])] = 0;
     while (!stack.empty()) {
       const local_id t = stack.back();
@@ -378,7 +250,7 @@ private:
   }
 
   void refresh_vertices() {
-    table().corner_of.assign(at(enclosing_), no_id);
+    table().corner_of.assign(at(enclosing()), no_id);
     for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
       if (const local_id v = table().vertex[at(c)]; v != no_id)
         table().corner_of[at(v)] = c;
@@ -386,12 +258,10 @@ private:
 
   static constexpr std::int32_t unknown = -1000000;
 
-  std::vector<vec2> points_; // the given points, then the enclosing triangle's
+  point_triangulation triangulation_;
   std::span<const std::array<local_id, 2>> segments_;
   loop_triangulation result_;
   std::vector<std::int32_t> net_; // per segment on a side: segments along it minus segments against it
-  local_id enclosing_ = 0;
-  local_id last_ = 0;
   std::vector<local_id> legalise_, crossed_;
   std::vector<std::array<local_id, 2>> crossed_sides_, created_;
 };
