@@ -20,7 +20,7 @@ body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-
 h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
 .wide { overflow-x: auto; }
-th, td { padding: 3px 8px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
+th, td { padding: 3px 6px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
 th { border-bottom: 2px solid #888; cursor: pointer; vertical-align: bottom; white-space: normal; }
 .name { text-align: left; }
 tr.failed td { color: #b00; }
@@ -261,18 +261,21 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
         paragraph("The background mesh depends on the mesher alone. It was made once for each; its time is "
                   "repeated in every row and contained in every total.");
   body += plots_section(compared);
-  body += gallery("Decompositions", "The subdomains of the finished mesh, pulled apart.",
+  body += gallery("Decompositions",
+                  "The subdomains of the finished mesh, pulled apart: for each partitioner, with and without "
+                  "simplification, of the first combination that went well.",
                   pictures.decompositions);
   body += gallery(
       "Interfaces",
       "The interfaces between subdomains in the finished mesh, and the model's curves. Red: triangles and "
       "edges with an angle under " +
-          fixed(compared.angle_threshold, 0) + " degrees, drawn before everything else.",
+          fixed(compared.angle_threshold, 0) + " degrees, drawn in front of everything else.",
       pictures.interfaces);
   body += gallery(
       "Worst elements",
       "The 200 elements with the smallest dihedral angles, enlarged where they are too small to be seen. "
-      "Red: under 12 degrees; orange: under 24; blue: better.",
+      "Red: under 12 degrees; orange: under 24; blue: better. For each mesher and improver, of the first "
+      "combination that went well.",
       pictures.worst_elements);
   body += element("script", script);
   const std::string head = "<meta charset=\"utf-8\"/>\n" +

@@ -256,12 +256,11 @@ def main():
     parser.add_argument("--at", type=float, default=0.5, help="its place, as a fraction of the extent")
     parser.add_argument("--explode", type=float, default=0.5, help="how far pieces move away from the middle")
     parser.add_argument("--worst", type=int, default=50, help="number of worst elements")
-    parser.add_argument("--view", default="0.9,-1.4,0.8", help="direction to the eye: x,y,z")
+    parser.add_argument("--view", default="", help="direction to the eye: x,y,z (0.9,-1.4,0.8; of a plane mesh 0,0,1)")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--size", default="1400x1000", help="pixels")
     parser.add_argument("--box", action="store_true", help="draw faces on the bounding box too")
     options = parser.parse_args()
-    options.view = [float(x) for x in options.view.split(",")]
     options.size = [int(x) for x in options.size.split("x")]
     target = options.to or options.folder
     os.makedirs(target, exist_ok=True)
@@ -279,6 +278,8 @@ def main():
         if not found:
             sys.exit(f"render: there is no .pvtu file in {options.folder}")
         volume = read(vtkXMLPUnstructuredGridReader(), found[0])
+    flat = of_triangles and volume is not None and np.ptp(points_of(volume)[:, 2]) == 0
+    options.view = [float(x) for x in (options.view or ("0,0,1" if flat else "0.9,-1.4,0.8")).split(",")]
     interfaces = polydata("interfaces.vtp") if "exploded" in wanted else None
     pictures = {
         "surface": lambda: picture_surface(surface, options),
