@@ -60,16 +60,25 @@ struct parameters {
   Executor run_tasks{};
   generate_options options{};
 
-  template <class M>
-    requires(boundary_keeping_mesher<M, 3> || boundary_keeping_mesher<M, 2>)
+  // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
+  template <boundary_keeping_mesher<3> M>
+  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
+    return {std::move(mesher), partition_it, improve_it, run_tasks, options};
+  }
+  template <boundary_keeping_mesher<2> M>
+    requires(!boundary_keeping_mesher<M, 3>)
   parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher)
   const { return {std::move(mesher), partition_it, improve_it, run_tasks, options}; }
   template <graph_partitioner P>
   parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
     return {mesh_it, std::move(partitioner), improve_it, run_tasks, options};
   }
-  template <class I>
-    requires(improver<I, 3> || improver<I, 2>)
+  template <improver<3> I>
+  parameters<Mesher, Partitioner, I, Executor> with_improver(I improver) const {
+    return {mesh_it, partition_it, std::move(improver), run_tasks, options};
+  }
+  template <improver<2> I>
+    requires(!improver<I, 3>)
   parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
   const { return {mesh_it, partition_it, std::move(improver), run_tasks, options}; }
   template <executor E>

@@ -1,9 +1,9 @@
 // near miss 1: a mesher of whole domains: it does not keep the boundary it is given
-// error 1: boundary_keeping_mesher<(M|my_mesher), 3>
+// error 1: traits(\)|)\.(dovetail::mesher_traits::|)keeps_boundary.*(evaluated to .?false)
 // near miss 2: it takes no sizing field
-// error 2: boundary_keeping_mesher<(M|my_mesher), 3>
+// error 2: m\(in, h\).*invalid
 // near miss 3: it declares no traits
-// error 3: boundary_keeping_mesher<(M|my_mesher), 3>
+// error 3: M::traits.*invalid
 #include "dovetail/pipeline/parameters.hpp"
 
 struct my_mesher {
