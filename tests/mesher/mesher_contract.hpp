@@ -2,10 +2,14 @@
 /// What every boundary-keeping volume mesher must do; each model's test includes this and calls it.
 #pragma once
 
+#include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/mesher/checks.hpp"
+#include "dovetail/mesher/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
 #include "mesher/shapes.hpp"
 
 #include <doctest/doctest.h>
@@ -126,44 +130,104 @@ void check_shapes(const M& mesher) {
   }
 }
 
-/// Boundaries with an edge or a vertex where sheets touch, and an inner interface listed in both directions.
-template <class M>
-void check_non_manifold(const M& mesher) {
-  const any_sizing one = [](vec3) { return 1.0; };
-  mesh_and_check(mesher, shapes::cells({{0, 0, 0}, {1, 1, 0}}, {1, 1, 1}), one);
-  mesh_and_check(mesher, shapes::cells({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1}), one);
-  const auto voids_at_an_edge = shapes::block({0, 0, 0}, {4, 4, 3}, [](int x, int y, int z) {
-    return z != 1 || !((x == 1 && y == 1) || (x == 2 && y == 2));
-  });
-  mesh_and_check(mesher, shapes::cells(voids_at_an_edge, {1, 1, 1}), one);
-
+/// A closed surface of unit squares, in two parts that share the wall x = 2, which is listed in both
+/// directions.
+inline shapes::surface halves_with_a_wall() {
   auto halves = shapes::cells(shapes::block({0, 0, 0}, {4, 2, 2}), {1, 1, 1});
-  const auto wall = shapes::cells(shapes::block({0, 0, 0}, {2, 2, 2}), {1, 1, 1});
-  mesher_input<3> input{halves, 5};
-  for (const auto& t : wall.elements) { // the wall x = 2, in both directions
+  const std::size_t outside = halves.elements.size();
+  const auto left = shapes::cells(shapes::block({0, 0, 0}, {2, 2, 2}), {1, 1, 1});
+  for (const auto& t : left.elements) {
     simplex<2> copy{};
     bool on_wall = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 p = wall.points[static_cast<std::size_t>(t[k])];
+      const vec3 p = left.points[static_cast<std::size_t>(t[k])];
       on_wall = on_wall && p.x == 2;
-      const auto same = std::find(input.boundary.points.begin(), input.boundary.points.end(), p);
-      if (on_wall && same == input.boundary.points.end()) {
-        input.boundary.points.push_back(p);
-        copy[k] = static_cast<local_id>(input.boundary.points.size()) - 1;
-      } else {
-        copy[k] = static_cast<local_id>(same - input.boundary.points.begin());
-      }
+      const auto same = std::find(halves.points.begin(), halves.points.end(), p);
+      copy[k] = static_cast<local_id>(same - halves.points.begin());
+      if (on_wall && same == halves.points.end())
+        halves.points.push_back(p);
     }
     if (on_wall) {
-      input.boundary.elements.push_back(copy);
-      input.boundary.elements.push_back({copy[0], copy[2], copy[1]});
+      halves.elements.push_back(copy);
+      halves.elements.push_back({copy[0], copy[2], copy[1]});
     }
   }
-  REQUIRE(input.boundary.elements.size() == halves.elements.size() + 16);
-  const auto mesh = mesher(input, one).mesh;
-  check_mesher_result(input, mesh);
-  CHECK(volume_of(mesh) == doctest::Approx(16.0));
-  CHECK(check_validity(mesh).valid());
+  REQUIRE(halves.elements.size() == outside + 16);
+  return halves;
+}
+
+/// Boundaries with an edge or a vertex where sheets touch, and an inner interface listed in both directions;
+/// for elements of size 1.
+inline std::vector<named_shape> non_manifold_shapes() {
+  const auto voids_at_an_edge = shapes::block({0, 0, 0}, {4, 4, 3}, [](int x, int y, int z) {
+    return z != 1 || !((x == 1 && y == 1) || (x == 2 && y == 2));
+  });
+  return {{"cubes that share an edge", shapes::cells({{0, 0, 0}, {1, 1, 0}}, {1, 1, 1}), 1},
+          {"cubes that share a vertex", shapes::cells({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1}), 1},
+          {"voids that share an edge", shapes::cells(voids_at_an_edge, {1, 1, 1}), 1},
+          {"inner wall", halves_with_a_wall(), 1}};
+}
+
+/// A mesher that accepts these boundaries fills all of them; one that does not fills a boundary rightly or
+/// ends in a typed error, and there is one that it refuses: `accepts_non_manifold` is neither more nor less
+/// than true.
+template <class M>
+void check_non_manifold(const M& mesher) {
+  int refused = 0;
+  for (const named_shape& shape : non_manifold_shapes()) {
+    CAPTURE(shape.name);
+    const mesher_input<3> input{shape.boundary, 5};
+    try {
+      const auto mesh = mesher(input, [](vec3) { return 1.0; }).mesh;
+      check_mesher_result(input, mesh);
+      CHECK(volume_of(mesh) ==
+            doctest::Approx(enclosed_volume(input.boundary.points, input.boundary.elements)));
+      CHECK(check_validity(mesh).valid());
+    } catch (const mesher_error& problem) {
+      CHECK_MESSAGE(!M::traits.accepts_non_manifold, problem.what());
+      ++refused;
+    }
+  }
+  CHECK(M::traits.accepts_non_manifold == (refused == 0));
+}
+
+/// A second call on the same input, with another call between, gives the same mesh.
+template <class M>
+void check_repeats(const M& mesher) {
+  const mesher_input<3> input{shapes::torus(10), 0};
+  const any_sizing size = [](vec3) { return 0.15; };
+  const auto first = mesher(input, size).mesh;
+  mesher(mesher_input<3>{shapes::cube(4, 100), 0}, [](vec3) { return 20.0; });
+  const auto second = mesher(input, size).mesh;
+  CHECK(first.points == second.points);
+  CHECK(first.elements == second.elements);
+}
+
+/// What may run in threads gives the same meshes there; what may not is refused there. What repeats itself
+/// gives the same mesh at every call.
+template <class M>
+void check_threads_and_history(const M& mesher) {
+  const subdomain_source source = [](local_id s) {
+    subdomain_input input;
+    input.boundary.boundary = s % 2 == 0 ? shapes::torus(8 + s) : shapes::cube(4 + s);
+    input.skeleton_points.resize(input.boundary.boundary.points.size());
+    return input;
+  };
+  const auto run = [&](const auto& executor) {
+    const auto result = mesh_subdomains(
+        6, source, mesher, no_improver{}, [](vec3) { return 0.2; }, executor);
+    CHECK(result.failures.empty());
+    byte_writer bytes;
+    for (local_id s = 0; s < 6; ++s)
+      encode(bytes, result.load(s));
+    return bytes.take();
+  };
+  if constexpr (M::traits.thread_safe)
+    CHECK(run(parallel::threads{3}) == run(parallel::serial{}));
+  else
+    CHECK_THROWS_AS(run(parallel::threads{3}), usage_error);
+  if constexpr (M::traits.repeats_in_process)
+    check_repeats(mesher);
 }
 
 /// The mean edge is the size, on a field with a boundary of the same size.
@@ -199,18 +263,6 @@ void check_grading(const M& mesher) {
   REQUIRE(count > 1000);
   CHECK(sum / static_cast<double>(count) == doctest::Approx(1.0).epsilon(0.1));
   CHECK(tiny * 200 < count);
-}
-
-/// A second call on the same input, with another call between, gives the same mesh.
-template <class M>
-void check_repeats(const M& mesher) {
-  const mesher_input<3> input{shapes::torus(10), 0};
-  const any_sizing size = [](vec3) { return 0.15; };
-  const auto first = mesher(input, size).mesh;
-  mesher(mesher_input<3>{shapes::cube(4, 100), 0}, [](vec3) { return 20.0; });
-  const auto second = mesher(input, size).mesh;
-  CHECK(first.points == second.points);
-  CHECK(first.elements == second.elements);
 }
 
 /// Bad sizes and bad boundaries end in typed errors.

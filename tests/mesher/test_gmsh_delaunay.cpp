@@ -17,8 +17,9 @@ TEST_CASE("Gmsh Delaunay follows a graded field") {
   contract::check_grading(mesher::gmsh_delaunay{});
 }
 
-TEST_CASE("Gmsh Delaunay repeats itself, since each call has a process of its own") {
-  contract::check_repeats(mesher::gmsh_delaunay{});
+TEST_CASE("Gmsh Delaunay is as its traits say: non-manifold boundaries, threads, history") {
+  contract::check_non_manifold(mesher::gmsh_delaunay{});
+  contract::check_threads_and_history(mesher::gmsh_delaunay{});
 }
 
 TEST_CASE("Gmsh Delaunay's failures are typed") {

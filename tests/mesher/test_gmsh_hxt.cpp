@@ -20,8 +20,9 @@ TEST_CASE("HXT follows a graded field") {
   contract::check_grading(mesher::gmsh_hxt{});
 }
 
-TEST_CASE("HXT repeats itself, since each call has a process of its own") {
-  contract::check_repeats(mesher::gmsh_hxt{});
+TEST_CASE("HXT is as its traits say: non-manifold boundaries, threads, history") {
+  contract::check_non_manifold(mesher::gmsh_hxt{});
+  contract::check_threads_and_history(mesher::gmsh_hxt{});
 }
 
 TEST_CASE("HXT's failures are typed") {

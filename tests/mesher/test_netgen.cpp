@@ -17,8 +17,9 @@ TEST_CASE("Netgen follows a graded field") {
   contract::check_grading(mesher::netgen{});
 }
 
-TEST_CASE("Netgen repeats itself, since each call has a process of its own") {
-  contract::check_repeats(mesher::netgen{});
+TEST_CASE("Netgen is as its traits say: non-manifold boundaries, threads, history") {
+  contract::check_non_manifold(mesher::netgen{});
+  contract::check_threads_and_history(mesher::netgen{});
 }
 
 TEST_CASE("Netgen's failures are typed") {

@@ -17,10 +17,6 @@ TEST_CASE("TetGen keeps the boundary and fills every shape") {
   contract::check_shapes(mesher::tetgen{});
 }
 
-TEST_CASE("TetGen accepts non-manifold boundaries and inner interfaces") {
-  contract::check_non_manifold(mesher::tetgen{});
-}
-
 TEST_CASE("TetGen's mean edge is the size asked for") {
   contract::check_calibration(mesher::tetgen{});
 }
@@ -29,9 +25,9 @@ TEST_CASE("TetGen follows a graded field") {
   contract::check_grading(mesher::tetgen{});
 }
 
-TEST_CASE("TetGen repeats itself within a process") {
-  static_assert(mesher::tetgen::traits.repeats_in_process);
-  contract::check_repeats(mesher::tetgen{});
+TEST_CASE("TetGen is as its traits say: non-manifold boundaries, threads, history") {
+  contract::check_non_manifold(mesher::tetgen{});
+  contract::check_threads_and_history(mesher::tetgen{});
 }
 
 TEST_CASE("TetGen's failures are typed") {
