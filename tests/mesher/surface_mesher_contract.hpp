@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,27 @@ inline mesher_input<2> piece_of_plane(patch_boundary b) {
   return input;
 }
 
+/// What declares that it may run in several threads gives the same mesh in each.
+template <boundary_keeping_mesher<2> M>
+void check_threads(const M& mesher, const mesher_input<2>& input, const any_sizing& size) {
+  if constexpr (M::traits.thread_safe) {
+    const auto expected = mesher(input, size).mesh;
+    std::array<bool, 4> same{};
+    std::vector<std::thread> workers;
+    for (bool& mine : same)
+      workers.emplace_back([&] {
+        mine = true;
+        for (int turn = 0; turn < 5; ++turn) {
+          const auto made = mesher(input, size).mesh;
+          mine = mine && made.points == expected.points && made.elements == expected.elements;
+        }
+      });
+    for (auto& worker : workers)
+      worker.join();
+    CHECK(same == std::array<bool, 4>{true, true, true, true});
+  }
+}
+
 /// A slit, which only pieces' regions have, and lines that cross.
 template <boundary_keeping_mesher<2> M>
 void check_pieces(const M& mesher) {
@@ -142,6 +164,7 @@ void check_pieces(const M& mesher) {
     b.segments.insert(b.segments.end(), {{i, i + 1}, {i + 1, i}});
   auto input = piece_of_plane(b);
   check_mesher_result(input, mesher(input, uniform).mesh);
+  check_threads(mesher, input, uniform);
   std::swap(input.regions[0].boundary.uv[5], input.regions[0].boundary.uv[30]);
   CHECK_THROWS_AS(mesher(input, uniform), mesher_error);
 }

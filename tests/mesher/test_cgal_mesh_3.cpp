@@ -3,6 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <thread>
+#include <vector>
+
 using namespace dovetail;
 
 // That it promises no boundary is a static_assert at its definition.
@@ -41,6 +45,22 @@ TEST_CASE("Mesh_3 keeps ridges as lines: the mesh of a cube is the cube") {
 
 TEST_CASE("Mesh_3 repeats itself, also in one process") {
   contract::check_repeats(mesher::cgal_mesh_3{});
+}
+
+TEST_CASE("Mesh_3 gives the same mesh in several threads") {
+  static_assert(mesher::cgal_mesh_3::traits.thread_safe);
+  const auto boundary = shapes::sphere(2);
+  const auto expected = meshed(boundary, 0.3).mesh;
+  std::array<simplicial_mesh<3>, 4> made;
+  std::vector<std::thread> workers;
+  for (auto& mine : made)
+    workers.emplace_back([&] { mine = meshed(boundary, 0.3).mesh; });
+  for (auto& worker : workers)
+    worker.join();
+  for (const auto& mine : made) {
+    CHECK(mine.points == expected.points);
+    CHECK(mine.elements == expected.elements);
+  }
 }
 
 TEST_CASE("Mesh_3's failures are typed") {

@@ -18,7 +18,9 @@ TEST_CASE("Gmsh keeps the contract of surface meshers") {
   contract::check_surface_mesher(mesher::gmsh_frontal{});
 }
 
-TEST_CASE("pieces of crossing lines are typed errors of their meshers") {
+TEST_CASE("pieces: slits, the same in threads, crossing lines as typed errors") {
+  static_assert(mesher::native_surface::traits.thread_safe && mesher::cgal_surface::traits.thread_safe);
+  static_assert(!mesher::gmsh_surface::traits.thread_safe); // a process per region is forked
   contract::check_pieces(mesher::native_surface{});
   contract::check_pieces(mesher::cgal_surface{});
   contract::check_pieces(mesher::gmsh_surface{});
