@@ -58,6 +58,8 @@ void add_run_options(CLI::App& command, mesh_options& options) {
   command.add_option("--mesher", options.mesher,
                      "Volume mesher: " + joined(mesher_names()) +
                          "; of --dimension 2: " + joined(surface_mesher_names()));
+  command.add_option("--background-mesher", options.background_mesher,
+                     "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
   command.add_option("--partitioner", options.partitioner,
                      "Graph partitioner: " + joined(partitioner_names()));
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));

@@ -175,6 +175,7 @@ private:
     figures_.partitioner = policies_.partitioner.name();
     figures_.improver = policies_.improver.name();
     figures_.executor = policies_.executor.name();
+    figures_.background_mesher = policies_.background_mesher.name();
     figures_.workers = policies_.executor.workers();
     add_pipeline_figures(result, figures_);
     add_mesh_figures(result.mesh, figures_);

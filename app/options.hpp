@@ -27,6 +27,7 @@ struct mesh_options {
   std::string partitioner;
   std::string improver;
   std::string executor;
+  std::string background_mesher;
   std::string out = "out";
   std::vector<std::string> formats;
   std::string report;

@@ -2,6 +2,7 @@
 /// The library's pipeline with policies chosen at run time: instantiated here, once.
 #pragma once
 
+#include "any_background_mesher.hpp"
 #include "any_geometry.hpp"
 #include "any_policies.hpp"
 
@@ -11,13 +12,14 @@
 
 namespace dovetail::app {
 
-/// The four policies of a run.
+/// The policies of a run.
 template <class Mesher>
 struct policies_with {
   Mesher mesher;
   any_partitioner partitioner;
   any_improver improver;
   any_executor executor;
+  any_background_mesher background_mesher = {}; ///< of D = 3
 };
 using chosen_policies = policies_with<any_mesher>;
 using chosen_surface_policies = policies_with<any_surface_mesher>; ///< of D = 2

@@ -15,6 +15,7 @@
 #include "dovetail/partition/space_filling_curve.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
+#include "background_cgal.hpp"
 #include "improver_cgal.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
@@ -92,6 +93,14 @@ std::vector<any_improver> improvers() {
   return known;
 }
 
+std::vector<any_background_mesher> background_meshers() {
+  std::vector<any_background_mesher> known(1);
+#ifdef DOVETAIL_DRIVER_WITH_CGAL
+  known.push_back(cgal_background_mesher());
+#endif
+  return known;
+}
+
 } // namespace
 
 std::vector<std::string> partitioner_names() {
@@ -102,6 +111,9 @@ std::vector<std::string> mesher_names() {
 }
 std::vector<std::string> improver_names() {
   return names_of(improvers());
+}
+std::vector<std::string> background_mesher_names() {
+  return names_of(background_meshers());
 }
 std::vector<std::string> executor_names() {
   return {"processes", "threads", "serial"};
@@ -121,6 +133,9 @@ any_mesher make_mesher(const std::string& name) {
 }
 any_improver make_improver(const std::string& name) {
   return chosen(improvers(), name, "--improver");
+}
+any_background_mesher make_background_mesher(const std::string& name) {
+  return chosen(background_meshers(), name, "--background-mesher");
 }
 
 any_executor make_executor(const std::string& name, int workers, const std::string& mesher,

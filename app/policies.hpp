@@ -2,6 +2,7 @@
 /// The policies that the driver knows by name. The first name of each list is the default.
 #pragma once
 
+#include "any_background_mesher.hpp"
 #include "any_policies.hpp"
 
 #include <string>
@@ -12,6 +13,7 @@ namespace dovetail::app {
 std::vector<std::string> partitioner_names();
 std::vector<std::string> mesher_names();
 std::vector<std::string> improver_names();
+std::vector<std::string> background_mesher_names();
 std::vector<std::string> executor_names();
 std::vector<std::string> builtin_model_names();
 
@@ -20,6 +22,7 @@ std::vector<std::string> builtin_model_names();
 any_partitioner make_partitioner(const std::string& name);
 any_mesher make_mesher(const std::string& name);
 any_improver make_improver(const std::string& name);
+any_background_mesher make_background_mesher(const std::string& name);
 
 /// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of
 /// these traits cannot run in this executor.

@@ -60,6 +60,7 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("dimension", std::to_string(options.dimension));
   identity.emplace_back("mesher", options.dimension == 3 ? make_mesher(options.mesher).name()
                                                          : make_surface_mesher(options.mesher).name());
+  identity.emplace_back("background mesher", make_background_mesher(options.background_mesher).name());
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
   identity.emplace_back("improver", make_improver(options.improver).name());
   return identity;

@@ -89,6 +89,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"partitioner", figures.partitioner},
               {"improver", figures.improver},
               {"executor", figures.executor},
+              {"background_mesher", figures.background_mesher},
               {"workers", figures.workers},
               {"elements", figures.elements},
               {"vertices", figures.vertices},

@@ -14,10 +14,13 @@ chosen_policies make_policies(const mesh_options& options) {
   any_executor executor =
       make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
   return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
-          std::move(executor)};
+          std::move(executor), make_background_mesher(options.background_mesher)};
 }
 
 chosen_surface_policies make_surface_policies(const mesh_options& options) {
+  if (make_background_mesher(options.background_mesher).meshes_whole_domains())
+    throw command_line_error(
+        "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
   any_surface_mesher mesher = make_surface_mesher(options.mesher);
   any_executor executor =
       make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());

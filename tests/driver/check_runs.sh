@@ -56,6 +56,33 @@ mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --pieces 1 
 [[ ! -s $sandbox/stdout && ! -s $sandbox/stderr ]] || fault "not quiet"
 [[ $(cd "$sandbox/work/out" && echo mesh_*.vtu) == mesh_0000.vtu ]] || fault "more than one piece"
 
+# A background mesh by every mesher of whole domains that is offered; the mesh is another one. Two solids are refused.
+{
+  printf '%s\n' OFF "16 24 0"
+  for x in 0 3; do
+    printf '%s\n' "$x 0 0" "$((x + 1)) 0 0" "$((x + 1)) 1 0" "$x 1 0" "$x 0 1" "$((x + 1)) 0 1" "$((x + 1)) 1 1" "$x 1 1"
+  done
+  for first in 0 8; do
+    tail -n 12 "$inputs/cube.off" | awk -v first=$first '{ print 3, $2 + first, $3 + first, $4 + first }'
+  done
+} >"$inputs/cubes.off"
+background_meshers=$("$driver" mesh --help | tr -s ' \n' ' ' |
+  sed -n 's/.*Mesher of the coarse mesh that is decomposed: \([a-z, ]*\) --.*/\1/p' | tr -d ,)
+[[ $background_meshers == native* ]] || fault "the background meshers are '$background_meshers'"
+for name in $background_meshers; do
+  mesh --size 0.08 --subdomains 4 --background-mesher "$name"
+  [[ $(figure background_mesher) == "$name" ]] || fault "the background mesher was $(figure background_mesher)"
+  [[ $name == native || $(figure mesh_hash) != "$hash" ]] || fault "the same mesh as from the native background"
+  rm -rf "$inputs/by_background" && cp -r "$sandbox/work/out" "$inputs/by_background"
+  expect_success check "$inputs/by_background"
+  [[ $name == native ]] ||
+    expect_error "2 solids.*native" mesh "$inputs/cubes.off" --size 0.2 --background-mesher "$name"
+  [[ $name == native ]] ||
+    expect_error "--background-mesher.*--dimension 2" mesh "$inputs/cube.off" --dimension 2 --background-mesher "$name"
+done
+expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
+  mesh "$inputs/cube.off" --background-mesher nonsense
+
 # Improving keeps a mesh valid.
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
 cp "$sandbox/work/better.vtu" "$inputs"

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "dovetail/background/whole_domain.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/pipeline/background.hpp"
 
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,12 +19,18 @@ namespace dovetail {
 ///     auto background = make_background_by(mesher::cgal_mesh_3{}, model, size, given);
 ///     auto mesh = generate_from_background<3>(model, std::move(background), given);
 ///
-/// For models of one solid. The mesher's triangles become the coarse surface. Throws what its steps throw.
+/// The mesher's triangles become the coarse surface. Throws `geometry_error` for models of several solids,
+/// whose common faces it would not keep, and what its steps throw.
 template <line_keeping_mesher M, geometry_model G, sizing_field H, class Parameters>
 background_result<3> make_background_by(const M& mesh_whole, const G& model, const H& size,
                                         const Parameters& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
+  if (const std::size_t solids = model.topology().solids.size(); solids != 1)
+    throw geometry_error(
+        "the model has " + std::to_string(solids) +
+        " solids, and a mesher of whole domains makes the background mesh of one; use the native "
+        "background mesher");
   background_result<3> result;
   result.summary.name = "background";
   result.plan = plan_background<3>(model, size, given);
