@@ -65,6 +65,13 @@ any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
   }
 }
 
+/// Triangles may be meshed with triangles even where they enclose nothing.
+any_geometry triangle_geometry(const std::filesystem::path& file, int dimension, report& summary) {
+  discrete_model model = read_discrete_model(file, {.allow_sheets = dimension == 2});
+  summary = model.repairs();
+  return any_geometry(std::move(model));
+}
+
 any_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension,
                           report& summary) {
   const crash_message if_it_crashes(
@@ -82,7 +89,7 @@ any_geometry geometry_of_file(const std::filesystem::path& file, const model_opt
   if (ending_of(file) == ".svg" || ending_of(file) == ".txt")
     return plane_geometry(file, dimension);
   if (!triangle_format_of(file).empty())
-    return any_geometry(read_discrete_model(file));
+    return triangle_geometry(file, dimension, summary);
   return cad_geometry(file, options, dimension, summary);
 }
 

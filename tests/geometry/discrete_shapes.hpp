@@ -4,6 +4,7 @@
 
 #include "dovetail/geometry/discrete_soup.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -76,6 +77,35 @@ inline triangle_soup box_soup(vec3 a, vec3 b, int n = 1) {
   for (int axis = 0; axis < 3; ++axis)
     for (const bool upper : {false, true})
       side(axis, upper);
+  return soup;
+}
+
+/// The square [-1, 1]^2 of n x n squares, lifted to `height(x, y)`.
+template <class Height>
+triangle_soup sheet_soup(int n, Height&& height) {
+  triangle_soup soup;
+  const auto id = [&](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
+      soup.points.push_back({x, y, height(x, y)});
+      if (i < n && j < n) {
+        soup.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+        soup.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+      }
+    }
+  soup.patches.assign(soup.triangles.size(), no_id);
+  return soup;
+}
+
+/// A box of n x n squares per side without the side of largest z.
+inline triangle_soup open_box_soup(vec3 a, vec3 b, int n) {
+  triangle_soup soup = box_soup(a, b, n);
+  std::erase_if(soup.triangles, [&](const simplex<2>& t) {
+    return std::all_of(t.begin(), t.end(),
+                       [&](local_id v) { return soup.points[static_cast<std::size_t>(v)].z == b.z; });
+  });
+  soup.patches.resize(soup.triangles.size());
   return soup;
 }
 

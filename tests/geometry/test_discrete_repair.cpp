@@ -9,7 +9,7 @@ using namespace dovetail::testing;
 
 namespace {
 
-double volume_of(const closed_surfaces& s, local_id solid) {
+double volume_of(const oriented_surfaces& s, local_id solid) {
   double sum = 0;
   for (std::size_t t = 0; t < s.mesh.elements.size(); ++t) {
     const auto& v = s.mesh.elements[t];

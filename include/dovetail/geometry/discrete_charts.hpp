@@ -1,8 +1,9 @@
 /// @file
-/// Cuts closed surfaces into smooth patches along feature edges, and patches into charts, pieces that can be
+/// Cuts surfaces into smooth patches along feature edges, and patches into charts, pieces that can be
 /// projected onto a plane without a fold.
 #pragma once
 
+#include "dovetail/geometry/discrete_contours.hpp"
 #include "dovetail/geometry/discrete_loops.hpp"
 #include "dovetail/geometry/discrete_piece_measures.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
@@ -25,16 +26,6 @@ struct chart_options {
   double merge_angle_deg = 50;   ///< charts are joined again when that angle stays below this
 };
 
-/// The surfaces with triangles split where charts end, and the charts.
-struct charted_surface {
-  simplicial_mesh<2> mesh;
-  std::vector<local_id> smooth_of; ///< per triangle: the smooth patch; it changes across feature edges
-  std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
-  std::vector<local_id> patch_of;  ///< per triangle: named patch of the file, or no_id
-  std::vector<local_id> solid_of;  ///< per triangle
-  std::vector<discrete::chart_frame> frames; ///< per chart
-};
-
 namespace discrete {
 
 /// Cuts in rounds every chart that cannot be projected yet, by the component of its normals (or, where
@@ -43,7 +34,7 @@ namespace discrete {
 /// single triangles if need be.
 class chart_cutter {
 public:
-  chart_cutter(const closed_surfaces& surfaces, const chart_options& options)
+  chart_cutter(const oriented_surfaces& surfaces, const chart_options& options)
       : s_{surfaces.mesh, {}, {}, surfaces.patches, surfaces.solid_of, {}}, measures_(s_.mesh),
         cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
     connect();
@@ -67,7 +58,7 @@ public:
         }
       if (done)
         break;
-      split_along_contours();
+      split_along_contours(s_, values_);
       connect();
       renumber_charts(round < rounds_of_contours);
     }
@@ -85,7 +76,6 @@ private:
       0.15; ///< a contour this near an edge's end, as a share of the edge, goes through it
 
   enum class cut_by { normal, position };
-  using corner_values = std::array<double, 3>;
 
   std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
   vec3 point(local_id v) const { return measures_.point(v); }
@@ -93,6 +83,7 @@ private:
   bool is_sliver(std::size_t t) const { return measures_.is_sliver(t); }
 
   void connect() { neighbours_ = element_neighbours(build_sides<2>(s_.mesh)); }
+  /// The triangle opposite corner i of t, or nowhere.
   std::size_t across(std::size_t t, std::size_t i) const {
     return static_cast<std::size_t>(neighbours_[t][i]);
   }
@@ -113,7 +104,7 @@ private:
         pending.pop_back();
         for (std::size_t i = 0; i < 3; ++i) {
           const std::size_t next = across(t, i);
-          if (piece[next] == no_id && joined(t, next)) {
+          if (next != nowhere && piece[next] == no_id && joined(t, next)) {
             piece[next] = count;
             pending.push_back(next);
           }
@@ -221,12 +212,16 @@ private:
     snap_to_vertices(chart);
   }
 
-  /// Vertices where three charts or more meet.
+  /// Vertices where three charts or more meet; the outside of a sheet counts as one.
   void find_junctions() {
     std::vector<std::pair<local_id, local_id>> around; // vertex, chart
     for (std::size_t t = 0; t < triangles().size(); ++t)
-      for (const local_id v : triangles()[t])
-        around.emplace_back(v, s_.chart_of[t]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        around.emplace_back(triangles()[t][i], s_.chart_of[t]);
+        if (across(t, i) == nowhere)
+          for (const std::size_t end : {(i + 1) % 3, (i + 2) % 3})
+            around.emplace_back(triangles()[t][end], no_id);
+      }
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
     junctions_.assign(s_.mesh.points.size(), 0);
@@ -251,7 +246,8 @@ private:
         const double s = a / (a - b);
         const local_id from = triangles()[t][i];
         const local_id to = triangles()[t][j];
-        const bool on_boundary = s_.chart_of[across(t, (i + 2) % 3)] != s_.chart_of[t];
+        const std::size_t other = across(t, (i + 2) % 3);
+        const bool on_boundary = other == nowhere || s_.chart_of[other] != s_.chart_of[t];
         if (on_boundary && is_junction(from) != is_junction(to))
           snapped.push_back(is_junction(from) ? from : to);
         else if (s < (on_boundary ? 0.5 : snap))
@@ -266,131 +262,6 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
         if (std::binary_search(snapped.begin(), snapped.end(), triangles()[t][i]))
           (*values_[t])[i] = 0;
-  }
-
-  struct edge_split {
-    std::array<local_id, 2> ends; ///< sorted
-    double s;                     ///< from ends[0] to ends[1]
-    local_id vertex = no_id;
-  };
-
-  /// Every edge that a contour crosses gets one new vertex, whichever chart asked for it first.
-  std::vector<edge_split> collect_splits() {
-    std::vector<edge_split> splits;
-    for (std::size_t t = 0; t < triangles().size(); ++t)
-      if (values_[t])
-        for (std::size_t i = 0; i < 3; ++i) {
-          local_id from = triangles()[t][i];
-          local_id to = triangles()[t][(i + 1) % 3];
-          double a = (*values_[t])[i];
-          double b = (*values_[t])[(i + 1) % 3];
-          if (a * b >= 0)
-            continue;
-          if (from > to) {
-            std::swap(from, to);
-            std::swap(a, b);
-          }
-          splits.push_back({{from, to}, a / (a - b)});
-        }
-    std::stable_sort(splits.begin(), splits.end(),
-                     [](const edge_split& a, const edge_split& b) { return a.ends < b.ends; });
-    splits.erase(std::unique(splits.begin(), splits.end(),
-                             [](const edge_split& a, const edge_split& b) { return a.ends == b.ends; }),
-                 splits.end());
-    for (edge_split& split : splits) {
-      split.vertex = static_cast<local_id>(s_.mesh.points.size());
-      const vec3 a = point(split.ends[0]);
-      s_.mesh.points.push_back(a + split.s * (point(split.ends[1]) - a));
-    }
-    return splits;
-  }
-
-  void split_along_contours() {
-    const auto splits = collect_splits();
-    const auto split_on = [&](local_id a, local_id b) -> const edge_split* {
-      const std::array<local_id, 2> ends{std::min(a, b), std::max(a, b)};
-      const auto found = std::lower_bound(splits.begin(), splits.end(), ends,
-                                          [](const edge_split& e, const auto& key) { return e.ends < key; });
-      return found != splits.end() && found->ends == ends ? &*found : nullptr;
-    };
-    const std::size_t count = triangles().size();
-    for (std::size_t t = 0; t < count; ++t) {
-      const auto v = triangles()[t];
-      std::array<const edge_split*, 3> on{}; // the edge from corner i to the next
-      int split_edges = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        on[i] = split_on(v[i], v[(i + 1) % 3]);
-        split_edges += on[i] ? 1 : 0;
-      }
-      if (split_edges > 0)
-        split_triangle(t, on, split_edges);
-    }
-  }
-
-  /// Replaces a triangle by two, three or four; its corner values go along, new ones are zero where the sign
-  /// changes.
-  void split_triangle(std::size_t t, const std::array<const edge_split*, 3>& on, int split_edges) {
-    const simplex<2> v = triangles()[t];
-    const std::optional<corner_values> g = values_[t];
-    std::array<local_id, 3> m{};
-    corner_values at_m{};
-    for (std::size_t i = 0; i < 3; ++i)
-      if (on[i]) {
-        m[i] = on[i]->vertex;
-        if (g && (*g)[i] * (*g)[(i + 1) % 3] > 0)
-          at_m[i] = 0.5 * ((*g)[i] + (*g)[(i + 1) % 3]);
-      }
-    struct corner {
-      local_id v;
-      double g;
-    };
-    const auto old_corner = [&](std::size_t i) { return corner{v[i % 3], g ? (*g)[i % 3] : 0}; };
-    const auto new_corner = [&](std::size_t i) { return corner{m[i % 3], at_m[i % 3]}; };
-    bool first = true;
-    const auto put = [&](corner a, corner b, corner c) {
-      const std::optional<corner_values> values =
-          g ? std::optional(corner_values{a.g, b.g, c.g}) : std::nullopt;
-      if (first) {
-        triangles()[t] = {a.v, b.v, c.v};
-        values_[t] = values;
-      } else {
-        triangles().push_back({a.v, b.v, c.v});
-        values_.push_back(values);
-        for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.patch_of, &s_.solid_of}) {
-          const local_id tag = (*tags)[t];
-          tags->push_back(tag);
-        }
-      }
-      first = false;
-    };
-    if (split_edges == 3) {
-      for (std::size_t i = 0; i < 3; ++i)
-        put(old_corner(i), new_corner(i), new_corner(i + 2));
-      put(new_corner(0), new_corner(1), new_corner(2));
-      return;
-    }
-    std::size_t i = 0;
-    if (split_edges == 1) {
-      while (!on[i])
-        ++i;
-      put(old_corner(i), new_corner(i), old_corner(i + 2));
-      put(new_corner(i), old_corner(i + 1), old_corner(i + 2));
-      return;
-    }
-    while (on[(i + 1) % 3]) // edges i and i + 2 are split, they meet at corner i
-      ++i;
-    put(old_corner(i), new_corner(i), new_corner(i + 2));
-    const corner a = new_corner(i);
-    const corner b = old_corner(i + 1);
-    const corner c = old_corner(i + 2);
-    const corner d = new_corner(i + 2);
-    if (distance(point(a.v), point(c.v)) <= distance(point(b.v), point(d.v))) {
-      put(a, b, c);
-      put(a, c, d);
-    } else {
-      put(a, b, d);
-      put(b, c, d);
-    }
   }
 
   /// The pieces of the charts on both sides of their contours; small ones join the other side when asked to.

@@ -1,5 +1,5 @@
 /// @file
-/// The boundary loops of a piece of a closed triangulated surface, in space and in a plane.
+/// The boundary loops of a piece of a triangulated surface, in space and in a plane.
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
@@ -21,8 +21,11 @@ struct boundary_edge {
   std::size_t triangle;
 };
 
+/// "No triangle": what lies across the boundary of a sheet.
+inline constexpr auto nowhere = static_cast<std::size_t>(no_id);
+
 /// Chains boundary edges of one chart to loops, turning around each vertex through the chart's triangles.
-/// `across(t, i)` is the triangle across the edge opposite corner i of t.
+/// `across(t, i)` is the triangle across the edge opposite corner i of t, or nowhere.
 template <class Across>
 std::vector<std::vector<boundary_edge>>
 boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local_id>& chart_of,
@@ -30,10 +33,13 @@ boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local
   const auto key_less = [](const boundary_edge& a, const boundary_edge& b) {
     return std::tie(a.from, a.triangle, a.to) < std::tie(b.from, b.triangle, b.to);
   };
+  const auto is_border = [&](std::size_t t, std::size_t next) {
+    return next == nowhere || chart_of[next] != chart_of[t];
+  };
   std::vector<boundary_edge> edges;
   for (const std::size_t t : members)
     for (std::size_t i = 0; i < 3; ++i)
-      if (chart_of[across(t, i)] != chart_of[t])
+      if (is_border(t, across(t, i)))
         edges.push_back({triangles[t][(i + 1) % 3], triangles[t][(i + 2) % 3], t});
   std::sort(edges.begin(), edges.end(), key_less);
   std::vector<char> used(edges.size(), 0);
@@ -46,7 +52,7 @@ boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local
       while (triangles[t][(i + 1) % 3] != e.to)
         ++i;
       const std::size_t next = across(t, i);
-      if (chart_of[next] != chart_of[t])
+      if (is_border(t, next))
         return boundary_edge{e.to, triangles[t][(i + 2) % 3], t};
       t = next;
     }

@@ -51,12 +51,12 @@ private:
     for (std::size_t t = 0; t < s_.chart_of.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t other = across(t, i);
-        if (chart(t) == chart(other))
+        if (other != nowhere && chart(t) == chart(other))
           continue;
         const auto& v = s_.mesh.elements[t];
         const double length = distance(measures_.point(v[(i + 1) % 3]), measures_.point(v[(i + 2) % 3]));
         perimeter[chart(t)] += length;
-        if (chart(t) < chart(other) && s_.smooth_of[t] == s_.smooth_of[other])
+        if (other != nowhere && chart(t) < chart(other) && s_.smooth_of[t] == s_.smooth_of[other])
           all.push_back({chart(t), chart(other), length});
       }
     std::stable_sort(all.begin(), all.end(), [](const border& x, const border& y) {
@@ -142,7 +142,7 @@ private:
 } // namespace discrete
 
 /// Feature edges by angle and by named patches, and charts. About O(n log n) per round of cuts and of merges.
-inline charted_surface charted(const closed_surfaces& surfaces, const chart_options& options = {}) {
+inline charted_surface charted(const oriented_surfaces& surfaces, const chart_options& options = {}) {
   auto cut = discrete::chart_cutter(surfaces, options).run();
   auto merged = discrete::chart_merger(std::move(cut), options.merge_angle_deg).run();
   auto relabeled = discrete::corner_relabeler(merged).run();

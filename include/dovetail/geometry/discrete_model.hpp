@@ -23,6 +23,7 @@ struct discrete_options {
   double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature curve
   double merge_tolerance =
       1e-6; ///< of the diagonal; points this near are one where the surface is open otherwise
+  bool allow_sheets = false; ///< surfaces may be open, for meshes of triangles
 };
 
 /// A model of `geometry_model` made of triangles. Smooth patches between feature edges are cut into charts
@@ -32,8 +33,8 @@ struct discrete_options {
 /// projection to a face finds the nearest point of the chart and needs no seed.
 class discrete_model {
 public:
-  /// Throws `geometry_error` when there is no closed surface.
-  explicit discrete_model(const closed_surfaces& surfaces, const discrete_options& options = {}) {
+  /// Throws `geometry_error` when charts cannot be made.
+  explicit discrete_model(const oriented_surfaces& surfaces, const discrete_options& options = {}) {
     auto made = std::make_shared<data>();
     made->repairs = surfaces.repairs;
     made->surface = charted(surfaces, {.feature_angle_deg = options.feature_angle_deg});
@@ -207,11 +208,13 @@ private:
 static_assert(geometry_model<discrete_model>);
 
 /// Reads an STL, OBJ, OFF or PLY file and makes a model of it. Throws `input_error` for a bad file and
-/// `geometry_error` for a surface that is open, not manifold, one-sided or crosses itself; both name the
-/// file.
+/// `geometry_error` for a surface that is not manifold, one-sided, crosses itself or, unless sheets are
+/// allowed, is open; both name the file.
 inline discrete_model read_discrete_model(const std::filesystem::path& file,
                                           const discrete_options& options = {}) {
-  return discrete_model(repaired(read_triangles(file), file.string(), options.merge_tolerance), options);
+  return discrete_model(
+      repaired(read_triangles(file), file.string(), {options.merge_tolerance, options.allow_sheets}),
+      options);
 }
 
 } // namespace dovetail

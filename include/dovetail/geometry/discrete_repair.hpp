@@ -1,14 +1,14 @@
 /// @file
-/// From a triangle soup to closed, consistently oriented surfaces that bound solids.
+/// From a triangle soup to consistently oriented surfaces: closed ones that bound solids, and sheets.
 #pragma once
 
-#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/geometry/discrete_crossings.hpp"
 #include "dovetail/geometry/discrete_nesting.hpp"
+#include "dovetail/geometry/discrete_orientation.hpp"
 #include "dovetail/geometry/discrete_soup.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/triangle_intersection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,27 +21,31 @@
 
 namespace dovetail {
 
-/// Closed surfaces: every edge has two triangles that pass it in opposite directions, and every triangle's
-/// normal points out of its solid's material.
-struct closed_surfaces {
+/// Surfaces in which an edge has two triangles that pass it in opposite directions, or one where it is the
+/// boundary of a sheet. The normals of closed surfaces point out of their solid's material, those of a sheet
+/// to the side that most of its triangles were listed with.
+struct oriented_surfaces {
   simplicial_mesh<2> mesh;
   std::vector<local_id> patches; ///< per triangle, as in the soup
   std::vector<std::string> patch_names;
-  std::vector<local_id> solid_of; ///< per triangle: the solid behind it
+  std::vector<local_id> solid_of; ///< per triangle: the solid behind it; no_id in sheets
   local_id solids = 0;
-  report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, solids, voids
+  report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
+};
+
+struct repair_options {
+  double merge_tolerance =
+      1e-6; ///< of the diagonal; points this near are one where the surface is open otherwise
+  bool allow_sheets = false; ///< surfaces may be open, for meshes of triangles
 };
 
 namespace discrete {
 
-inline std::string place(vec3 p) {
-  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
-}
-
 /// Works on one soup, step by step; `name` is how messages call it.
 class soup_repair {
 public:
-  soup_repair(const triangle_soup& soup, std::string name) : name_(std::move(name)) {
+  soup_repair(const triangle_soup& soup, std::string name, const repair_options& options)
+      : name_(std::move(name)), options_(options) {
     result_.mesh.points = soup.points;
     result_.mesh.elements = soup.triangles;
     result_.patches = soup.patches.size() == soup.triangles.size()
@@ -55,18 +59,19 @@ public:
     diagonal_ = box.diagonal();
   }
 
-  closed_surfaces run(double merge_tolerance) {
+  oriented_surfaces run() {
     merge_points(0);
     drop_degenerate();
     if (!is_closed()) {
-      merge_points(merge_tolerance * diagonal_);
+      merge_points(options_.merge_tolerance * diagonal_);
       drop_degenerate();
     }
-    require_closed();
-    flip_caps(1e-3 * merge_tolerance * diagonal_);
-    orient();
+    check_edges();
+    flip_caps(1e-3 * options_.merge_tolerance * diagonal_);
+    shells_ = oriented(result_.mesh, name_);
+    result_.repairs.set("turned", static_cast<double>(shells_.turned));
     nest();
-    require_no_crossing();
+    require_no_crossing(result_.mesh, name_, sliver_height(), result_.repairs);
     return std::move(result_);
   }
 
@@ -188,7 +193,8 @@ private:
     return true;
   }
 
-  void require_closed() {
+  /// At an edge are two triangles, or one where sheets are allowed.
+  void check_edges() {
     const auto sides = build_sides<2>(result_.mesh);
     std::size_t open = 0;
     std::size_t crowded = 0;
@@ -208,10 +214,13 @@ private:
       throw geometry_error(name_ + ": the surface is not manifold: more than two triangles meet at " +
                            std::to_string(crowded) + " edges, one near " + where_crowded +
                            "; give each solid its own closed surface");
-    if (open > 0)
-      throw geometry_error(name_ + ": the surface is open: " + std::to_string(open) +
-                           " edges have one triangle only, one of them near " + where_open +
-                           "; close the hole");
+    if (open == 0)
+      return;
+    const std::string what = "the surface is open: " + std::to_string(open) +
+                             " edges have one triangle only, one of them near " + where_open;
+    if (!options_.allow_sheets)
+      throw geometry_error(name_ + ": " + what + "; close the hole, or mesh it with triangles (dimension 2)");
+    result_.repairs.warnings.push_back(name_ + ": " + what + "; they stay its boundary");
   }
 
   /// A triangle whose corner lies on its opposite edge has no normal: the edge is flipped with the triangle
@@ -263,124 +272,47 @@ private:
     return true;
   }
 
-  /// Makes the orientation consistent within each shell.
-  void orient() {
-    const auto sides = build_sides<2>(result_.mesh);
-    const std::size_t n = triangles().size();
-    shell_of_.assign(n, no_id);
-    shells_ = 0;
-    double turned = 0;
-    std::vector<std::size_t> pending;
-    for (std::size_t seed = 0; seed < n; ++seed) {
-      if (shell_of_[seed] != no_id)
-        continue;
-      shell_of_[seed] = shells_;
-      pending.assign(1, seed);
-      while (!pending.empty()) {
-        const std::size_t t = pending.back();
-        pending.pop_back();
-        for (std::size_t i = 0; i < 3; ++i) {
-          const auto next = static_cast<std::size_t>(
-              sides.across(sides.of_element[t][side_of(sides, t, i)], static_cast<local_id>(t)));
-          const bool agrees = passes(next, triangles()[t][(i + 2) % 3], triangles()[t][(i + 1) % 3]);
-          if (shell_of_[next] == no_id) {
-            if (!agrees) {
-              std::swap(triangles()[next][1], triangles()[next][2]);
-              ++turned;
-            }
-            shell_of_[next] = shells_;
-            pending.push_back(next);
-          } else if (!agrees) {
-            throw geometry_error(name_ + ": the surface has one side only (as a Moebius strip) near " +
-                                 place(point(triangles()[t][i])) + "; it encloses no volume");
-          }
-        }
-      }
-      ++shells_;
-    }
-    result_.repairs.set("turned", turned);
-  }
-
-  /// The local side in `sides` of the edge opposite the present corner i of t (turning a triangle renumbers
-  /// its corners).
-  std::size_t side_of(const side_table<2>& sides, std::size_t t, std::size_t i) {
-    const local_id v = triangles()[t][i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& ends = sides.vertices[static_cast<std::size_t>(sides.of_element[t][k])];
-      if (ends[0] != v && ends[1] != v)
-        return k;
-    }
-    return i;
-  }
-
-  bool passes(std::size_t t, local_id from, local_id to) {
-    const auto& v = triangles()[t];
-    return (v[0] == from && v[1] == to) || (v[1] == from && v[2] == to) || (v[2] == from && v[0] == to);
-  }
-
-  /// Finds which shells lie in which, and turns each so that its normals point out of its solid.
+  /// Finds which closed shells lie in which, and turns each so that its normals point out of its solid.
   void nest() {
-    const shell_nesting nesting = nested(shell_meshes(result_.mesh, shell_of_, shells_));
+    std::vector<simplicial_mesh<2>> closed;
+    std::vector<local_id> number; // per shell: among the closed ones
+    for (auto& shell : shell_meshes(result_.mesh, shells_.shell_of, shells_.count())) {
+      const bool sheet = shells_.is_sheet[number.size()];
+      number.push_back(sheet ? no_id : static_cast<local_id>(closed.size()));
+      if (!sheet)
+        closed.push_back(std::move(shell));
+    }
+    const shell_nesting nesting = nested(closed);
     result_.solids = nesting.solids;
-    result_.solid_of.resize(triangles().size());
+    result_.solid_of.assign(triangles().size(), no_id);
     for (std::size_t t = 0; t < triangles().size(); ++t) {
-      const auto shell = static_cast<std::size_t>(shell_of_[t]);
-      if (nesting.is_inside_out[shell]) {
+      const local_id shell = number[static_cast<std::size_t>(shells_.shell_of[t])];
+      if (shell == no_id)
+        continue;
+      if (nesting.is_inside_out[static_cast<std::size_t>(shell)]) {
         std::swap(triangles()[t][1], triangles()[t][2]);
         result_.repairs.add("turned", 1);
       }
-      result_.solid_of[t] = nesting.solid_of[shell];
+      result_.solid_of[t] = nesting.solid_of[static_cast<std::size_t>(shell)];
     }
-    result_.repairs.set("shells", shells_);
+    result_.repairs.set("shells", static_cast<double>(closed.size()));
+    result_.repairs.set("sheets", static_cast<double>(shells_.is_sheet.size() - closed.size()));
     result_.repairs.set("solids", nesting.solids);
     result_.repairs.set("voids", nesting.voids);
   }
 
-  /// Crossings of slivers, which the rounding of a file can fold over their neighbours, are only warned of.
-  void require_no_crossing() {
-    std::vector<box3> boxes;
-    for (std::size_t t = 0; t < triangles().size(); ++t) {
-      box3 box;
-      for (const vec3& p : corners(t))
-        box.include(p);
-      boxes.push_back(box);
-    }
-    const box_tree tree(boxes);
-    std::size_t slivers = 0;
-    std::vector<std::pair<std::size_t, std::size_t>> crossing;
-    for (std::size_t t = 0; t < triangles().size(); ++t)
-      tree.for_each([&](const box3& box, std::size_t) { return box.overlaps(boxes[t]); },
-                    [&](local_id id) {
-                      const auto other = static_cast<std::size_t>(id);
-                      if (other <= t || !boxes[other].overlaps(boxes[t]) ||
-                          !triangles_cross(points(), triangles()[t], triangles()[other]))
-                        return;
-                      if (is_sliver(t) || is_sliver(other))
-                        ++slivers;
-                      else
-                        crossing.emplace_back(t, other);
-                    });
-    if (slivers > 0)
-      result_.repairs.warnings.push_back(name_ + ": " + std::to_string(slivers) +
-                                         " slivers overlap their neighbours by rounding");
-    if (crossing.empty())
-      return;
-    const auto first = *std::min_element(crossing.begin(), crossing.end());
-    const auto [a, b, c] = corners(first.first);
-    throw geometry_error(name_ + ": the surface crosses itself: " + std::to_string(crossing.size()) +
-                         " pairs of triangles, one near " + place((a + b + c) / 3) + "; repair it");
-  }
   bool is_sliver(std::size_t t) {
     const auto [a, b, c] = corners(t);
     const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
-    return norm(cross(b - a, c - a)) < 1e-5 * diagonal_ * longest;
+    return norm(cross(b - a, c - a)) < sliver_height() * longest;
   }
+  double sliver_height() const { return 1e-5 * diagonal_; }
 
   std::string name_;
-  closed_surfaces result_;
+  repair_options options_;
+  oriented_surfaces result_;
   double diagonal_ = 0;
-  std::vector<local_id> shell_of_;
-  local_id shells_ = 0;
+  oriented_shells shells_;
 };
 
 } // namespace discrete
@@ -388,10 +320,10 @@ private:
 /// Merges points, drops degenerate and repeated triangles, orients, and finds solids and voids. Points are
 /// merged when equal, and, where the surface is then still open, within `merge_tolerance` times the diagonal
 /// of its box. About O(n log n) for few shells. Throws `geometry_error` naming `name` and the place when the
-/// surface is open, not manifold, one-sided or crosses itself.
-inline closed_surfaces repaired(const triangle_soup& soup, const std::string& name = "the surface",
-                                double merge_tolerance = 1e-6) {
-  return discrete::soup_repair(soup, name).run(merge_tolerance);
+/// surface is not manifold, one-sided or crosses itself, and, unless sheets are allowed, when it is open.
+inline oriented_surfaces repaired(const triangle_soup& soup, const std::string& name = "the surface",
+                                  const repair_options& options = {}) {
+  return discrete::soup_repair(soup, name, options).run();
 }
 
 } // namespace dovetail

@@ -19,7 +19,9 @@ namespace dovetail::discrete {
 /// and join two junctions. No feature edge is touched, no triangle turns by more than 60 degrees.
 class border_collapser {
 public:
-  explicit border_collapser(charted_surface surface) : s_(std::move(surface)), measures_(s_.mesh) {}
+  explicit border_collapser(charted_surface surface) : s_(std::move(surface)), measures_(s_.mesh) {
+    find_rim();
+  }
 
   charted_surface run() {
     for (int round = 0; round < largest_rounds; ++round) {
@@ -57,6 +59,16 @@ private:
         at_[index(v)].push_back(t);
   }
 
+  /// Marks the vertices on the boundary of a sheet; they stay where they are.
+  void find_rim() {
+    on_rim_.assign(s_.mesh.points.size(), 0);
+    const auto sides = build_sides<2>(s_.mesh);
+    for (std::size_t side = 0; side < sides.size(); ++side)
+      if (sides.is_boundary(static_cast<local_id>(side)))
+        for (const local_id v : sides.vertices[side])
+          on_rim_[index(v)] = 1;
+  }
+
   static std::size_t distinct(std::vector<local_id> ids) {
     std::sort(ids.begin(), ids.end());
     return static_cast<std::size_t>(std::unique(ids.begin(), ids.end()) - ids.begin());
@@ -67,8 +79,9 @@ private:
       ids.push_back(tags[t]);
     return distinct(ids);
   }
-  bool is_junction(local_id v) const { return count_around(v, s_.chart_of) > 2; }
-  bool on_feature(local_id v) const { return count_around(v, s_.smooth_of) > 1; }
+  bool on_rim(local_id v) const { return on_rim_[index(v)] != 0; }
+  bool is_junction(local_id v) const { return count_around(v, s_.chart_of) + (on_rim(v) ? 1 : 0) > 2; }
+  bool on_feature(local_id v) const { return on_rim(v) || count_around(v, s_.smooth_of) > 1; }
 
   std::vector<std::size_t> triangles_at_edge(local_id a, local_id b) const {
     std::vector<std::size_t> found;
@@ -195,6 +208,7 @@ private:
 
   charted_surface s_;
   piece_measures measures_;
+  std::vector<char> on_rim_;                 ///< per vertex
   std::vector<std::vector<std::size_t>> at_; ///< per vertex: its triangles
   std::vector<char> removed_;
   std::vector<std::size_t> chart_size_; ///< triangles left
@@ -256,13 +270,16 @@ private:
     return static_cast<std::size_t>(neighbours_[t][i]);
   }
   std::size_t chart(std::size_t t) const { return static_cast<std::size_t>(s_.chart_of[t]); }
+  local_id chart_across(std::size_t t, std::size_t i) const {
+    return across(t, i) == nowhere ? no_id : s_.chart_of[across(t, i)];
+  }
   vec3 corner(std::size_t t, std::size_t i) const { return measures_.point(s_.mesh.elements[t][i % 3]); }
 
   /// The chart that triangle t fits better; no_id when it does not stick out of its own.
   local_id better_chart(std::size_t t) const {
     std::vector<std::size_t> borders; // local sides
     for (std::size_t i = 0; i < 3; ++i)
-      if (s_.chart_of[across(t, i)] != s_.chart_of[t])
+      if (across(t, i) == nowhere || s_.chart_of[across(t, i)] != s_.chart_of[t])
         borders.push_back(i);
     if (borders.size() != 2)
       return no_id;
@@ -270,7 +287,7 @@ private:
         3 - borders[0] - borders[1]; // both borders meet at the corner opposite the third side
     const double angle =
         angle_between(corner(t, tip + 1) - corner(t, tip), corner(t, tip + 2) - corner(t, tip));
-    const bool tooth = s_.chart_of[across(t, borders[0])] == s_.chart_of[across(t, borders[1])];
+    const bool tooth = chart_across(t, borders[0]) == chart_across(t, borders[1]);
     if (!tooth && angle > thin_corner)
       return no_id;
     const auto length = [&](std::size_t side) { return distance(corner(t, side + 1), corner(t, side + 2)); };
@@ -278,6 +295,8 @@ private:
       std::swap(borders[0], borders[1]);
     for (const std::size_t side : borders) {
       const std::size_t other = across(t, side);
+      if (other == nowhere)
+        continue;
       // Given to the chart across `side`, the triangle has its tip, if any, opposite that side.
       const double next_angle =
           angle_between(corner(t, side + 1) - corner(t, side), corner(t, side + 2) - corner(t, side));

@@ -56,8 +56,8 @@ public:
 
 private:
   struct chart_edge {
-    std::array<local_id, 2> ends; ///< sorted
-    std::array<local_id, 2> charts;
+    std::array<local_id, 2> ends;   ///< sorted
+    std::array<local_id, 2> charts; ///< sorted; no_id outside of a sheet
     bool feature;
   };
 
@@ -70,14 +70,15 @@ private:
     for (std::size_t t = 0; t < s_.mesh.elements.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t other = across(t, i);
-        if (other < t || s_.chart_of[t] == s_.chart_of[other])
+        const bool rim = other == nowhere;
+        if (!rim && (other < t || s_.chart_of[t] == s_.chart_of[other]))
           continue;
+        const local_id other_chart = rim ? no_id : s_.chart_of[other];
         const local_id a = s_.mesh.elements[t][(i + 1) % 3];
         const local_id b = s_.mesh.elements[t][(i + 2) % 3];
-        edges_.push_back(
-            {{std::min(a, b), std::max(a, b)},
-             {std::min(s_.chart_of[t], s_.chart_of[other]), std::max(s_.chart_of[t], s_.chart_of[other])},
-             s_.smooth_of[t] != s_.smooth_of[other]});
+        edges_.push_back({{std::min(a, b), std::max(a, b)},
+                          {std::min(s_.chart_of[t], other_chart), std::max(s_.chart_of[t], other_chart)},
+                          rim || s_.smooth_of[t] != s_.smooth_of[other]});
       }
     std::sort(edges_.begin(), edges_.end(),
               [](const chart_edge& a, const chart_edge& b) { return a.ends < b.ends; });
