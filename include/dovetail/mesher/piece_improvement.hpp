@@ -6,6 +6,9 @@
 #include "dovetail/improver/surface_host.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -87,6 +90,70 @@ inline void drop_unused_points(simplicial_mesh<2>& mesh, std::size_t kept) {
         v = number[static_cast<std::size_t>(v)];
 }
 
+/// Inner sides between points of the lines that another region might have too: their ends and their face.
+inline std::vector<std::array<local_id, 3>> forbidden_chords(const simplicial_mesh<2>& mesh,
+                                                             const mesher_input<2>& input) {
+  std::vector<simplex<1>> lines = input.boundary.elements;
+  for (simplex<1>& line : lines)
+    line = sorted_vertices(line);
+  std::sort(lines.begin(), lines.end());
+  const auto of_lines = static_cast<local_id>(input.boundary.points.size());
+  std::vector<std::array<local_id, 3>> chords;
+  for (std::size_t t = 0; t < mesh.elements.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto side = sorted_vertices(simplex<1>{mesh.elements[t][k], mesh.elements[t][(k + 1) % 3]});
+      if (side[1] >= of_lines || std::binary_search(lines.begin(), lines.end(), side))
+        continue;
+      const bool is_forbidden =
+          std::any_of(input.regions.begin(), input.regions.end(), [&](const surface_region& region) {
+            return region.face == mesh.tags[t] && region.forbids && region.forbids(side[0], side[1]);
+          });
+      if (is_forbidden)
+        chords.push_back({side[0], side[1], mesh.tags[t]});
+    }
+  std::sort(chords.begin(), chords.end());
+  return chords;
+}
+
+/// Freezes the sides of all triangles at the ends of the chords: then no such chord can be made.
+inline void freeze_around(const std::vector<std::array<local_id, 3>>& chords, const simplicial_mesh<2>& mesh,
+                          frozen_entities<2>& frozen) {
+  std::vector<bool> is_end(mesh.points.size(), false);
+  for (const auto& [a, b, face] : chords)
+    is_end[static_cast<std::size_t>(a)] = is_end[static_cast<std::size_t>(b)] = true;
+  for (const simplex<2>& t : mesh.elements)
+    if (std::any_of(t.begin(), t.end(), [&](local_id v) { return is_end[static_cast<std::size_t>(v)]; }))
+      for (std::size_t k = 0; k < 3; ++k)
+        frozen.sides.push_back(sorted_vertices(simplex<1>{t[k], t[(k + 1) % 3]}));
+  std::sort(frozen.sides.begin(), frozen.sides.end());
+  frozen.sides.erase(std::unique(frozen.sides.begin(), frozen.sides.end()), frozen.sides.end());
+}
+
+/// Improves the triangles by `improve(mesh, frozen)`, again with more frozen where that made chords that
+/// another region might have; such a side or triangle would be in the mesh twice.
+template <class Improve>
+report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& input,
+                              frozen_entities<2>& frozen, const Improve& improve) {
+  constexpr int most_attempts = 4;
+  const auto as_meshed = forbidden_chords(mesh, input); // of a face's other regions in this piece
+  for (int attempt = 1;; ++attempt) {
+    simplicial_mesh<2> improved = mesh;
+    report result = improve(improved, frozen);
+    const auto found = forbidden_chords(improved, input);
+    std::vector<std::array<local_id, 3>> chords;
+    std::set_difference(found.begin(), found.end(), as_meshed.begin(), as_meshed.end(),
+                        std::back_inserter(chords));
+    if (chords.empty())
+      mesh = std::move(improved);
+    else if (attempt < most_attempts) {
+      freeze_around(chords, mesh, frozen);
+      continue;
+    } else
+      result.warnings.push_back("a piece stays as meshed: improved, it would touch a neighbour");
+    return result;
+  }
+}
+
 /// Improves triangles inside their frozen lines. An improver that takes no host cannot know the surface: it
 /// may move points of planes in z = 0 only.
 template <improver<2> I>
@@ -103,12 +170,18 @@ report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const
   const std::size_t of_lines = input.boundary.points.size();
   report result;
   if constexpr (takes_host) {
-    result = improve(made.mesh, frozen, size, host_of_piece(input, std::move(made.corner_uv)));
+    const surface_host host = host_of_piece(input, std::move(made.corner_uv));
+    result = improve_without_chords(made.mesh, input, frozen,
+                                    [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
+                                      return improve(mesh, kept, size, host);
+                                    });
   } else {
     for (const surface_region& region : input.regions)
       if (!region.surface.plane)
         frozen.points = static_cast<local_id>(made.mesh.points.size());
-    result = improve(made.mesh, frozen, size);
+    result = improve_without_chords(
+        made.mesh, input, frozen,
+        [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) { return improve(mesh, kept, size); });
   }
   drop_unused_points(made.mesh, of_lines);
   return result;
