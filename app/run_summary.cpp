@@ -80,9 +80,13 @@ void add_interfaces(table& rows, const run_figures& figures) {
   };
   const auto& coarse = figures.coarse_interfaces;
   const auto& fine = figures.interfaces;
-  pair("No. of faces", "%14lld", static_cast<long long>(coarse.faces), static_cast<long long>(fine.faces));
-  pair("Minimum face angle (degrees)", "%14.1f", coarse.min_face_angle_deg, fine.min_face_angle_deg);
-  pair("Minimum wedge (degrees)", "%14.1f", coarse.min_wedge_deg, fine.min_wedge_deg);
+  const bool solid = figures.dimension == 3;
+  pair(solid ? "No. of faces" : "No. of edges", "%14lld", static_cast<long long>(coarse.faces),
+       static_cast<long long>(fine.faces));
+  if (solid) // edges have no angles of their own
+    pair("Minimum face angle (degrees)", "%14.1f", coarse.min_face_angle_deg, fine.min_face_angle_deg);
+  pair(solid ? "Minimum wedge (degrees)" : "Minimum angle (degrees)", "%14.1f", coarse.min_wedge_deg,
+       fine.min_wedge_deg);
   pair("Below the threshold, forced by the CAD", "%14lld", static_cast<long long>(coarse.forced),
        static_cast<long long>(fine.forced));
   pair("Below the threshold, refused by the bound", "%14lld", static_cast<long long>(coarse.refused),

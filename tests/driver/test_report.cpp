@@ -97,6 +97,16 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
 }
 
+TEST_CASE("the summary of a mesh of triangles speaks of edges and angles") {
+  run_figures figures = example();
+  figures.dimension = 2;
+  const std::string text = summary_text(figures);
+  CHECK(text.find("No. of edges") != std::string::npos);
+  CHECK(text.find("Minimum angle (degrees)") != std::string::npos);
+  for (const char* of_solids : {"of faces", "face angle", "wedge", "dihedral", "tetrahedra"})
+    CHECK_MESSAGE(text.find(of_solids) == std::string::npos, of_solids);
+}
+
 TEST_CASE("the summary of a single subdomain has no interfaces") {
   run_figures figures = example();
   figures.subdomains = 1;
