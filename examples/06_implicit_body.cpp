@@ -6,6 +6,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 

@@ -2,7 +2,7 @@
 # Every relative link and picture in the documents leads to a file.
 set -uo pipefail
 problems=0
-for document in *.md docs/*.md; do
+for document in *.md docs/*.md docs/*/*.md; do
   while IFS= read -r target; do
     [[ $target =~ ^(https?:|#|mailto:) ]] && continue
     [[ -e $(dirname "$document")/${target%%#*} ]] || { echo "$document: $target does not exist"; problems=1; }
