@@ -10,6 +10,7 @@
 #include "dovetail/background/surface_faces.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 
 #include <map>
 #include <set>
@@ -79,7 +80,7 @@ private:
                                           const coarse_surface_parameters& parameters) {
     std::vector<size_ball> balls =
         curvature_balls(model, sizing, {parameters.turn, parameters.smallest_fraction});
-    balls.insert(balls.end(), parameters.refinement.begin(), parameters.refinement.end());
+    append(balls, parameters.refinement);
     return balls;
   }
 
@@ -205,7 +206,7 @@ private:
           }
         }
         if (on_boundary == 3) {
-          std::sort(named.begin(), named.end());
+          sort_all(named);
           if (!triangles.try_emplace(named, face).second)
             for (const auto& origin : patches[f].origin)
               intervals.push_back(origin);
@@ -286,7 +287,7 @@ private:
     const patch_mesh& mesh = meshes_[at(f)].mesh;
     const auto frozen = static_cast<local_id>(b.uv.size());
     const auto first_inner = static_cast<local_id>(out.mesh.points.size());
-    out.mesh.points.insert(out.mesh.points.end(), mesh.inner_points.begin(), mesh.inner_points.end());
+    append(out.mesh.points, mesh.inner_points);
     out.vertex_hosts.resize(out.mesh.points.size(), host{2, f});
     for (simplex<2> triangle : mesh.triangles) {
       if (topology_.faces[at(f)].reversed)

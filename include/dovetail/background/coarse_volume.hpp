@@ -5,13 +5,13 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesher/element_labels.hpp"
 #include "dovetail/mesher/mesh_subdomains.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -84,7 +84,7 @@ inline void require_closed(const oriented_boundary& boundary, const geometry_top
       passages.push_back(
           {boundary.solids[t], sorted_vertices(std::array{a, b}), a < b ? 1 : -1, boundary.faces[t]});
     }
-  std::sort(passages.begin(), passages.end(), [](const passage& p, const passage& q) {
+  sort_all(passages, [](const passage& p, const passage& q) {
     return std::pair(p.solid, p.edge) < std::pair(q.solid, q.edge);
   });
   for (std::size_t first = 0; first < passages.size();) {
@@ -136,7 +136,7 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
 inline void append_piece(simplicial_mesh<3>& mesh, const mesh_piece& piece) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   const auto first_own = static_cast<local_id>(mesh.points.size());
-  mesh.points.insert(mesh.points.end(), piece.mesh.points.begin() + shared, piece.mesh.points.end());
+  append(mesh.points, span_of(piece.mesh.points).subspan(static_cast<std::size_t>(shared)));
   for (simplex<3> element : piece.mesh.elements) {
     for (local_id& v : element)
       v = v < shared ? piece.skeleton_points[static_cast<std::size_t>(v)] : first_own + v - shared;
@@ -203,7 +203,7 @@ coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_t
   result.mesh.points = surface.mesh.points;
   for (std::size_t p = 0; p < made.pieces.size(); ++p)
     detail::append_piece(result.mesh, made.load(static_cast<local_id>(p)));
-  result.mesh.tags = label_elements(result.mesh, boundary.triangles, boundary.solids);
+  result.mesh.tags = label_elements(result.mesh, span_of(boundary.triangles), span_of(boundary.solids));
   result.quality = made.quality;
   result.summary.name = "coarse volume";
   result.summary.seconds = clock.seconds();

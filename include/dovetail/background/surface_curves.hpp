@@ -2,6 +2,7 @@
 /// Points on the curves of a model, shared by all faces at a curve, and their refinement.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
 #include "dovetail/sizing/concepts.hpp"
@@ -44,11 +45,10 @@ struct curve_points {
 
 /// Halves the given intervals (curve, index of the interval's first parameter) once each.
 inline void halve_intervals(curve_points& points, std::vector<std::array<local_id, 2>> intervals) {
-  std::sort(intervals.begin(), intervals.end());
-  intervals.erase(std::unique(intervals.begin(), intervals.end()), intervals.end());
-  for (auto it = intervals.rbegin(); it != intervals.rend(); ++it) { // from behind: indices stay valid
-    auto& t = points.t[static_cast<std::size_t>((*it)[0])];
-    const auto i = static_cast<std::size_t>((*it)[1]);
+  sort_unique(intervals);
+  for (std::size_t k = intervals.size(); k-- > 0;) { // from behind: indices stay valid
+    auto& t = points.t[static_cast<std::size_t>(intervals[k][0])];
+    const auto i = static_cast<std::size_t>(intervals[k][1]);
     t.insert(t.begin() + static_cast<std::ptrdiff_t>(i) + 1, 0.5 * (t[i] + t[i + 1]));
   }
 }
@@ -63,14 +63,14 @@ inline void separate_parallel_curves(const geometry_topology& topology, const st
   for (std::size_t c = 0; c < points.t.size(); ++c)
     if (!topology.curves[c].degenerate && points.t[c].size() == 2) {
       auto ends = topology.curves[c].vertices;
-      std::sort(ends.begin(), ends.end());
+      sort_all(ends);
       single[ends].push_back(static_cast<local_id>(c));
     }
   std::vector<std::array<local_id, 2>> intervals;
   for (auto& [ends, curves] : single) {
     if (curves.size() < 2)
       continue;
-    std::stable_sort(curves.begin(), curves.end(), [&](local_id a, local_id b) {
+    stable_sort_all(curves, [&](local_id a, local_id b) {
       return lengths[static_cast<std::size_t>(a)] < lengths[static_cast<std::size_t>(b)];
     });
     for (std::size_t i = 1; i < curves.size(); ++i)

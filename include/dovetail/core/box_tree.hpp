@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace dovetail {
@@ -57,7 +56,7 @@ inline double distance(const box3& a, const box3& b) {
 class box_tree {
 public:
   box_tree() = default;
-  explicit box_tree(std::span<const box3> boxes) : items_(boxes.size()) {
+  explicit box_tree(const std::vector<box3>& boxes) : items_(boxes.size()) {
     std::iota(items_.begin(), items_.end(), local_id{0});
     if (!boxes.empty())
       build(boxes, 0, items_.size());
@@ -145,9 +144,9 @@ private:
     std::size_t count = 0; ///< items of a leaf; 0 for an inner node
   };
 
-  void build(std::span<const box3> boxes, std::size_t begin, std::size_t end) {
+  void build(const std::vector<box3>& boxes, std::size_t begin, std::size_t end) {
     const std::size_t at = nodes_.size();
-    nodes_.emplace_back();
+    nodes_.push_back({});
     box3 box;
     box3 centers;
     for (std::size_t i = begin; i < end; ++i) {
@@ -165,12 +164,12 @@ private:
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     const auto key = [&](local_id item) { return boxes[static_cast<std::size_t>(item)].center()[axis]; };
     const std::size_t middle = begin + (end - begin) / 2;
-    const auto iterator = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(iterator(begin), iterator(middle), iterator(end), [&](local_id a, local_id b) {
-      const double ka = key(a);
-      const double kb = key(b);
-      return ka != kb ? ka < kb : a < b;
-    });
+    std::nth_element(items_.data() + begin, items_.data() + middle, items_.data() + end,
+                     [&](local_id a, local_id b) {
+                       const double ka = key(a);
+                       const double kb = key(b);
+                       return ka != kb ? ka < kb : a < b;
+                     });
     build(boxes, begin, middle);
     nodes_[at].first = nodes_.size();
     build(boxes, middle, end);

@@ -37,8 +37,9 @@ private:
   void append(const void* data, std::size_t size) {
     if (size == 0)
       return;
-    const auto* first = static_cast<const std::byte*>(data);
-    buffer_.insert(buffer_.end(), first, first + size);
+    const std::size_t at = buffer_.size();
+    buffer_.resize(at + size);
+    std::memcpy(buffer_.data() + at, data, size);
   }
   byte_buffer buffer_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/sequence.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,7 @@ public:
       return;
     const std::size_t most_nodes = 64 * order.size() + 64;
     std::vector<pending_leaf> level{{0, bounds, {order.begin(), order.end()}}};
-    nodes_.emplace_back();
+    nodes_.push_back({});
     for (int depth = 0; !level.empty(); ++depth) {
       std::vector<pending_leaf> next;
       for (pending_leaf& leaf : level) {
@@ -104,7 +105,7 @@ private:
     nodes_[leaf.node] = {static_cast<std::uint32_t>(nodes_.size()), inner};
     for (pending_leaf& child : children) {
       child.node = nodes_.size();
-      nodes_.emplace_back();
+      nodes_.push_back({});
       next.push_back(std::move(child));
     }
     return true;
@@ -113,7 +114,7 @@ private:
   void close(const pending_leaf& leaf) {
     nodes_[leaf.node] = {static_cast<std::uint32_t>(items_.size()),
                          static_cast<std::uint32_t>(leaf.items.size())};
-    items_.insert(items_.end(), leaf.items.begin(), leaf.items.end());
+    append(items_, leaf.items);
   }
 
   box3 bounds_;

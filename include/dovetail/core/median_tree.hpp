@@ -53,8 +53,8 @@ public:
 private:
   void split(std::size_t first, std::size_t middle, std::size_t last, vec3 extent) {
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last),
+    Item* const items = items_.data();
+    std::nth_element(items + first, items + middle, items + last,
                      [&](const Item& a, const Item& b) { return place_(a)[axis] < place_(b)[axis]; });
   }
 

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <list>
 #include <memory>
 #include <span>
 #include <string>
@@ -150,27 +151,26 @@ public:
   /// Opens the next file; the one before it is closed. The reference stays valid.
   output_file& open(std::filesystem::path path) {
     if (!files_.empty())
-      files_.back()->close();
-    files_.push_back(std::make_unique<output_file>(std::move(path)));
-    return *files_.back();
+      files_.back().close();
+    return files_.emplace_back(std::move(path));
   }
   /// Gives all files their final names, in the order they were opened.
   void commit() {
     if (!files_.empty())
-      files_.back()->close();
+      files_.back().close();
     for (auto& file : files_)
-      file->commit();
+      file.commit();
   }
   std::size_t files() const { return files_.size(); }
   std::uint64_t size() const {
     std::uint64_t sum = 0;
     for (const auto& file : files_)
-      sum += file->size();
+      sum += file.size();
     return sum;
   }
 
 private:
-  std::vector<std::unique_ptr<output_file>> files_;
+  std::list<output_file> files_;
 };
 
 /// Creates the folder and its parents where they are missing; throws `io_error` naming it.

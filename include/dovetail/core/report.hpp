@@ -24,7 +24,7 @@ struct report {
         old = value;
         return;
       }
-    counters.emplace_back(key, value);
+    counters.push_back({key, value});
   }
   /// Adds to a counter that starts at zero.
   void add(const std::string& key, double value) { set(key, get(key) + value); }

@@ -2,6 +2,7 @@
 /// Where the boundaries of parts are not manifold.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct point_elements {
 
   std::span<const local_id> at(local_id point) const {
     const auto v = static_cast<std::size_t>(point);
-    return std::span(elements).subspan(begins[v], begins[v + 1] - begins[v]);
+    return span_of(elements).subspan(begins[v], begins[v + 1] - begins[v]);
   }
 };
 
@@ -116,8 +117,7 @@ private:
         sides_here_.push_back(side);
       }
     }
-    std::sort(sides_here_.begin(), sides_here_.end(),
-              [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
+    sort_all(sides_here_, [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
   }
 
   defect_count count_in_link(std::span<const link_side> link) {
@@ -128,7 +128,7 @@ private:
       ends_.push_back(side.a);
       ends_.push_back(side.b);
     }
-    std::sort(ends_.begin(), ends_.end());
+    sort_all(ends_);
     defect_count defects;
     for (std::size_t first = 0; first < ends_.size();) {
       std::size_t last = first;

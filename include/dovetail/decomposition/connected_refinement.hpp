@@ -2,10 +2,10 @@
 /// Balance and cut of a decomposition, improved without losing what it already has.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -113,7 +113,7 @@ private:
           moves.push_back({gain / weight_of(s), s, p});
       });
     }
-    std::sort(moves.begin(), moves.end(), [](const move& a, const move& b) {
+    sort_all(moves, [](const move& a, const move& b) {
       return std::tuple(-a.gain, a.super, a.to) < std::tuple(-b.gain, b.super, b.to);
     });
     for (const move& m : moves)
@@ -145,7 +145,7 @@ private:
     std::vector<local_id> moved{m.super};
     if (!parts_.keeps_connected(moved)) {
       const std::vector<local_id> cut_off = parts_.pieces_cut_off_by(moved);
-      moved.insert(moved.end(), cut_off.begin(), cut_off.end());
+      append(moved, cut_off);
       if (!parts_.keeps_connected(moved)) // it was all of its part
         return;
     }

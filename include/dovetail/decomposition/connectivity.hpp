@@ -2,11 +2,10 @@
 /// Makes every part connected.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 
-#include <algorithm>
 #include <cstddef>
-#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -39,8 +38,7 @@ inline std::size_t join_stray_components(const csr_graph& graph, std::span<local
   for (std::size_t c = 0; c < count; ++c)
     if (main[static_cast<std::size_t>(part_of[c])] != c)
       strays.push_back(c);
-  std::stable_sort(strays.begin(), strays.end(),
-                   [&](std::size_t a, std::size_t b) { return weight[a] < weight[b]; });
+  stable_sort_all(strays, [&](std::size_t a, std::size_t b) { return weight[a] < weight[b]; });
 
   csr_graph components = contract(graph, found.of_node, found.count);
   // Components that were joined, as a chain to where they went.
@@ -55,24 +53,33 @@ inline std::size_t join_stray_components(const csr_graph& graph, std::span<local
   for (std::size_t c = 0; c < count; ++c)
     members[c] = {c};
   std::size_t joined = 0;
+  std::vector<double> shared(count, 0.0); // weight shared with each component
+  std::vector<std::size_t> neighbours;
   for (const std::size_t stray : strays) {
     if (resolve(stray) != stray)
       continue;
-    std::map<std::size_t, double> shared; // few neighbours; ordered, so ties go to the first
+    neighbours.clear();
     for (const std::size_t member : members[stray]) {
       const auto row = components.row(static_cast<local_id>(member));
       const auto begin = static_cast<std::size_t>(components.offsets[member]);
       for (std::size_t k = 0; k < row.size(); ++k)
-        if (const std::size_t other = resolve(static_cast<std::size_t>(row[k])); other != stray)
+        if (const std::size_t other = resolve(static_cast<std::size_t>(row[k])); other != stray) {
           shared[other] += components.edge_weights[begin + k];
+          neighbours.push_back(other);
+        }
     }
-    if (shared.empty())
+    if (neighbours.empty())
       continue;
-    const auto best = std::max_element(shared.begin(), shared.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    into[stray] = best->first;
-    auto& target = members[best->first];
-    target.insert(target.end(), members[stray].begin(), members[stray].end());
+    sort_unique(neighbours); // so that ties go to the first
+    std::size_t best = neighbours.front();
+    for (const std::size_t other : neighbours)
+      if (shared[other] > shared[best])
+        best = other;
+    for (const std::size_t other : neighbours)
+      shared[other] = 0;
+    into[stray] = best;
+    auto& target = members[best];
+    append(target, members[stray]);
     ++joined;
   }
   for (std::size_t v = 0; v < part.size(); ++v)

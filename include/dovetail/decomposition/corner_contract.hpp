@@ -38,9 +38,7 @@ public:
     for (std::uint32_t w = 0; w < runs_.wedge_count(); ++w)
       if (runs_.is_name(w))
         measure(w);
-    std::sort(found_.violations.begin(), found_.violations.end(), [](const auto& a, const auto& b) {
-      return std::tuple(a.angle_deg, a.triangles, a.edge) < std::tuple(b.angle_deg, b.triangles, b.edge);
-    });
+    sort_by_angle(found_.violations);
     return std::move(found_);
   }
 

@@ -2,6 +2,7 @@
 /// Fills what lies between two pieces of a part that touch in an edge only.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
 #include <algorithm>
@@ -53,8 +54,7 @@ private:
       for (const local_id v : parts_.mesh().elements[static_cast<std::size_t>(e)])
         if (v != point)
           others.push_back(v);
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
+    sort_unique(others);
     std::vector<gap> gaps;
     for (const local_id other : others)
       append_gaps(gaps, point, other);
@@ -73,8 +73,7 @@ private:
         labels.push_back(part_of_element(e));
       }
     }
-    std::sort(labels.begin(), labels.end());
-    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    sort_unique(labels);
     for (const local_id part : labels) {
       if (runs(around, [&](local_id e) { return part_of_element(e) == part; }).size() < 2)
         continue;
@@ -82,8 +81,7 @@ private:
         gap found{part, {}};
         for (const local_id e : run)
           found.supers.push_back(parts_.super_of(e));
-        std::sort(found.supers.begin(), found.supers.end());
-        found.supers.erase(std::unique(found.supers.begin(), found.supers.end()), found.supers.end());
+        sort_unique(found.supers);
         gaps.push_back(std::move(found));
       }
     }
@@ -127,12 +125,12 @@ private:
         std::vector<local_id> group{s};
         if (!parts_.keeps_connected(group)) {
           const std::vector<local_id> cut_off = parts_.pieces_cut_off_by(group);
-          group.insert(group.end(), cut_off.begin(), cut_off.end());
+          append(group, cut_off);
           if (!parts_.is_light(parts_.weight_of(cut_off), g.part) || !parts_.keeps_connected(group))
             continue;
         }
         parts_.assign(group, g.part);
-        changed.insert(changed.end(), group.begin(), group.end());
+        append(changed, group);
         progress = true;
       }
     }

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -80,6 +81,12 @@ struct interface_contract {
 
 namespace detail {
 
+inline void sort_by_angle(std::vector<contract_violation>& violations) {
+  sort_all(violations, [](const contract_violation& a, const contract_violation& b) {
+    return std::tuple(a.angle_deg, a.triangles, a.edge) < std::tuple(b.angle_deg, b.triangles, b.edge);
+  });
+}
+
 class contract_checker {
 public:
   contract_checker(const contract_input& input, double threshold_deg)
@@ -100,9 +107,7 @@ public:
         [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
           measure_wedges(edge, half_edges);
         });
-    std::sort(found_.violations.begin(), found_.violations.end(), [](const auto& a, const auto& b) {
-      return std::tuple(a.angle_deg, a.triangles, a.edge) < std::tuple(b.angle_deg, b.triangles, b.edge);
-    });
+    sort_by_angle(found_.violations);
     return std::move(found_);
   }
 
@@ -183,7 +188,7 @@ private:
       flaps_.push_back({h == half_edges[0] ? 0.0 : std::atan2(dot(d, y), dot(d, x)), t,
                         along ? both[0] : both[1], along ? both[1] : both[0]});
     }
-    std::sort(flaps_.begin(), flaps_.end(), [](const flap& a, const flap& b) {
+    sort_all(flaps_, [](const flap& a, const flap& b) {
       return std::pair(a.direction, a.triangle) < std::pair(b.direction, b.triangle);
     });
   }

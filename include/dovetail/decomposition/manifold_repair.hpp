@@ -2,6 +2,7 @@
 /// Makes the boundaries of parts manifold by reassigning whole super-elements.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/gap_filling.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
@@ -96,7 +97,7 @@ private:
             seen[j] = true;
             cluster.push_back(supers[j]);
           }
-      std::sort(cluster.begin(), cluster.end());
+      sort_all(cluster);
       if (cluster.size() > 1)
         groups.push_back(std::move(cluster));
     }
@@ -112,8 +113,7 @@ private:
     for (const auto& group : groups_at(point))
       for (const local_id to : parts_.parts_beside(group))
         add_if_gain(changes, group, to);
-    std::sort(changes.begin(), changes.end(),
-              [](const change& a, const change& b) { return a.key() < b.key(); });
+    sort_all(changes, [](const change& a, const change& b) { return a.key() < b.key(); });
     std::vector<change> enlarged; // by what they cut off
     for (change& candidate : changes) {
       if (parts_.keeps_connected(candidate.supers))
@@ -121,12 +121,11 @@ private:
       std::vector<local_id> all = parts_.pieces_cut_off_by(candidate.supers);
       if (!parts_.is_light(parts_.weight_of(all), candidate.to))
         continue;
-      all.insert(all.end(), candidate.supers.begin(), candidate.supers.end());
-      std::sort(all.begin(), all.end());
+      append(all, candidate.supers);
+      sort_all(all);
       add_if_gain(enlarged, all, candidate.to);
     }
-    std::sort(enlarged.begin(), enlarged.end(),
-              [](const change& a, const change& b) { return a.key() < b.key(); });
+    sort_all(enlarged, [](const change& a, const change& b) { return a.key() < b.key(); });
     for (change& candidate : enlarged)
       if (parts_.keeps_connected(candidate.supers))
         return std::move(candidate);

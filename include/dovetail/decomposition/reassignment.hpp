@@ -2,6 +2,7 @@
 /// Parts made of super-elements, and what changes when some of these go to another part.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/boundary_defects.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/part_weights.hpp"
@@ -145,7 +146,7 @@ public:
       for (std::size_t k = element_begins_[index(s)]; k < element_begins_[index(s) + 1]; ++k)
         for (const local_id v : mesh_.elements[index(elements_[k])])
           points.push_back(v);
-    make_unique(points);
+    sort_unique(points);
     return points;
   }
   /// The super-elements at a point, growing.
@@ -153,7 +154,7 @@ public:
     std::vector<local_id> supers;
     for (const local_id e : defects_.around().at(point))
       supers.push_back(super_[index(e)]);
-    make_unique(supers);
+    sort_unique(supers);
     return supers;
   }
   /// The parts next to super-elements of one part, growing.
@@ -163,7 +164,7 @@ public:
       for (const local_id other : graph_.row(s))
         if (part_of(other) != part_of(s))
           parts.push_back(part_of(other));
-    make_unique(parts);
+    sort_unique(parts);
     return parts;
   }
   /// By how much the cut grows when super-elements of one part go to another.
@@ -263,10 +264,6 @@ private:
   template <class Id>
   static std::size_t index(Id id) {
     return static_cast<std::size_t>(id);
-  }
-  static void make_unique(std::vector<local_id>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   void put(local_id super, local_id to) {

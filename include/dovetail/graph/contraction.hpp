@@ -23,7 +23,7 @@ struct weighted_edge {
 
 /// The graph with the given nodes and edges: parallel edges are merged (weights added), self loops dropped,
 /// rows sorted. Throws `usage_error` when an end is not a node. Linear but for sorting the rows.
-inline csr_graph make_csr_graph(std::vector<double> node_weights, std::span<const weighted_edge> edges) {
+inline csr_graph make_csr_graph(std::vector<double> node_weights, const std::vector<weighted_edge>& edges) {
   const std::size_t n = node_weights.size();
   std::vector<std::int64_t> begins(n + 1, 0);
   for (const weighted_edge& e : edges) {
@@ -49,10 +49,10 @@ inline csr_graph make_csr_graph(std::vector<double> node_weights, std::span<cons
   graph.node_weights = std::move(node_weights);
   graph.offsets.reserve(n + 1);
   for (std::size_t v = 0; v < n; ++v) {
-    const auto first = half_edges.begin() + begins[v];
-    const auto last = half_edges.begin() + begins[v + 1];
+    auto* const first = half_edges.data() + begins[v];
+    auto* const last = half_edges.data() + begins[v + 1];
     std::stable_sort(first, last, [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (auto it = first; it != last; ++it)
+    for (const auto* it = first; it != last; ++it)
       if (it != first && (it - 1)->first == it->first) {
         graph.edge_weights.back() += it->second;
       } else {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
 
 #include <cstddef>
@@ -24,7 +25,7 @@ struct csr_graph {
   std::span<const local_id> row(local_id node) const {
     const auto begin = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node)]);
     const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node) + 1]);
-    return std::span(neighbours).subspan(begin, end - begin);
+    return span_of(neighbours).subspan(begin, end - begin);
   }
 };
 

@@ -2,6 +2,7 @@
 /// From a mesh to the improver's data and back, with frozen entities.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/curve_order.hpp"
 #include "dovetail/improver/point_numbering.hpp"
@@ -20,7 +21,7 @@ namespace dovetail::improvement {
 namespace detail {
 
 [[noreturn]] inline void refuse_frozen_side(simplex<2> side) {
-  std::sort(side.begin(), side.end());
+  sort_all(side);
   throw mesh_error("frozen side (" + std::to_string(side[0]) + ", " + std::to_string(side[1]) + ", " +
                    std::to_string(side[2]) + ") is not a side of the mesh");
 }
@@ -51,11 +52,10 @@ inline std::vector<std::array<local_id, 3>> frozen_keys(const tet_complex& mesh,
         refuse_frozen_side(side);
     for (auto& v : side)
       v = names[static_cast<std::size_t>(v)];
-    std::sort(side.begin(), side.end());
+    sort_all(side);
     keys.push_back(side);
   }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  sort_unique(keys);
   return keys;
 }
 
@@ -113,7 +113,7 @@ inline tet_complex take_mesh(simplicial_mesh<3>& mesh, const frozen_entities<3>&
   if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
     throw mesh_error("the mesh has " + std::to_string(mesh.elements.size()) + " elements but " +
                      std::to_string(mesh.tags.size()) + " tags");
-  check_vertices(mesh.elements, mesh.points.size());
+  check_vertices(span_of(mesh.elements), mesh.points.size());
   std::vector<local_id> numbers;
   if (order == layout::along_curve)
     numbers = order_along_curve(mesh);

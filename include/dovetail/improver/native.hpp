@@ -2,6 +2,7 @@
 /// The library's own tetrahedral mesh improver.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/global_smoothing.hpp"
 #include "dovetail/improver/mesh_exchange.hpp"
@@ -73,7 +74,10 @@ struct native {
   }
 
   /// Complexity: O(elements) once, then O(poor elements). Throws `mesh_error` when the input is not a mesh.
-  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},
+  /// (Templates, so that only who improves a mesh waits for its compilation.)
+  template <int D>
+    requires(D == 3)
+  report operator()(simplicial_mesh<D>& mesh, const frozen_entities<D>& frozen = {},
                     const any_sizing& size = {}) const {
     switch (objective) {
     case objective::radius_ratio:
@@ -87,7 +91,9 @@ struct native {
   }
 
   /// The same for triangles, in the plane or on a surface: see surface_improver.hpp.
-  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen = {},
+  template <int D>
+    requires(D == 2)
+  report operator()(simplicial_mesh<D>& mesh, const frozen_entities<D>& frozen = {},
                     const any_sizing& size = {}, const surface_host& host = {}) const {
     return improve_surface(*this, mesh, frozen, size, host);
   }
@@ -118,12 +124,12 @@ private:
       raise<Measure>(complex, surface, size, result);
     } else {
       const tet_complex original = complex;
-      untangle(complex, surface, size);
+      untangle<oriented_volume>(complex, surface, size);
       complex.set_tangled(evaluate<Measure>(complex) > 0);
       raise<Measure>(complex, surface, size, result);
       if (count_tangled(complex) > tangled || !has_distinct_sides(complex)) {
         complex = original;
-        result.warnings.emplace_back("the mesh is too tangled to be improved; it was left as it was");
+        result.warnings.push_back("the mesh is too tangled to be improved; it was left as it was");
       }
       report_tangled(complex, tangled, result);
     }
@@ -179,13 +185,14 @@ private:
   }
 
   /// Turns flat and inverted elements positive where it can.
+  template <shape_measure Volume>
   void untangle(tet_complex& complex, const surface_limits& surface, const any_sizing& size) const {
     complex.set_tangled(true);
-    evaluate<oriented_volume>(complex);
+    evaluate<Volume>(complex);
     schedule_limits limits = limits_for(size);
-    limits.mender.target = static_cast<float>(oriented_volume::from_angle(2));
+    limits.mender.target = static_cast<float>(Volume::from_angle(2));
     limits.least_gain = 0;
-    schedule<oriented_volume>(complex, surface, limits).run();
+    schedule<Volume>(complex, surface, limits).run();
   }
   /// No side belongs to more than two elements.
   static bool has_distinct_sides(tet_complex& complex) {
@@ -194,7 +201,7 @@ private:
       if (complex.is_alive(e))
         alive.push_back(complex.vertices(e));
     try {
-      match_sides(alive, complex.points().size());
+      match_sides(span_of(alive), complex.points().size());
     } catch (const mesh_error&) {
       return false;
     }

@@ -2,6 +2,7 @@
 /// In which order and how often the operations are tried: sweeps over the poor elements, cheap ones first.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/effort.hpp"
 #include "dovetail/improver/element_mender.hpp"
 #include "dovetail/improver/surface_limits.hpp"
@@ -67,14 +68,14 @@ private:
   }
   void collect_poor() {
     poor_.clear();
-    const auto values = mesh_.values();
+    const auto& values = mesh_.values();
     for (std::size_t e = 0; e < values.size(); ++e)
       if (values[e] < limits_.mender.target)
         poor_.push_back(static_cast<local_id>(e));
   }
 
   void sort_worst_first() {
-    std::sort(poor_.begin(), poor_.end(), [&](local_id a, local_id b) {
+    sort_all(poor_, [&](local_id a, local_id b) {
       return mesh_.value(a) != mesh_.value(b) ? mesh_.value(a) < mesh_.value(b) : a < b;
     });
   }

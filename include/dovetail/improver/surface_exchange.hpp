@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/point_numbering.hpp"
@@ -73,9 +74,8 @@ private:
     table.constraint.assign(corners_, no_id);
     std::vector<std::array<local_id, 2>> listed = frozen_.sides;
     for (auto& side : listed)
-      std::sort(side.begin(), side.end());
-    std::sort(listed.begin(), listed.end());
-    listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+      sort_all(side);
+    sort_unique(listed);
     std::vector<bool> is_found(listed.size(), false);
     const side_table<2> sides = build_sides(mesh_);
     std::vector<local_id> first(sides.size(), no_id); // the first corner opposite each side

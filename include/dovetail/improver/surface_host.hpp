@@ -49,7 +49,8 @@ inline std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh,
   for (const auto& [a, b, c] : mesh.elements)
     if (is_pole[static_cast<std::size_t>(a)] || is_pole[static_cast<std::size_t>(b)] ||
         is_pole[static_cast<std::size_t>(c)])
-      sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
+      for (const simplex<1> side : {simplex<1>{a, b}, {b, c}, {c, a}})
+        sides.push_back(side);
   return sides;
 }
 

@@ -79,8 +79,8 @@ private:
 
   /// Undoes flips, then the split: v goes back onto the tail of the side it split.
   void take_back(local_id v, local_id tail) {
-    for (auto reached = flipped_.rbegin(); reached != flipped_.rend(); ++reached)
-      s_.table.flip(corner_facing(v, *reached));
+    for (std::size_t i = flipped_.size(); i-- > 0;)
+      s_.table.flip(corner_facing(v, flipped_[i]));
     s_.table.collapse(corner_facing(v, tail));
     s_.drop_last_vertex();
   }

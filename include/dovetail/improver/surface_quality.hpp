@@ -2,10 +2,10 @@
 /// Quality counts of a surface, of the triangles that its fixed sides limit and of the rest.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/quality_counts.hpp"
 #include "dovetail/improver/surface_complex.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -40,7 +40,7 @@ inline std::vector<bool> limiting_points(const surface_complex& mesh) {
 /// The cosines of the smallest and of the largest angle of a triangle.
 inline std::array<double, 2> extreme_cosines(vec3 a, vec3 b, vec3 c) {
   std::array<double, 3> squares{norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)};
-  std::sort(squares.begin(), squares.end());
+  sort_all(squares);
   const auto& [x, y, z] = squares;
   return {(y + z - x) / (2 * std::sqrt(y * z)), (x + y - z) / (2 * std::sqrt(x * y))};
 }

@@ -3,6 +3,7 @@
 /// triangles.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/operation_log.hpp"
 #include "dovetail/improver/surface_insertion.hpp"
 
@@ -179,7 +180,7 @@ private:
       const local_id c = 3 * t + static_cast<local_id>(k);
       sides[k] = {-s_.length(s_.table.tail(c), s_.table.head(c)), c};
     }
-    std::sort(sides.begin(), sides.end());
+    sort_all(sides);
     for (const auto& side : sides) {
       const local_id c = side.second;
       const local_id v = s_.table.tail(c), w = s_.table.head(c);

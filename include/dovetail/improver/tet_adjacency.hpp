@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ inline std::array<std::uint64_t, 4> sorted_corners(const simplex<3>& element) {
   if (!numbers.empty())
     for (auto& v : side)
       v = numbers[static_cast<std::size_t>(v)];
-  std::sort(side.begin(), side.end());
+  sort_all(side);
   throw mesh_error("more than two elements meet at the side (" + std::to_string(side[0]) + ", " +
                    std::to_string(side[1]) + ", " + std::to_string(side[2]) + ")");
 }

@@ -3,6 +3,7 @@
 /// replacing one small set of elements by another that fills the same cavity.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/improver/cavity_matcher.hpp"
 #include "dovetail/improver/tet_adjacency.hpp"
@@ -36,7 +37,7 @@ public:
               std::vector<local_id> numbers = {})
       : points_(std::move(points)), elements_(std::move(elements)), tags_(std::move(tags)),
         numbers_(std::move(numbers)), given_vertices_(static_cast<local_id>(points_.size())),
-        across_(match_sides(elements_, points_.size(), numbers_)), values_(elements_.size(), 0.0F),
+        across_(match_sides(span_of(elements_), points_.size(), numbers_)), values_(elements_.size(), 0.0F),
         fixed_sides_(elements_.size(), 0), element_marks_(elements_.size(), 0),
         changed_at_(points_.size(), 0), element_at_(points_.size(), no_id),
         kinds_(points_.size(), vertex_kind::unused), alive_(elements_.size()) {
@@ -70,7 +71,7 @@ public:
   bool has_tags() const { return !tags_.empty(); }
   local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
   float value(local_id e) const { return values_[index(e)]; }
-  std::span<const float> values() const { return values_; }
+  const std::vector<float>& values() const { return values_; }
   /// The sum over all elements of what they lack to the target; kept up to date, O(1).
   double lacking() const { return lacking_; }
   /// What an element of this value lacks to the target, cubed: one really poor element weighs more than
@@ -275,8 +276,8 @@ private:
       dead_elements_.pop_back();
       return e;
     }
-    elements_.emplace_back();
-    across_.emplace_back();
+    elements_.push_back({});
+    across_.push_back({});
     values_.push_back(gone);
     fixed_sides_.push_back(0);
     element_marks_.push_back(0);

@@ -2,6 +2,7 @@
 /// Statistics of a distributed mesh, streamed: one piece in memory at a time.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -29,7 +30,7 @@ struct distributed_statistics {
 inline double total_volume(const simplicial_mesh<3>& mesh) {
   double volume = 0;
   for (const auto& element : mesh.elements) {
-    const auto p = corners(std::span(mesh.points), element);
+    const auto p = corners(span_of(mesh.points), element);
     volume += signed_volume(p[0], p[1], p[2], p[3]);
   }
   return volume;
@@ -44,7 +45,7 @@ inline std::vector<double> face_areas(const fine_skeleton& skeleton) {
     const auto f = static_cast<std::size_t>(skeleton.cad_faces[t]);
     if (f >= areas.size())
       areas.resize(f + 1, 0.0);
-    const auto p = corners(std::span(skeleton.points), skeleton.triangles[t]);
+    const auto p = corners(span_of(skeleton.points), skeleton.triangles[t]);
     areas[f] += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
   }
   return areas;

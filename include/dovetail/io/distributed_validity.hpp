@@ -3,6 +3,7 @@
 /// that the whole conforms, without ever holding the whole.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/skeleton_index.hpp"
 #include "dovetail/mesh/validity.hpp"
@@ -106,7 +107,7 @@ std::vector<oriented_side<D>> expected_sides(const simplicial_skeleton<D>& skele
       std::swap(vertices[D - 2], vertices[D - 1]);
     sides.push_back(make_oriented<D>(vertices, listed[i]));
   }
-  std::sort(sides.begin(), sides.end());
+  sort_all(sides);
   return sides;
 }
 
@@ -133,7 +134,7 @@ void check_shared_points(const simplicial_piece<D>& piece, const simplicial_skel
     if (piece.mesh.points[i] != skeleton.points[static_cast<std::size_t>(piece.skeleton_points[i])])
       faults.add(seam_fault::moved_point, piece.skeleton_points[i]);
   auto sorted = piece.skeleton_points;
-  std::sort(sorted.begin(), sorted.end());
+  sort_all(sorted);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] == sorted[i - 1])
       faults.add(seam_fault::repeated_point, sorted[i]);
@@ -183,7 +184,7 @@ void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<
       found.push_back(mirrored);
     }
   }
-  std::sort(found.begin(), found.end());
+  sort_all(found);
   compare_sides<D>(
       expected, found, [&](local_id side) { faults.add(seam_fault::missing_triangle, side); },
       [&](local_id element) { faults.add(seam_fault::surplus_side, element); });

@@ -3,10 +3,10 @@
 /// subdomains.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
-#include <span>
 #include <string>
 
 namespace dovetail::io::detail {
@@ -32,11 +32,11 @@ inline void write_lines_vtp(output_file& file, const distributed_simplicial_mesh
   layout.array<local_id>("subdomain", cells);
   layout.array<local_id>("front_subdomain", cells);
   file.text("</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
-  append_values(file, std::span(skeleton.points));
+  append_values(file, span_of(skeleton.points));
   append_computed<global_id>(file, points, [](auto i) { return static_cast<global_id>(i); });
-  append_values(file, std::span(skeleton.edges));
+  append_values(file, span_of(skeleton.edges));
   append_computed<local_id>(file, cells, [](auto i) { return static_cast<local_id>(2 * (i + 1)); });
-  append_values(file, std::span(skeleton.curves));
+  append_values(file, span_of(skeleton.curves));
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[i][0]; });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[i][1]; });
   file.text("\n</AppendedData>\n</VTKFile>\n");

@@ -5,7 +5,6 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -24,17 +23,25 @@ inline boundary_patches collect_patches(const distributed_mesh& mesh) {
   for (const auto f : mesh.skeleton.cad_faces)
     faces = std::max(faces, static_cast<std::size_t>(f + 1));
   boundary_patches patches;
-  std::map<std::string, local_id> known;
+  std::vector<local_id> by_name; // the patches in the order of their names
   for (std::size_t f = 0; f < faces; ++f) {
     std::string name = f < mesh.patch_names.size() ? mesh.patch_names[f] : "";
     if (name.empty() && f < mesh.face_names.size())
       name = mesh.face_names[f];
     if (name.empty())
       name = "face " + std::to_string(f + 1);
-    const auto [at, is_new] = known.try_emplace(name, static_cast<local_id>(patches.names.size()));
-    if (is_new)
-      patches.names.push_back(name);
-    patches.of_face.push_back(at->second);
+    const auto at =
+        std::lower_bound(by_name.begin(), by_name.end(), name, [&](local_id p, const std::string& n) {
+          return patches.names[static_cast<std::size_t>(p)] < n;
+        });
+    if (at != by_name.end() && patches.names[static_cast<std::size_t>(*at)] == name) {
+      patches.of_face.push_back(*at);
+      continue;
+    }
+    const auto made = static_cast<local_id>(patches.names.size());
+    by_name.insert(at, made);
+    patches.names.push_back(name);
+    patches.of_face.push_back(made);
   }
   return patches;
 }

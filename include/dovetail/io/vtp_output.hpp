@@ -2,11 +2,11 @@
 /// The triangles of the skeleton as a VTP file: the boundary of the domain, or the faces inside it.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/patches.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
-#include <span>
 #include <vector>
 
 namespace dovetail::io::detail {
@@ -79,7 +79,7 @@ inline void write_skeleton_vtp(output_file& file, const distributed_mesh& mesh, 
   const auto triangle = [&](std::uint64_t i) { return static_cast<std::size_t>(surface.triangles[i]); };
   append_computed<vec3>(file, points, [&](auto i) { return skeleton.points[point(i)]; });
   append_computed<global_id>(file, points, [&](auto i) { return static_cast<global_id>(point(i)); });
-  append_values(file, std::span(std::as_const(surface.renumbered)));
+  append_values(file, span_of(std::as_const(surface.renumbered)));
   append_computed<local_id>(file, cells, [](auto i) { return static_cast<local_id>(3 * (i + 1)); });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.cad_faces[triangle(i)]; });
   append_computed<local_id>(file, cells, [&](auto i) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/line_output.hpp"
 #include "dovetail/io/patches.hpp"
@@ -64,8 +65,7 @@ vtu_group collect_group(const distributed_simplicial_mesh<D>& mesh, const sides_
     group.elements += static_cast<std::uint64_t>(mesh.counts[static_cast<std::size_t>(s)].elements);
   }
   auto& shared = group.skeleton_points;
-  std::sort(shared.begin(), shared.end());
-  shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+  sort_unique(shared);
   for (std::size_t i = 0; i < shared.size(); ++i)
     group_point[static_cast<std::size_t>(shared[i])] = static_cast<local_id>(i);
   group.points += shared.size();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -256,7 +257,7 @@ side_table<D> build_sides(std::span<const simplex<D>> elements, std::size_t poin
         table.vertices.push_back(side_vertices(half_sides[0]));
         table.elements.push_back({element_of(0), half_sides.size() > 1 ? element_of(1) : no_id});
         for (std::size_t k = 2; k < half_sides.size(); ++k)
-          table.further_elements.emplace_back(side, element_of(k));
+          table.further_elements.push_back({side, element_of(k)});
         for (const std::uint32_t h : half_sides)
           table.of_element[h / n][h % n] = side;
       });
@@ -265,7 +266,7 @@ side_table<D> build_sides(std::span<const simplex<D>> elements, std::size_t poin
 
 template <int D>
 side_table<D> build_sides(const simplicial_mesh<D>& mesh) {
-  return build_sides<D>(mesh.elements, mesh.points.size());
+  return build_sides<D>(span_of(mesh.elements), mesh.points.size());
 }
 
 /// The element across each local side, or no_id where the side does not have exactly two elements.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
@@ -36,7 +37,7 @@ inline box3 box_of(std::span<const vec3> points, const simplex<2>& triangle) {
 /// The leaves of an octree over boxes; an item is in every leaf that its box overlaps.
 class octree_leaves {
 public:
-  octree_leaves(std::span<const box3> boxes, const crossing_parameters& parameters)
+  octree_leaves(const std::vector<box3>& boxes, const crossing_parameters& parameters)
       : boxes_(boxes), parameters_(parameters) {
     box3 root;
     for (const box3& box : boxes)
@@ -85,7 +86,7 @@ private:
     return part;
   }
 
-  std::span<const box3> boxes_;
+  const std::vector<box3>& boxes_;
   crossing_parameters parameters_;
   std::vector<std::vector<local_id>> leaves_;
 };
@@ -111,7 +112,7 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
         const auto i = static_cast<std::size_t>(leaf[a]), j = static_cast<std::size_t>(leaf[b]);
         if (boxes[i].overlaps(boxes[j]) && !(excluded && excluded(leaf[a], leaf[b])) &&
             triangles_cross(points, triangles[i], triangles[j]))
-          found.emplace_back(leaf[a], leaf[b]);
+          found.push_back({leaf[a], leaf[b]});
       }
   };
 
@@ -123,8 +124,10 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
         for (std::size_t leaf = task; leaf < leaves.size(); leaf += tasks)
           test_leaf(leaves[leaf], found);
         std::vector<local_id> flat;
-        for (const auto& [i, j] : found)
-          flat.insert(flat.end(), {i, j});
+        for (const auto& [i, j] : found) {
+          flat.push_back(i);
+          flat.push_back(j);
+        }
         byte_writer out;
         out.array(flat);
         return out.take();
@@ -137,10 +140,9 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
       throw error("intersection test failed: " + outcome.failure);
     const auto flat = byte_reader(outcome.result).template array<local_id>();
     for (std::size_t k = 0; k < flat.size(); k += 2)
-      pairs.emplace_back(flat[k], flat[k + 1]);
+      pairs.push_back({flat[k], flat[k + 1]});
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 

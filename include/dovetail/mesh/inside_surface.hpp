@@ -4,6 +4,7 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -86,7 +87,7 @@ private:
   void require_closed() const {
     if (triangles_.empty())
       throw geometry_error("the surface has no triangle; give a closed surface");
-    const auto sides = build_sides<2>(triangles_, points_.size());
+    const auto sides = build_sides<2>(span_of(triangles_), points_.size());
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const std::size_t count = sides.all_elements(static_cast<local_id>(i)).size();
       if (sides.is_boundary(static_cast<local_id>(i)) || count % 2 != 0) {

@@ -2,6 +2,7 @@
 /// Angles of elements, and statistics of them that can be merged from pieces.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
@@ -252,7 +253,7 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
   statistics.elements = static_cast<std::int64_t>(mesh.elements.size());
   detail::smallest_face_angle face_angle;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto at = corners(std::span(mesh.points), mesh.elements[e]);
+    const auto at = corners(span_of(mesh.points), mesh.elements[e]);
     std::array<double, 2> extremes;
     if constexpr (D == 2) {
       extremes = extreme_wedge_angles(at);

@@ -3,12 +3,13 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
+#include "dovetail/core/sequence.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -74,10 +75,10 @@ void for_each_group(std::size_t count, std::size_t point_count, const KeyOf& key
   std::vector<std::uint32_t> members;
   for (std::size_t v = 0; v < point_count; ++v) {
     const auto bucket =
-        std::span(buckets.items)
+        span_of(buckets.items)
             .subspan(buckets.bucket_begins[v], buckets.bucket_begins[v + 1] - buckets.bucket_begins[v]);
     if constexpr (N > 1) // with N == 1 the bucket is one group and already in order
-      std::sort(bucket.begin(), bucket.end());
+      sort_all(bucket);
     for (std::size_t first = 0; first < bucket.size();) {
       std::array<local_id, N> key{};
       key[0] = static_cast<local_id>(v);
@@ -89,7 +90,7 @@ void for_each_group(std::size_t count, std::size_t point_count, const KeyOf& key
              std::equal(bucket[last].begin(), bucket[last].end() - 1, bucket[first].begin());
            ++last)
         members.push_back(bucket[last][N - 1]);
-      visit(key, std::span<const std::uint32_t>(members));
+      visit(key, span_of(std::as_const(members)));
       first = last;
     }
   }

@@ -3,6 +3,7 @@
 /// surface_operations.hpp.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/surface_operations.hpp"
 
 namespace dovetail::detail {
@@ -124,7 +125,7 @@ private:
 
   template <class Rule>
   bool try_step(local_id v, vec3 step, Rule accepts) {
-    const auto to = s_.displaced(v, step, link_);
+    const auto to = s_.displaced(v, step, span_of(link_));
     if (!to)
       return false;
     const star before = measure(v);

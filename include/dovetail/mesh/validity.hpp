@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
@@ -147,7 +148,7 @@ void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowe
     const vec3& p = points[static_cast<std::size_t>(v)];
     return std::array{p.x, p.y, p.z};
   };
-  std::sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+  sort_all(order, [&](local_id a, local_id b) {
     const auto pa = coordinates(a);
     const auto pb = coordinates(b);
     return pa != pb ? pa < pb : a < b;
@@ -156,7 +157,7 @@ void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowe
   for (std::size_t k = 1; k < order.size(); ++k)
     if (coordinates(order[k]) == coordinates(order[k - 1]))
       repeated.push_back(order[k]);
-  std::sort(repeated.begin(), repeated.end());
+  sort_all(repeated);
   for (const local_id v : repeated)
     faults.add(mesh_fault::coincident_point, v);
 }
@@ -200,7 +201,7 @@ void check_duplicates(const simplicial_mesh<D>& mesh, fault_collector& faults) {
         for (std::size_t k = 1; k < members.size(); ++k)
           repeated.push_back(static_cast<local_id>(members[k]));
       });
-  std::sort(repeated.begin(), repeated.end());
+  sort_all(repeated);
   for (const local_id e : repeated)
     faults.add(mesh_fault::duplicate_element, e);
 }

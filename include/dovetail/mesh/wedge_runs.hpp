@@ -2,6 +2,7 @@
 /// The side-dual graph under node deletion: runs of wedges between consecutive remaining sides of a ridge.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 namespace dovetail {
@@ -31,7 +31,7 @@ public:
       : mesh_(&mesh), sides_(&sides), other_end_(mesh.elements.size() * per_element),
         angle_(other_end_.size()), removed_(sides.size(), 0) {
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      const auto angles = wedge_angles(corners(std::span(mesh.points), mesh.elements[e]));
+      const auto angles = wedge_angles(corners(span_of(mesh.points), mesh.elements[e]));
       for (std::size_t r = 0; r < per_element; ++r) {
         const std::size_t w = e * per_element + r;
         other_end_[w] = static_cast<std::uint32_t>(w);

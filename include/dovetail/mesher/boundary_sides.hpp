@@ -59,7 +59,7 @@ public:
         return {static_cast<local_id>(k), parity(side)};
     return {};
   }
-  std::span<const entry> entries() const { return entries_; }
+  const std::vector<entry>& entries() const { return entries_; }
   /// The input triangle that is oriented like the side asked for; no_id when only its reverse was listed.
   local_id listed(match m) const {
     return entries_[static_cast<std::size_t>(m.entry)].listed[static_cast<std::size_t>(m.parity)];

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -50,7 +51,7 @@ inline void check_points_kept(std::span<const vec3> given, std::span<const vec3>
 
 /// Every listed triangle is a side of exactly one element, on the side it is listed for, and of no other.
 inline void check_boundary_kept(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
-  const boundary_sides sides(boundary.elements);
+  const boundary_sides sides(span_of(boundary.elements));
   std::vector<std::array<int, 2>> uses(sides.entries().size(), {0, 0});
   for (const auto& element : mesh.elements)
     for (const auto& local : numbering::sides<3>)
@@ -81,7 +82,7 @@ inline void check_elements_positive(const simplicial_mesh<3>& mesh) {
 }
 
 inline void check_volume(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
-  const double expected = enclosed_volume(boundary.points, boundary.elements);
+  const double expected = enclosed_volume(span_of(boundary.points), span_of(boundary.elements));
   box3 box;
   for (const vec3 p : boundary.points)
     box.include(p);
@@ -112,7 +113,7 @@ inline void require_meshable(const simplicial_mesh<2>& boundary) {
 /// Checks a mesher's result against its input; throws `mesher_error` that says what is wrong. Linear time,
 /// about 0.1 us per element.
 inline void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {
-  detail::check_points_kept(input.boundary.points, mesh.points);
+  detail::check_points_kept(span_of(input.boundary.points), span_of(mesh.points));
   detail::check_boundary_kept(input.boundary, mesh);
   detail::check_elements_positive(mesh);
   detail::check_volume(input.boundary, mesh);

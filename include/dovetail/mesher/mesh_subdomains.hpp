@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/mesher/offending_facets.hpp"
 #include "dovetail/mesher/piece_work.hpp"
@@ -179,8 +180,7 @@ private:
       return options_.predicted_cost[static_cast<std::size_t>(pending_[k].subdomain)];
     };
     if (!options_.predicted_cost.empty())
-      std::stable_sort(order.begin(), order.end(),
-                       [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
+      stable_sort_all(order, [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
     return order;
   }
 

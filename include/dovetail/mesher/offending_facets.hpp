@@ -3,12 +3,12 @@
 #pragma once
 
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/crossing_triangles.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/parallel/serial.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -24,10 +24,12 @@ inline std::vector<local_id> crossing_facets(const simplicial_mesh<2>& boundary)
            sorted_vertices(triangles[static_cast<std::size_t>(b)]);
   };
   std::vector<local_id> crossing;
-  for (const auto& [a, b] : crossing_triangles(boundary.points, triangles, same, parallel::serial{}))
-    crossing.insert(crossing.end(), {a, b});
-  std::sort(crossing.begin(), crossing.end());
-  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  for (const auto& [a, b] :
+       crossing_triangles(span_of(boundary.points), span_of(triangles), same, parallel::serial{})) {
+    crossing.push_back(a);
+    crossing.push_back(b);
+  }
+  sort_unique(crossing);
   return crossing;
 }
 

@@ -2,14 +2,15 @@
 /// Improves a meshed piece inside its frozen boundary: tetrahedra, or triangles that stay on their surfaces.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/surface_host.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -22,9 +23,14 @@ inline surface_host host_of_piece(const mesher_input<2>& input, std::vector<std:
     any_surface surface;
     bool reversed;
   };
-  auto faces = std::make_shared<std::map<local_id, face>>();
+  struct faces_of_regions {
+    region_of_face find;
+    std::vector<face> listed;
+    const face& at(local_id id) const { return listed[find(id)]; }
+  };
+  auto faces = std::make_shared<faces_of_regions>(faces_of_regions{region_of_face(input.regions), {}});
   for (const surface_region& region : input.regions)
-    faces->try_emplace(region.face, face{region.surface, region.reversed});
+    faces->listed.push_back({region.surface, region.reversed});
   const auto point_at = [](const face& on, vec2 uv) {
     const surface_frame f = on.surface.plane ? on.surface.plane->frame(uv) : on.surface.frame(uv);
     const vec3 normal = normalized(cross(f.du, f.dv));
@@ -163,7 +169,7 @@ report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
   const auto at_poles = sides_at_poles(made.mesh, poles_of(input, made.mesh.points.size()));
-  frozen.sides.insert(frozen.sides.end(), at_poles.begin(), at_poles.end());
+  append(frozen.sides, at_poles);
   constexpr bool takes_host = requires(const surface_host& host) {
     improve(made.mesh, frozen, size, host);
   };

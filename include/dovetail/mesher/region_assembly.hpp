@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
@@ -22,7 +23,7 @@ inline void append_region(const surface_region& region, const patch_mesh& made, 
   const auto& labels = region.boundary.labels;
   const auto frozen = static_cast<local_id>(labels.size());
   const auto first_inner = static_cast<local_id>(mesh.points.size());
-  mesh.points.insert(mesh.points.end(), made.inner_points.begin(), made.inner_points.end());
+  append(mesh.points, made.inner_points);
   mesh.elements.reserve(mesh.elements.size() + made.triangles.size());
   result.corner_uv.reserve(mesh.elements.size() + made.triangles.size());
   for (simplex<2> triangle : made.triangles) {
@@ -46,7 +47,7 @@ inline std::vector<std::array<local_id, 2>> joined_labels(const patch_boundary& 
   for (const auto& [a, b] : boundary.segments)
     pairs.push_back(sorted_vertices(std::array{boundary.labels[static_cast<std::size_t>(a)],
                                                boundary.labels[static_cast<std::size_t>(b)]}));
-  std::sort(pairs.begin(), pairs.end());
+  sort_all(pairs);
   return pairs;
 }
 

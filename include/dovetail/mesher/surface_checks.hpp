@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
@@ -14,7 +15,6 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +34,7 @@ inline std::vector<directed_edge> edges_between(const simplicial_mesh<2>& mesh, 
       if (const directed_edge edge{t[k], t[(k + 1) % 3]};
           edge[0] < boundary_points && edge[1] < boundary_points)
         edges.push_back(edge);
-  std::sort(edges.begin(), edges.end());
+  sort_all(edges);
   return edges;
 }
 
@@ -42,7 +42,7 @@ inline std::vector<directed_edge> edges_between(const simplicial_mesh<2>& mesh, 
 /// the other one unless it is listed in both.
 inline void check_lines_kept(const simplicial_mesh<1>& boundary, const simplicial_mesh<2>& mesh) {
   auto listed = boundary.elements;
-  std::sort(listed.begin(), listed.end());
+  sort_all(listed);
   const auto found = edges_between(mesh, static_cast<local_id>(boundary.points.size()));
   const auto times = [](const std::vector<directed_edge>& edges, const directed_edge& edge) {
     const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
@@ -82,15 +82,13 @@ inline double enclosed_area(const patch_boundary& boundary) {
 
 /// A piece of plane regions: every element is oriented like its face, exactly, and the areas add up.
 inline void check_planes_filled(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
-  std::map<local_id, const surface_region*> region_of_face;
+  const region_of_face find(input.regions);
   double expected = 0;
-  for (const surface_region& region : input.regions) {
-    region_of_face.try_emplace(region.face, &region);
+  for (const surface_region& region : input.regions)
     expected += enclosed_area(region.boundary);
-  }
   double area = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const surface_region& region = *region_of_face.at(mesh.tags[e]);
+    const surface_region& region = input.regions[find(mesh.tags[e])];
     std::array<vec2, 3> at;
     for (std::size_t k = 0; k < 3; ++k)
       at[k] = region.surface.plane->project(mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]);

@@ -5,8 +5,11 @@
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <stdexcept>
+#include <vector>
 
 namespace dovetail {
 
@@ -27,6 +30,29 @@ struct surface_region {
   /// Whether no inner edge may join two labels, since another region might do so or a line does; may be
   /// empty.
   std::function<bool(local_id, local_id)> forbids = {};
+};
+
+/// Finds the first region of a face.
+class region_of_face {
+public:
+  explicit region_of_face(const std::vector<surface_region>& regions) {
+    for (std::size_t r = regions.size(); r-- > 0;) {
+      const std::size_t face = place(regions[r].face);
+      first_.resize(std::max(first_.size(), face + 1), no_id);
+      first_[face] = static_cast<local_id>(r);
+    }
+  }
+  /// Throws `std::out_of_range` when there is none.
+  std::size_t operator()(local_id face) const {
+    const local_id r = first_.at(place(face));
+    return r == no_id ? throw std::out_of_range("no region of this face") : static_cast<std::size_t>(r);
+  }
+
+private:
+  /// A face may be `no_id`, which comes first.
+  static std::size_t place(local_id face) { return static_cast<std::size_t>(face - no_id); }
+
+  std::vector<local_id> first_;
 };
 
 } // namespace dovetail

@@ -35,7 +35,7 @@ inline report decode_report(byte_reader& from) {
   for (auto left = from.value<std::uint64_t>(); left > 0; --left) {
     std::string key = from.text();
     const auto value = from.value<double>();
-    r.counters.emplace_back(std::move(key), value);
+    r.counters.push_back({std::move(key), value});
   }
   for (auto left = from.value<std::uint64_t>(); left > 0; --left)
     r.warnings.push_back(from.text());

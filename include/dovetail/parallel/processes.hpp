@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <deque>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -54,10 +53,8 @@ inline std::size_t thread_count() {
 class process_pool {
 public:
   process_pool(std::size_t count, const task_function& task, const run_options& options, std::size_t workers)
-      : task_(task), options_(options), outcomes_(count), workers_(std::min(workers, count)) {
-    const auto order = start_order(count, options);
-    waiting_.assign(order.begin(), order.end());
-  }
+      : task_(task), options_(options), outcomes_(count), waiting_(start_order(count, options)),
+        workers_(std::min(workers, count)) {}
 
   std::vector<task_outcome> run() {
     options_.on_progress(options_.stage, 0, outcomes_.size());
@@ -78,14 +75,13 @@ private:
   void hand_out() {
     bool any_running = false;
     for (worker_process& worker : workers_) {
-      if (waiting_.empty())
+      if (next_ == waiting_.size())
         return;
       if (worker.busy() || (!worker.running() && !worker.start(task_, sockets()))) {
         any_running = any_running || worker.running();
         continue;
       }
-      worker.assign(waiting_.front());
-      waiting_.pop_front();
+      worker.assign(waiting_[next_++]);
       any_running = true;
     }
     if (!any_running)
@@ -129,7 +125,8 @@ private:
   const task_function& task_;
   const run_options& options_;
   std::vector<task_outcome> outcomes_;
-  std::deque<std::size_t> waiting_;
+  std::vector<std::size_t> waiting_; ///< those before `next_` were handed out
+  std::size_t next_ = 0;
   std::size_t done_ = 0;
   std::vector<worker_process> workers_;
 };

@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/version.hpp"
 
 #include <array>
@@ -130,7 +131,7 @@ private:
     content_hash hash;
     hash.word(identity_);
     hash.text(name);
-    hash.bytes(blob);
+    hash.bytes(span_of(blob));
     return hash.value();
   }
 

@@ -2,9 +2,9 @@
 /// Recursive bisection by any rule, and cutting an order of nodes into runs of given shares.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -96,7 +96,7 @@ inline std::vector<local_id> cut_order(std::span<const local_id> order, std::spa
 inline std::vector<local_id> order_by(std::span<const double> keys) {
   std::vector<local_id> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+  stable_sort_all(order, [&](local_id a, local_id b) {
     return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
   });
   return order;

@@ -69,7 +69,7 @@ public:
         queue.emplace(best.gain, negated_node);
         continue;
       }
-      trail.emplace_back(v, part_[index(v)]);
+      trail.push_back({v, part_[index(v)]});
       locked[index(v)] = true;
       apply(v, best.to);
       gain += best.gain;

@@ -3,6 +3,7 @@
 /// given, and how the interfaces are measured.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/corner_contract.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
@@ -40,29 +41,33 @@ inline simplify_parameters<3> volume_rule(const generate_options& options, int s
   return rule;
 }
 
-inline simplification<2> simplify_background(const simplicial_background<2>& mesh, const side_table<2>& sides,
-                                             std::span<const double> weights, int subdomains,
-                                             const generate_options& options, report& summary) {
+template <int D>
+  requires(D == 2)
+simplification<D> simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                      std::span<const double> weights, int subdomains,
+                                      const generate_options& options, report& summary) {
   const auto on_curves = edges_on_curves(mesh.surface);
   auto simplified =
-      simplify<2>(mesh.surface.mesh, sides, {.fixed_sides = on_curves, .element_weights = weights},
+      simplify<D>(mesh.surface.mesh, sides, {.fixed_sides = span_of(on_curves), .element_weights = weights},
                   surface_rule(options, subdomains));
   summary = simplified.summary;
   return simplified;
 }
 
-inline simplification<3> simplify_background(const simplicial_background<3>& mesh, const side_table<3>& sides,
-                                             std::span<const double> weights, int subdomains,
-                                             const generate_options& options, report& summary) {
+template <int D>
+  requires(D == 3)
+simplification<D> simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                      std::span<const double> weights, int subdomains,
+                                      const generate_options& options, report& summary) {
   if (!options.simplify) {
     auto plain =
-        simplify<3>(mesh.volume, sides, {.element_weights = weights}, volume_rule(options, subdomains));
+        simplify<D>(mesh.volume, sides, {.element_weights = weights}, volume_rule(options, subdomains));
     summary = plain.summary;
     return plain;
   }
   const auto on_curves = edges_on_curves(mesh.surface);
   auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides,
-                                  {.curve_edges = on_curves, .element_weights = weights},
+                                  {.curve_edges = span_of(on_curves), .element_weights = weights},
                                   surface_rule(options, subdomains), volume_rule(options, subdomains));
   summary = std::move(coupled.summary);
   return std::move(coupled.volume);
@@ -75,8 +80,9 @@ inline interface_contract coarse_interface_contract(const simplicial_background<
                                                     const generate_options& options) {
   const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
   const auto origins = triangle_origins(boundary, side_states);
-  return check_interface_contract({mesh.volume.points, boundary.sides, boundary.subdomains, origins},
-                                  options.interface_angle_deg);
+  return check_interface_contract(
+      {span_of(mesh.volume.points), span_of(boundary.sides), span_of(boundary.subdomains), span_of(origins)},
+      options.interface_angle_deg);
 }
 
 inline interface_contract coarse_interface_contract(const simplicial_background<2>& mesh,
@@ -92,9 +98,9 @@ inline interface_contract fine_interface_contract(const realized<3>& skeleton,
                                                   const simplicial_background<3>&, const side_table<3>&,
                                                   std::span<const side_state>,
                                                   const generate_options& options) {
-  return check_interface_contract(
-      {skeleton.fine.points, skeleton.fine.triangles, skeleton.fine.subdomains, skeleton.origins},
-      options.interface_angle_deg);
+  return check_interface_contract({span_of(skeleton.fine.points), span_of(skeleton.fine.triangles),
+                                   span_of(skeleton.fine.subdomains), span_of(skeleton.origins)},
+                                  options.interface_angle_deg);
 }
 
 /// Between the first edges of the lines at each vertex.

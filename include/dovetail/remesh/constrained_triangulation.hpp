@@ -7,6 +7,7 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/corner_table.hpp"
 #include "dovetail/remesh/point_triangulation.hpp"
 
@@ -244,9 +245,7 @@ private:
         if ((w != 0 && w != 1) || (w == 0 && across == 0)) // the latter: a slit outside
           result_.misplaced.push_back(s);
       }
-    std::sort(result_.misplaced.begin(), result_.misplaced.end());
-    result_.misplaced.erase(std::unique(result_.misplaced.begin(), result_.misplaced.end()),
-                            result_.misplaced.end());
+    sort_unique(result_.misplaced);
   }
 
   void refresh_vertices() {

@@ -3,6 +3,7 @@
 /// edges split until none bridges a strongly curved part of the surface.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/surface_operations.hpp"
 #include "dovetail/remesh/patch_state.hpp"
 
@@ -56,8 +57,8 @@ inline void join_touching_vertices(const patch_boundary& boundary, std::vector<v
   }
   std::vector<std::size_t> order(scaled.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return boundary.labels[a] < boundary.labels[b]; });
+  stable_sort_all(order,
+                  [&](std::size_t a, std::size_t b) { return boundary.labels[a] < boundary.labels[b]; });
   for (std::size_t first = 0, last; first < order.size(); first = last) {
     last = first + 1;
     while (last < order.size() && boundary.labels[order[last]] == boundary.labels[order[first]])
@@ -84,7 +85,7 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
     scaled[i] = {boundary.uv[i].x * s.scale.x, boundary.uv[i].y * s.scale.y};
 
   join_touching_vertices(boundary, scaled);
-  loop_triangulation loops = triangulate_loops(scaled, boundary.segments);
+  loop_triangulation loops = triangulate_loops(span_of(scaled), span_of(boundary.segments));
   mesh.crossings = loops.crossings;
   mesh.misplaced = loops.misplaced;
   if (!loops.valid())

@@ -107,7 +107,7 @@ inline patch_mesh decode_patch_mesh(const byte_buffer& buffer) {
   mesh.summary.seconds = in.value<double>();
   for (auto left = in.value<std::uint64_t>(); left > 0; --left) {
     std::string key = in.text();
-    mesh.summary.counters.emplace_back(std::move(key), in.value<double>());
+    mesh.summary.counters.push_back({std::move(key), in.value<double>()});
   }
   for (auto left = in.value<std::uint64_t>(); left > 0; --left)
     mesh.summary.warnings.push_back(in.text());

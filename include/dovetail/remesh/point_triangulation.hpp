@@ -7,6 +7,7 @@
 
 #include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/corner_table.hpp"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ private:
 
   void insert_points() {
     const std::size_t count = points_.size();
-    const std::vector<local_id> order = order_along_curve(points_);
+    const std::vector<local_id> order = order_along_curve(span_of(points_));
     table.corner_of.assign(count, no_id);
     same_as.resize(count);
     for (std::size_t i = 0; i < count; ++i)

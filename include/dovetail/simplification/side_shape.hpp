@@ -2,12 +2,12 @@
 /// The own shape of a side, by which the worse of two sides is told.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace dovetail {
@@ -16,7 +16,7 @@ namespace dovetail {
 inline std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const side_table<3>& sides) {
   std::vector<double> shapes(sides.size());
   for (std::size_t s = 0; s < sides.size(); ++s)
-    shapes[s] = smallest_corner_angle(corners(std::span(mesh.points), sides.vertices[s]));
+    shapes[s] = smallest_corner_angle(corners(span_of(mesh.points), sides.vertices[s]));
   return shapes;
 }
 
@@ -24,7 +24,7 @@ inline std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const sid
 inline std::vector<double> side_shapes(const simplicial_mesh<2>& mesh, const side_table<2>& sides) {
   std::vector<double> shapes(sides.size(), 180.0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto angles = wedge_angles(corners(std::span(mesh.points), mesh.elements[e]));
+    const auto angles = wedge_angles(corners(span_of(mesh.points), mesh.elements[e]));
     for (std::size_t r = 0; r < angles.size(); ++r)
       for (const int local : numbering::sides_of_ridge<2>[r]) {
         double& shape =

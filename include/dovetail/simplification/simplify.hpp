@@ -10,6 +10,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/side_state.hpp"
@@ -67,7 +68,7 @@ public:
     std::vector<queued_wedge> first;
     for (std::uint32_t w = 0; w < runs_.wedge_count(); ++w)
       if (runs_.is_name(w) && is_small(runs_.angle(w)))
-        first.emplace_back(runs_.angle(w), w);
+        first.push_back({runs_.angle(w), w});
     queue_ = wedge_queue(std::greater<>(), std::move(first));
     queue_is_open_ = true;
     while (!queue_.empty()) {
@@ -128,7 +129,7 @@ private:
     given.reserve(given_.fixed_sides.size());
     for (const auto& vertices : given_.fixed_sides)
       given.push_back(sorted_vertices(vertices));
-    std::sort(given.begin(), given.end());
+    sort_all(given);
     for (std::size_t s = 0; s < sides_.size(); ++s) {
       const bool listed = !given.empty() &&
                           std::binary_search(given.begin(), given.end(), sorted_vertices(sides_.vertices[s]));
@@ -157,7 +158,7 @@ private:
     for (auto& ridge : ridges)
       ridge.vertices = sorted_vertices(ridge.vertices);
     const auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
-    std::sort(ridges.begin(), ridges.end(), by_vertices);
+    sort_all(ridges, by_vertices);
     std::vector<candidate> candidates;
     if (ridges.empty())
       return candidates;
@@ -184,8 +185,7 @@ private:
   }
 
   void contract_worst_first(std::vector<candidate>& candidates) {
-    std::sort(candidates.begin(), candidates.end(),
-              [](const candidate& a, const candidate& b) { return a.key() < b.key(); });
+    sort_all(candidates, [](const candidate& a, const candidate& b) { return a.key() < b.key(); });
     for (const candidate& c : candidates)
       if (c.only_penalise)
         refuse(c.side, c.angle, c.threshold);

@@ -2,6 +2,7 @@
 /// The simplification of a solid's coarse mesh: first its surface, then, coupled to it, its volume.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
 #include <span>
@@ -51,21 +52,23 @@ struct coupled_constraints {
 /// Simplifies the surface (50 degrees), then the volume (30 degrees) such that all interior faces at a
 /// removed surface edge are removed and those at a refused one are penalised. `surface` consists of the
 /// boundary and the material faces of `volume`; `sides` is `build_sides(volume)`.
-inline coupled_simplification simplify_coupled(const simplicial_mesh<2>& surface,
-                                               const simplicial_mesh<3>& volume, const side_table<3>& sides,
-                                               const coupled_constraints& given,
-                                               const simplify_parameters<2>& on_surface,
-                                               const simplify_parameters<3>& in_volume) {
+/// (A template, so that only who simplifies waits for its compilation.)
+template <int D>
+  requires(D == 3)
+coupled_simplification simplify_coupled(const simplicial_mesh<D - 1>& surface,
+                                        const simplicial_mesh<D>& volume, const side_table<D>& sides,
+                                        const coupled_constraints& given,
+                                        const simplify_parameters<D - 1>& on_surface,
+                                        const simplify_parameters<D>& in_volume) {
   const stopwatch time;
   coupled_simplification out;
-  const side_table<2> edges = build_sides(surface);
-  out.surface = simplify<2>(surface, edges, {.fixed_sides = given.curve_edges}, on_surface);
+  const side_table<D - 1> edges = build_sides(surface);
+  out.surface = simplify<D - 1>(surface, edges, {.fixed_sides = given.curve_edges}, on_surface);
   out.surface.summary.name = "surface";
   const auto ridges = coupling(surface, edges, out.surface, on_surface, given.volume_point);
-  out.volume = simplify<3>(
-      volume, sides,
-      {.coupled_ridges = std::span<const coupled_ridge<3>>(ridges), .element_weights = given.element_weights},
-      in_volume);
+  out.volume =
+      simplify<D>(volume, sides,
+                  {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights}, in_volume);
   out.volume.summary.name = "volume";
   out.summary.name = "simplification";
   out.summary.children = {out.surface.summary, out.volume.summary};

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/sizing/bounds.hpp"
@@ -179,7 +180,7 @@ private:
   }
 
   void collect_boundary() {
-    const auto sides = build_sides<3>(elements_, points_.size());
+    const auto sides = build_sides<3>(span_of(elements_), points_.size());
     for (std::size_t i = 0; i < sides.size(); ++i)
       if (sides.is_boundary(static_cast<local_id>(i)))
         boundary_.push_back(sides.vertices[i]);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/erased.hpp"
 #include "dovetail/sizing/octree.hpp"
 
@@ -139,7 +140,7 @@ private:
     for (std::uint32_t leaf = 0; leaf < tree_.leaf_count(); ++leaf)
       for (std::uint32_t k = 0; k < 8; ++k)
         keys.push_back({tree_.corner_key(tree_.leaf(leaf), k), leaf, k});
-    std::sort(keys.begin(), keys.end(), [](const corner_key& a, const corner_key& b) {
+    sort_all(keys, [](const corner_key& a, const corner_key& b) {
       return std::tie(a.at, a.leaf, a.which) < std::tie(b.at, b.leaf, b.which);
     });
     corners_.assign(tree_.leaf_count(), {});

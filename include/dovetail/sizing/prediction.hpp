@@ -2,6 +2,7 @@
 /// How many elements a mesh will have, before there is one: the integral of h^-D over a simplicial mesh.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/sizing/erased.hpp"
 
@@ -156,7 +157,7 @@ template <class Cell>
 double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::vector<char>& marked) {
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  sort_all(order, [&](std::size_t a, std::size_t b) {
     return cells[a].error != cells[b].error ? cells[a].error < cells[b].error : a < b;
   });
   marked.assign(cells.size(), 0);

@@ -10,6 +10,7 @@
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/candidate_octree.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
@@ -166,7 +167,7 @@ private:
   void locate() {
     std::vector<local_id> order(sources_.size());
     std::iota(order.begin(), order.end(), local_id{0});
-    std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) {
+    stable_sort_all(order, [&](local_id a, local_id b) {
       return laws_[static_cast<std::size_t>(a)].log_least < laws_[static_cast<std::size_t>(b)].log_least;
     });
     located_ = candidate_octree(tree_.bounds(), order, [&](local_id id, const box3& box) {

@@ -2,6 +2,7 @@
 /// How many tetrahedra will fill a closed surface, before there is any volume mesh.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
@@ -169,7 +170,7 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
   sizing::volume_cell root{{lower, lower + vec3{width, width, width}}};
   inside.tree().for_each([](const box3&, std::size_t) { return true; },
                          [&](local_id t) { root.triangles.push_back(t); });
-  std::sort(root.triangles.begin(), root.triangles.end());
+  sort_all(root.triangles);
   std::vector<sizing::volume_cell> cells{std::move(root)};
   cells.front().error = std::numeric_limits<double>::infinity();
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <vector>
 
 namespace dovetail {
@@ -45,7 +44,7 @@ struct coarse_skeleton {
 };
 
 /// Index of the line between two coarse vertices, or no_id. O(log lines).
-inline local_id find_line(std::span<const skeleton_line> lines, local_id a, local_id b) {
+inline local_id find_line(const std::vector<skeleton_line>& lines, local_id a, local_id b) {
   const std::array<local_id, 2> key{std::min(a, b), std::max(a, b)};
   const auto found =
       std::lower_bound(lines.begin(), lines.end(), key,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/skeleton/coarse_skeleton.hpp"
@@ -126,7 +127,7 @@ inline std::vector<skeleton_region> connected_regions(const surface_mesh& surfac
         }
       }
     }
-    std::sort(region.triangles.begin(), region.triangles.end());
+    sort_all(region.triangles);
     regions.push_back(std::move(region));
   }
   return regions;
@@ -154,9 +155,7 @@ inline void find_fixed_points(std::vector<skeleton_region>& regions, const surfa
       for (const local_id v : surface.mesh.elements[static_cast<std::size_t>(triangle)])
         if (on_face[static_cast<std::size_t>(v)] && !on_line[static_cast<std::size_t>(v)])
           region.fixed_points.push_back(v);
-    std::sort(region.fixed_points.begin(), region.fixed_points.end());
-    region.fixed_points.erase(std::unique(region.fixed_points.begin(), region.fixed_points.end()),
-                              region.fixed_points.end());
+    sort_unique(region.fixed_points);
   }
 }
 
@@ -166,8 +165,7 @@ inline std::vector<std::array<local_id, 2>> face_edges(const std::vector<skeleto
   for (const skeleton_face& face : faces)
     for (std::size_t i = 0; i < 3; ++i)
       edges.push_back(sorted_vertices(std::array{face.vertices[i], face.vertices[(i + 1) % 3]}));
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   return edges;
 }
 
@@ -246,8 +244,7 @@ inline coarse_skeleton extract_skeleton(const surface_mesh& surface, const trian
   for (const auto& edge : edges_of_faces)
     if (find_line(surface_lines, edge[0], edge[1]) == no_id)
       skeleton.lines.push_back({.vertices = edge});
-  std::sort(skeleton.lines.begin(), skeleton.lines.end(),
-            [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+  sort_all(skeleton.lines, [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
 
   skeleton.regions = detail::connected_regions(surface, edges, is_line, pieces);
   detail::find_fixed_points(skeleton.regions, surface, skeleton.lines, faces);

@@ -3,6 +3,7 @@
 /// inside the lines in the lines' order. Regions and faces name their boundaries by these numbers.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 
@@ -53,7 +54,7 @@ inline numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<
     }
   for (std::size_t l = 0; l < lines.size(); ++l) {
     result.first_point.push_back(static_cast<local_id>(result.points.size()));
-    result.points.insert(result.points.end(), lines[l].points.begin(), lines[l].points.end());
+    append(result.points, lines[l].points);
     result.hosts.resize(result.points.size(), skeleton.lines[l].on);
   }
   result.lines = std::move(lines);

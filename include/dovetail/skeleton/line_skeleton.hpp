@@ -2,6 +2,7 @@
 /// The fine skeleton of D = 2: the edges of the remeshed lines, with the subsurfaces beside them.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/skeleton/extract.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
@@ -64,14 +65,12 @@ public:
       : edges_(fine.edges), regions_at_(fine.points.size()) {
     for (simplex<1>& edge : edges_)
       edge = sorted_vertices(edge);
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    sort_unique(edges_);
     for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
       for (const local_id t : skeleton.regions[r].triangles)
         add_region(static_cast<local_id>(r), surface.mesh.elements[static_cast<std::size_t>(t)], lines);
     for (auto& regions : regions_at_) {
-      std::sort(regions.begin(), regions.end());
-      regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+      sort_unique(regions);
     }
   }
 

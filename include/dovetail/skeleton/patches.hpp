@@ -10,7 +10,6 @@
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <map>
-#include <tuple>
 
 namespace dovetail {
 
@@ -28,14 +27,17 @@ public:
   explicit patch_builder(const std::vector<vec3>& points) : points_(points) {}
 
   local_id vertex(local_id number, vec2 uv) {
-    const auto [found, is_new] =
-        index_.try_emplace(std::tuple(number, uv.x, uv.y), static_cast<local_id>(patch_.boundary.uv.size()));
-    if (is_new) {
-      patch_.boundary.uv.push_back(uv);
-      patch_.boundary.points.push_back(points_[static_cast<std::size_t>(number)]);
-      patch_.boundary.labels.push_back(number);
-    }
-    return found->second;
+    patch_boundary& made = patch_.boundary;
+    local_id& newest = newest_.try_emplace(number, no_id).first->second;
+    for (local_id v = newest; v != no_id; v = older_[static_cast<std::size_t>(v)])
+      if (const vec2 at = made.uv[static_cast<std::size_t>(v)]; at.x == uv.x && at.y == uv.y)
+        return v;
+    older_.push_back(newest);
+    newest = static_cast<local_id>(made.uv.size());
+    made.uv.push_back(uv);
+    made.points.push_back(points_[static_cast<std::size_t>(number)]);
+    made.labels.push_back(number);
+    return newest;
   }
   void segment(local_id a, local_id b, local_id line) {
     patch_.boundary.segments.push_back({a, b});
@@ -45,7 +47,8 @@ public:
 
 private:
   const std::vector<vec3>& points_;
-  std::map<std::tuple<local_id, double, double>, local_id> index_;
+  std::map<local_id, local_id> newest_; ///< the last vertex of a number
+  std::vector<local_id> older_;         ///< per vertex: the one of its number before it
   skeleton_patch patch_;
 };
 
@@ -209,7 +212,7 @@ inline face_patch interface_patch(const skeleton_face& face, std::span<const vec
 }
 
 /// Whether an interface face has an edge on the CAD surface and so leaves its coarse plane when remeshed.
-inline bool is_curved(const skeleton_face& face, std::span<const skeleton_line> lines) {
+inline bool is_curved(const skeleton_face& face, const std::vector<skeleton_line>& lines) {
   for (std::size_t i = 0; i < 3; ++i) {
     const local_id line = find_line(lines, face.vertices[i], face.vertices[(i + 1) % 3]);
     if (lines[static_cast<std::size_t>(line)].on.dimension < 3)

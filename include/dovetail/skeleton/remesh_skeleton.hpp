@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
@@ -90,13 +91,13 @@ private:
     if (is_region(p)) {
       const skeleton_region& region = skeleton_.regions[p];
       key = {region.cad_face, static_cast<local_id>(region.triangles.size())};
-      key.insert(key.end(), region.triangles.begin(), region.triangles.end());
+      append(key, region.triangles);
       std::set<local_id> lines(patches_[p].line_of_segment.begin(), patches_[p].line_of_segment.end());
       lines.erase(no_id);
       for (const local_id line : lines)
-        key.insert(key.end(), lines_.keys[at(line)].vertices.begin(), lines_.keys[at(line)].vertices.end());
+        append(key, lines_.keys[at(line)].vertices);
       key.push_back(no_id);
-      key.insert(key.end(), region.fixed_points.begin(), region.fixed_points.end());
+      append(key, region.fixed_points);
     } else {
       const simplex<2> corners = key_order(face_of(p));
       key = {no_id, corners[0], corners[1], corners[2]};
@@ -112,7 +113,7 @@ private:
     run_options options{.on_progress = on_progress_, .stage = "skeleton"};
     options.order.resize(missing.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
-    std::stable_sort(options.order.begin(), options.order.end(), [&](std::size_t a, std::size_t b) {
+    stable_sort_all(options.order, [&](std::size_t a, std::size_t b) {
       return patches_[missing[a]].boundary.segments.size() > patches_[missing[b]].boundary.segments.size();
     });
     const auto outcomes = run_.run(
@@ -161,8 +162,7 @@ private:
       collect_chords(p, chords);
     for (std::size_t i = on_lines; i < chords.size(); ++i)
       ++chords[i].second; // lines sort first
-    std::sort(chords.begin(), chords.end());
-    chords.erase(std::unique(chords.begin(), chords.end()), chords.end());
+    sort_unique(chords);
     std::set<std::size_t> changed;
     for (std::size_t i = 1; i < chords.size(); ++i)
       if (chords[i].first == chords[i - 1].first) {
@@ -176,7 +176,7 @@ private:
     for (const std::size_t p : changed) {
       keys_[p].push_back(no_id - 1); // a different mesh than without them
       for (const auto& edge : patches_[p].boundary.forbidden_edges)
-        keys_[p].insert(keys_[p].end(), edge.begin(), edge.end());
+        append(keys_[p], edge);
     }
     return !changed.empty();
   }
@@ -246,7 +246,7 @@ private:
     const auto& labels = patches_[p].boundary.labels;
     const auto frozen = static_cast<local_id>(labels.size());
     const auto first_inner = static_cast<local_id>(fine.points.size());
-    fine.points.insert(fine.points.end(), mesh.inner_points.begin(), mesh.inner_points.end());
+    append(fine.points, mesh.inner_points);
     fine.point_hosts.resize(fine.points.size(),
                             is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
     auto subdomains = is_region(p) ? skeleton_.regions[p].subdomains : face_of(p).subdomains;

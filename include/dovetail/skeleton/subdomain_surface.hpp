@@ -2,6 +2,7 @@
 /// The fine boundary of each subdomain, cut from the fine skeleton: what its mesher gets.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
@@ -58,11 +59,10 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
     if (skeleton.subdomains[t][0] != subdomain || second_passage)
       std::swap(side[D - 2], side[D - 1]);
     made.boundary.elements.push_back(side);
-    made.skeleton_points.insert(made.skeleton_points.end(), side.begin(), side.end());
+    append(made.skeleton_points, side);
   }
   auto& numbers = made.skeleton_points;
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sort_unique(numbers);
   for (const local_id number : numbers)
     made.boundary.points.push_back(skeleton.points[static_cast<std::size_t>(number)]);
   for (simplex<D - 1>& side : made.boundary.elements)
