@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
 #include <random>
 
 using namespace dovetail;
@@ -68,6 +72,38 @@ struct random_triangles {
         p = {scale * coordinate(engine), scale * coordinate(engine), scale * coordinate(engine)};
     while (!has_area(t));
     return t;
+  }
+};
+
+/// A square grid of n x n cells in the unit square, its points displaced at random by up to `displacement`
+/// cells, in all directions.
+struct rough_sheet {
+  std::vector<vec3> points;
+  std::vector<simplex<2>> triangles;
+
+  rough_sheet(int n, double displacement, std::mt19937& engine) {
+    std::uniform_real_distribution<double> by(-displacement / n, displacement / n);
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        points.push_back(
+            {static_cast<double>(i) / n + by(engine), static_cast<double>(j) / n + by(engine), by(engine)});
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const local_id corner = j * (n + 1) + i;
+        triangles.push_back({corner, corner + 1, corner + n + 2});
+        triangles.push_back({corner, corner + n + 2, corner + n + 1});
+      }
+  }
+
+  std::vector<triangle_pair> pairs_by_testing_all() const {
+    std::vector<triangle_pair> found;
+    const auto count = static_cast<local_id>(triangles.size());
+    for (local_id i = 0; i < count; ++i)
+      for (local_id j = i + 1; j < count; ++j)
+        if (triangles_cross(points, triangles[static_cast<std::size_t>(i)],
+                            triangles[static_cast<std::size_t>(j)]))
+          found.push_back({i, j});
+    return found;
   }
 };
 
@@ -154,4 +190,78 @@ TEST_CASE("the octree finds the pairs that testing all pairs finds") {
   REQUIRE(expected.size() > 100);
   CHECK(crossing_triangles(points, triangles, odd_with_odd, serial_run{}) == expected);
   CHECK(crossing_triangles(points, triangles, odd_with_odd, serial_run{}, {.leaf_size = 10}) == expected);
+}
+
+TEST_CASE("in a mesh, quick proofs hide no crossing: flat, rough, and folded over itself") {
+  std::mt19937 engine(5);
+  for (const double displacement : {0.0, 0.1, 0.3, 0.5, 0.7, 1.0})
+    for (int trial = 0; trial < 4; ++trial) {
+      const rough_sheet sheet(16, displacement, engine);
+      const auto expected = sheet.pairs_by_testing_all();
+      if (displacement != 0.5)
+        CHECK(expected.empty() == (displacement < 0.5));
+      CHECK(crossing_triangles(sheet.points, sheet.triangles, {}, serial_run{}) == expected);
+    }
+}
+
+TEST_CASE("a set is called a single sheet only when none of its triangles cross") {
+  std::mt19937 engine(11);
+  int proven = 0, crossing = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const rough_sheet sheet(3, trial % 2 == 0 ? 0.3 : 0.6, engine);
+    std::vector<local_id> set; // with gaps, so that outlines are of all kinds
+    for (local_id t = 0; t < static_cast<local_id>(sheet.triangles.size()); ++t)
+      if (engine() % 8 != 0)
+        set.push_back(t);
+    const auto in_set = [&](local_id t) { return std::binary_search(set.begin(), set.end(), t); };
+    const auto pairs = sheet.pairs_by_testing_all();
+    const bool crosses = std::any_of(pairs.begin(), pairs.end(),
+                                     [&](const auto& p) { return in_set(p.first) && in_set(p.second); });
+    const bool is_sheet = single_sheet(sheet.points, sheet.triangles)(set);
+    REQUIRE_FALSE((crosses && is_sheet));
+    proven += is_sheet;
+    crossing += crosses;
+  }
+  CHECK(proven > 50);
+  CHECK(crossing > 100);
+}
+
+TEST_CASE("a sheet that comes back over itself is no single one, though all of it faces one way") {
+  // A ramp around a corner: one turn and a quarter, in eight triangles per quarter, rising.
+  std::vector<vec3> points;
+  std::vector<simplex<2>> triangles;
+  constexpr int steps = 10;
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = k * std::numbers::pi / 4, height = 1e-3 * k;
+    points.push_back({std::cos(angle), std::sin(angle), height});
+    points.push_back({2 * std::cos(angle), 2 * std::sin(angle), height});
+  }
+  for (local_id k = 0; k < steps; ++k) {
+    triangles.push_back({2 * k, 2 * k + 1, 2 * k + 3});
+    triangles.push_back({2 * k, 2 * k + 3, 2 * k + 2});
+  }
+  const auto first = [](local_id count) {
+    std::vector<local_id> set(static_cast<std::size_t>(count));
+    std::iota(set.begin(), set.end(), local_id{0});
+    return set;
+  };
+  single_sheet is_sheet(points, triangles);
+  CHECK(is_sheet(first(14)));       // three quarters and a half
+  CHECK_FALSE(is_sheet(first(20))); // beyond the start
+}
+
+TEST_CASE("neighbours in a smooth surface are separated by an edge; crossing triangles never are") {
+  std::mt19937 engine(13);
+  const rough_sheet smooth(8, 0.05, engine);
+  int separated = 0, pairs = 0;
+  for (std::size_t i = 0; i < smooth.triangles.size(); ++i)
+    for (std::size_t j = i + 1; j < smooth.triangles.size(); ++j, ++pairs)
+      separated += separated_by_an_edge(smooth.points, smooth.triangles[i], smooth.triangles[j]);
+  CHECK(separated == pairs);
+  const rough_sheet folded(12, 0.8, engine);
+  const auto crossing = folded.pairs_by_testing_all();
+  REQUIRE(crossing.size() > 20);
+  for (const auto& [i, j] : crossing)
+    REQUIRE_FALSE(separated_by_an_edge(folded.points, folded.triangles[static_cast<std::size_t>(i)],
+                                       folded.triangles[static_cast<std::size_t>(j)]));
 }

@@ -66,19 +66,69 @@ TEST_CASE("the shell's mesh is the same for any number of workers") {
           expected);
 }
 
-TEST_CASE("with a size as large as the model, sheets that are near to each other do not cross") {
-  const auto outside = BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape();
-  const auto pipe = BRepAlgoAPI_Cut(outside, BRepPrimAPI_MakeCylinder(0.85, 2.0).Shape()).Shape();
-  const auto result = mesh_shell(pipe, 3.4, 2);
-  const auto whole_mesh = require_valid(result);
-  CHECK(euler_characteristic(whole_mesh) == 0);
+namespace {
+
+std::size_t crossings_of(const generated<2>& result) {
+  const auto mesh = require_valid(result);
   std::vector<vec3> points;
-  for (const auto& [id, p] : whole_mesh.points)
+  for (const auto& [id, p] : mesh.points)
     points.push_back(p);
   std::vector<simplex<2>> triangles;
-  for (const auto& [a, b, c] : whole_mesh.triangles)
+  for (const auto& [a, b, c] : mesh.triangles)
     triangles.push_back({static_cast<local_id>(a), static_cast<local_id>(b), static_cast<local_id>(c)});
-  CHECK(crossing_triangles(points, triangles, {}, parallel::serial{}).empty());
+  return crossing_triangles(points, triangles, {}, parallel::serial{}).size();
+}
+
+TopoDS_Shape pipe(double inner_radius) {
+  const auto outside = BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape();
+  return BRepAlgoAPI_Cut(outside, BRepPrimAPI_MakeCylinder(inner_radius, 2.0).Shape()).Shape();
+}
+
+double found(const generated<2>& result, const char* counter) {
+  return result.summary.children.at(4).get(counter);
+}
+
+} // namespace
+
+TEST_CASE("with a size as large as the model, sheets that are near to each other do not cross") {
+  const auto result = mesh_shell(pipe(0.85), 3.4, 2);
+  CHECK(euler_characteristic(require_valid(result)) == 0);
+  CHECK(crossings_of(result) == 0);
+}
+
+TEST_CASE("finished pieces that cross are made again with a smaller size there") {
+  const auto thin = pipe(0.99);
+  const auto result = mesh_shell(thin, 3.0, 2);
+  CHECK(crossings_of(result) == 0);
+  CHECK(found(result, "crossings") > 0);
+  CHECK(found(result, "refinements") > 0);
+  CHECK(result.summary.children.at(4).name == "intersection");
+  CHECK(io::mesh_hash(mesh_shell(thin, 3.0, 2, parallel::processes{.worker_count = 2}).mesh) ==
+        io::mesh_hash(result.mesh));
+}
+
+TEST_CASE("with the pieces in a spool the same crossings are found and mended") {
+  const scratch_folder folder("shell_spool");
+  generate_options options = in_parts(2);
+  options.store = spool::start(folder / "spool", {{"test", "crossing"}});
+  const auto model = occt_shape_from(pipe(0.99)).model;
+  const auto stored = generate<2>(model, uniform_size(3.0), parameters<>{}.with_options(options));
+  CHECK(crossings_of(stored) == 0);
+  CHECK(io::mesh_hash(stored.mesh) == io::mesh_hash(mesh_shell(pipe(0.99), 3.0, 2).mesh));
+}
+
+TEST_CASE("pieces that still cross when no round is left are an error that names both faces") {
+  const auto model = occt_shape_from(pipe(0.9)).model;
+  generate_options options = in_parts(6);
+  options.refinement_rounds = 0;
+  try {
+    generate<2>(model, uniform_size(3.0), parameters<>{}.with_options(options));
+    FAIL("no error");
+  } catch (const intersection_error& problem) {
+    const std::string text = problem.what();
+    CHECK(text.find("face ") != std::string::npos);
+    CHECK(text.find(" and face ") != std::string::npos);
+  }
 }
 
 TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, with its faces") {

@@ -8,6 +8,7 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <set>
+#include <span>
 
 namespace dovetail {
 
@@ -29,12 +30,13 @@ struct suppression_plan {
 
 namespace detail {
 
-inline surface_crossing describe_crossing(const fine_skeleton& skeleton, std::size_t i, std::size_t j) {
-  surface_crossing crossing{{skeleton.cad_faces[i], skeleton.cad_faces[j]}, {}, 0};
+inline surface_crossing describe_crossing(std::span<const vec3> points, std::span<const simplex<2>> triangles,
+                                          std::span<const local_id> cad_faces, std::size_t i, std::size_t j) {
+  surface_crossing crossing{{cad_faces[i], cad_faces[j]}, {}, 0};
   for (const std::size_t t : {i, j})
     for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 a = skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][k])];
-      const vec3 b = skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][(k + 1) % 3])];
+      const vec3 a = points[static_cast<std::size_t>(triangles[t][k])];
+      const vec3 b = points[static_cast<std::size_t>(triangles[t][(k + 1) % 3])];
       crossing.center += a / 6.0;
       crossing.size += distance(a, b) / 6.0;
     }
@@ -60,7 +62,8 @@ suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vect
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const bool inner_i = skeleton.cad_faces[i] == no_id, inner_j = skeleton.cad_faces[j] == no_id;
     if (!inner_i && !inner_j)
-      plan.surface_crossings.push_back(detail::describe_crossing(skeleton, i, j));
+      plan.surface_crossings.push_back(
+          detail::describe_crossing(skeleton.points, skeleton.triangles, skeleton.cad_faces, i, j));
     else if (inner_i && inner_j)
       merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
     else

@@ -6,6 +6,7 @@
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/mesh/merge_subdomains.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
+#include "dovetail/pipeline/piece_crossings.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 
 #include <utility>
@@ -32,16 +33,19 @@ using generate_result = generated<3>;
 namespace detail {
 
 /// Realizes a decomposition and meshes its subdomains. What no rung of the mesher's ladder can mesh is merged
-/// with a neighbour and all is done again, until nothing fails or nothing can be merged.
+/// with a neighbour and all is done again, until nothing fails or nothing can be merged. So it is, with a
+/// smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when that does not
+/// help.
 template <int D, geometry_model G, class Parameters>
 std::pair<realized<D>, meshed_pieces<D>>
 realize_and_mesh(const G& model, const simplicial_background<D>& mesh, const side_table<D>& sides,
                  std::span<const side_state> side_states, decomposition pieces,
                  std::span<const double> weights, const any_sizing& size, const Parameters& given) {
   std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
+  piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
   for (int attempt = 0;; ++attempt) {
     auto skeleton = realize(model, mesh, sides, side_states, pieces.part_of_element,
-                            static_cast<local_id>(sizes.size()), size, given);
+                            static_cast<local_id>(sizes.size()), crossing_rounds.size(), given);
     auto meshed = mesh_all_pieces(model, mesh, skeleton, weights, attempt, given);
     std::vector<local_id> failed;
     for (const piece_failure& failure : meshed.failures)
@@ -49,8 +53,12 @@ realize_and_mesh(const G& model, const simplicial_background<D>& mesh, const sid
     const auto merges = merges_of_failed(skeleton.fine, failed);
     meshed.summary.set("merged_after_failure",
                        static_cast<double>(pieces.parts) - static_cast<double>(sizes.size()));
-    if (merges.empty())
+    if (merges.empty()) {
+      if (!crossing_rounds.accept(model, skeleton, meshed, given))
+        continue;
+      crossing_rounds.add_to(skeleton.intersection_summary);
       return {std::move(skeleton), std::move(meshed)};
+    }
     pieces.part_of_element = skeleton.subdomain_of_element;
     sizes.assign(skeleton.material_of_subdomain.size(), 1);
     merge_subdomains(pieces.part_of_element, sizes, merges);

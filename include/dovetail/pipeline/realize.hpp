@@ -7,6 +7,7 @@
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/mesh/merge_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/crossing_refinement.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
@@ -40,7 +41,7 @@ struct realized<2> {
   std::vector<local_id> material_of_subdomain; ///< all 0
   any_sizing size;
   report skeleton_summary;
-  report intersection_summary; ///< nothing is tested: lines of one region that cross fail as its piece
+  report intersection_summary; ///< of the finished pieces: lines of one region that cross fail as its piece
 };
 
 using realized_skeleton = realized<3>;
@@ -142,13 +143,8 @@ private:
   }
 
   void refine(const std::vector<surface_crossing>& crossings) {
-    if (++refinements_ > given_.options.refinement_rounds)
-      throw_crossing_faces(model_.topology(), crossings.front().cad_faces[0], crossings.front().cad_faces[1]);
-    for (const surface_crossing& crossing : crossings)
-      balls_.push_back({crossing.center, 2 * crossing.size, 0.5 * crossing.size});
-    result_.size = [plain = size_, near = background::graded_balls(balls_, 0.3)](vec3 p) {
-      return near(p, plain(p));
-    };
+    result_.size = refinement_.refine(crossings, model_.topology());
+    ++refinements_;
     cache_.clear();
   }
 
@@ -197,7 +193,7 @@ private:
   std::span<const side_state> side_states_;
   any_sizing size_;
   const Parameters& given_;
-  std::vector<background::size_ball> balls_;
+  crossing_refinement refinement_{size_, given_.options.refinement_rounds};
   int refinements_ = 0;
   patch_cache cache_;
   std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of

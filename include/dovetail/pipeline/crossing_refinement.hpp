@@ -1,0 +1,36 @@
+/// @file
+/// Smaller sizes where surfaces cross, round by round: what D = 3 does with its skeleton and D = 2 with its
+/// finished pieces.
+#pragma once
+
+#include "dovetail/intersection/suppression.hpp"
+#include "dovetail/pipeline/background.hpp"
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A field that gets smaller around the crossings of each round.
+class crossing_refinement {
+public:
+  crossing_refinement(any_sizing plain, int most_rounds) : plain_(std::move(plain)), left_(most_rounds) {}
+
+  /// The field of the next round: half of the triangles' edges around all crossings so far. Throws
+  /// `intersection_error` naming both CAD faces of the first crossing when no round is left.
+  any_sizing refine(std::span<const surface_crossing> crossings, const geometry_topology& topology) {
+    if (left_-- <= 0)
+      detail::throw_crossing_faces(topology, crossings.front().cad_faces[0], crossings.front().cad_faces[1]);
+    for (const surface_crossing& crossing : crossings)
+      balls_.push_back({crossing.center, 2 * crossing.size, 0.5 * crossing.size});
+    return background::within_bounds(plain_, balls_, 0.3);
+  }
+
+private:
+  any_sizing plain_;
+  int left_;
+  std::vector<background::size_ball> balls_;
+};
+
+} // namespace dovetail
