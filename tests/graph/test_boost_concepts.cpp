@@ -98,6 +98,40 @@ TEST_CASE("rows and edge lists agree") {
   const auto fin_sides = build_sides(fin);
   check_rows_against_edges(side_dual<2>(fin_sides));
   CHECK(num_edges(element_dual<2>(fin_sides)) == 0); // a side with three elements has no EDG edge
+  check_rows_against_edges(element_dual<2>(fin_sides));
+  CHECK(out_degree(local_id{0}, element_dual<2>(fin_sides)) == 0);
+}
+
+TEST_CASE("a view with cut and non-manifold sides leaves out both, in rows and in the list") {
+  simplicial_mesh<2> mesh = dovetail_test::jittered_squares(3);
+  // A fin on the first inner side, and a triangle beyond it, which only the fin reaches.
+  const auto plane_sides = build_sides(mesh);
+  local_id inner = 0;
+  while (!plane_sides.is_interior(inner))
+    ++inner;
+  const auto edge = plane_sides.vertices[static_cast<std::size_t>(inner)];
+  const auto tip = static_cast<local_id>(mesh.points.size());
+  mesh.points.push_back({0.5, 0.5, 1});
+  mesh.points.push_back({0.5, 0.5, 2});
+  mesh.elements.push_back({edge[0], edge[1], tip});
+  mesh.elements.push_back({edge[0], tip, tip + 1});
+  const auto sides = build_sides(mesh);
+  REQUIRE(sides.further_elements.size() == 1);
+
+  std::vector<std::uint8_t> cut(sides.size(), 0);
+  std::size_t interior = 0, kept = 0;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    cut[s] = s % 3 == 0 ? 1 : 0;
+    if (!sides.is_interior(static_cast<local_id>(s)))
+      continue;
+    ++interior;
+    kept += cut[s] == 0 ? 1 : 0;
+  }
+  REQUIRE(kept < interior);
+  check_rows_against_edges(element_dual<2>(sides));
+  check_rows_against_edges(element_dual<2>(sides, cut));
+  CHECK(num_edges(element_dual<2>(sides)) == interior);
+  CHECK(num_edges(element_dual<2>(sides, cut)) == kept);
 }
 
 TEST_CASE("Boost's connected components see the cut sides") {

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -47,8 +48,8 @@ struct graph_access;
 /// - `A::row_edge(g, v, k, e)`: sets e to the edge in slot k; false for an empty slot, which is skipped
 /// - `A::edge_slots(g)`, `A::list_edge(g, k, e)`: the same for the list of all edges
 /// - `A::edge_parallel_category`: of Boost
-/// - `A::row_neighbour(g, v, k)`: optional, where no slot is empty and the neighbour is cheaper to read than
-/// the edge
+/// - `A::row_neighbours(g, v)`: optional, the neighbours of v as a contiguous range of `local_id`, in the
+/// order of the slots, where they lie in an array
 ///
 /// Semantics: an edge out of v has source v; it has the same index in the rows of both its ends and in the
 /// list, where it comes once.
@@ -95,15 +96,10 @@ struct neighbour_slots {
 
   std::size_t size() const { return graph_access<G>::row_slots(*graph, vertex); }
   bool read(std::size_t slot, value_type& v) const {
-    if constexpr (requires { graph_access<G>::row_neighbour(*graph, vertex, slot); }) {
-      v = graph_access<G>::row_neighbour(*graph, vertex, slot);
-      return true;
-    } else {
-      graph_edge e;
-      const bool filled = graph_access<G>::row_edge(*graph, vertex, slot, e);
-      v = e.target;
-      return filled;
-    }
+    graph_edge e;
+    const bool filled = graph_access<G>::row_edge(*graph, vertex, slot, e);
+    v = e.target;
+    return filled;
   }
 };
 
@@ -140,7 +136,13 @@ public:
   using iterator_category = std::forward_iterator_tag;
 
   slot_iterator() = default;
-  slot_iterator(Slots slots, std::size_t slot) : slots_(slots), slot_(slot), size_(slots.size()) { settle(); }
+  /// The range of all filled slots.
+  static std::pair<slot_iterator, slot_iterator> range_of(Slots slots) {
+    const std::size_t size = slots.size();
+    slot_iterator first(slots, 0, size);
+    first.settle();
+    return {first, slot_iterator(slots, size, size)};
+  }
 
   value_type operator*() const { return value_; }
   const value_type* operator->() const { return &value_; }
@@ -157,8 +159,12 @@ public:
   friend bool operator==(const slot_iterator& a, const slot_iterator& b) { return a.slot_ == b.slot_; }
 
 private:
+  slot_iterator(Slots slots, std::size_t slot, std::size_t size) : slots_(slots), slot_(slot), size_(size) {}
+
+  /// Ends at the very `size_` that the past-the-end iterator holds: a compiler that sees both then makes one
+  /// flat loop of this one and the user's.
   void settle() {
-    while (slot_ < size_ && !slots_.read(slot_, value_))
+    while (slot_ != size_ && !slots_.read(slot_, value_))
       ++slot_;
   }
 
@@ -170,8 +176,18 @@ private:
 
 template <class Slots>
 std::pair<slot_iterator<Slots>, slot_iterator<Slots>> slot_range(Slots slots) {
-  return {slot_iterator<Slots>(slots, 0), slot_iterator<Slots>(slots, slots.size())};
+  return slot_iterator<Slots>::range_of(slots);
 }
+
+/// The neighbours of a row lie in an array.
+template <class G>
+inline constexpr bool has_neighbour_array = requires(const G& g, local_id v) {
+  graph_access<G>::row_neighbours(g, v);
+};
+
+template <class G>
+using neighbour_iterator =
+    std::conditional_t<has_neighbour_array<G>, const local_id*, slot_iterator<neighbour_slots<G>>>;
 
 struct view_traversal_tag : boost::incidence_graph_tag,
                             boost::adjacency_graph_tag,
@@ -203,8 +219,14 @@ auto out_edges(local_id vertex, const G& g) {
   return detail::slot_range(detail::row_slots<G>{&g, vertex});
 }
 template <accessible_graph G>
-auto adjacent_vertices(local_id vertex, const G& g) {
-  return detail::slot_range(detail::neighbour_slots<G>{&g, vertex});
+std::pair<detail::neighbour_iterator<G>, detail::neighbour_iterator<G>> adjacent_vertices(local_id vertex,
+                                                                                          const G& g) {
+  if constexpr (detail::has_neighbour_array<G>) {
+    const std::span<const local_id> row = graph_access<G>::row_neighbours(g, vertex);
+    return {row.data(), row.data() + row.size()};
+  } else {
+    return detail::slot_range(detail::neighbour_slots<G>{&g, vertex});
+  }
 }
 template <accessible_graph G>
 auto vertices(const G& g) {
@@ -261,7 +283,7 @@ struct graph_traits<G> {
   using edges_size_type = std::size_t;
   using degree_size_type = std::size_t;
   using out_edge_iterator = dovetail::detail::slot_iterator<dovetail::detail::row_slots<G>>;
-  using adjacency_iterator = dovetail::detail::slot_iterator<dovetail::detail::neighbour_slots<G>>;
+  using adjacency_iterator = dovetail::detail::neighbour_iterator<G>;
   using vertex_iterator = dovetail::detail::slot_iterator<dovetail::detail::vertex_slots>;
   using edge_iterator = dovetail::detail::slot_iterator<dovetail::detail::list_slots<G>>;
   static vertex_descriptor null_vertex() { return dovetail::no_id; }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 namespace dovetail {
 
@@ -25,7 +26,7 @@ struct graph_access<csr_graph> {
     e = {v, other, v < other ? static_cast<std::int64_t>(begin + slot) : index_of(g, other, v)};
     return true;
   }
-  static local_id row_neighbour(const csr_graph& g, local_id v, std::size_t slot) { return g.row(v)[slot]; }
+  static std::span<const local_id> row_neighbours(const csr_graph& g, local_id v) { return g.row(v); }
   static std::size_t edge_slots(const csr_graph& g) { return g.neighbours.size(); }
   static bool list_edge(const csr_graph& g, std::size_t slot, graph_edge& e) {
     const auto row = std::upper_bound(g.offsets.begin(), g.offsets.end(), static_cast<std::int64_t>(slot));

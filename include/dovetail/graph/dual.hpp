@@ -21,28 +21,34 @@ template <int D>
 class element_dual {
 public:
   explicit element_dual(const side_table<D>& sides, std::span<const std::uint8_t> cut = {})
-      : sides_(&sides), cut_(cut) {}
+      : sides_(&sides), cut_(cut), leaves_out_(!cut.empty() || !sides.further_elements.empty()) {}
 
   std::size_t element_count() const { return sides_->of_element.size(); }
   std::size_t side_count() const { return sides_->size(); }
   /// The edge across local side i of an element; false when there is none.
   bool across(local_id element, std::size_t i, graph_edge& e) const {
     const local_id side = sides_->of_element[static_cast<std::size_t>(element)][i];
-    e = {element, sides_->across(side, element), side};
-    return e.target != no_id && !is_cut(side);
+    const auto& pair = sides_->elements[static_cast<std::size_t>(side)]; // {element, no_id} on the boundary
+    e = {element, pair[0] == element ? pair[1] : pair[0], side};
+    return !is_left_out(side) && e.target != no_id;
   }
   /// The edge that is dual to a side; false when there is none.
   bool dual_to(local_id side, graph_edge& e) const {
     const auto& pair = sides_->elements[static_cast<std::size_t>(side)];
     e = {pair[0], pair[1], side};
-    return sides_->is_interior(side) && !is_cut(side);
+    return !is_left_out(side) && e.target != no_id;
   }
 
 private:
+  /// Two elements meet at the side, and yet it is no edge.
+  bool is_left_out(local_id side) const { return leaves_out_ && (is_cut(side) || is_non_manifold(side)); }
   bool is_cut(local_id side) const { return !cut_.empty() && cut_[static_cast<std::size_t>(side)] != 0; }
+  /// Out of line, so that a walk over a manifold mesh is small enough to be inlined into the user's loop.
+  [[gnu::noinline]] bool is_non_manifold(local_id side) const { return sides_->is_non_manifold(side); }
 
   const side_table<D>* sides_;
   std::span<const std::uint8_t> cut_;
+  bool leaves_out_; ///< whether `is_left_out` of any side; known once, since every slot of every walk asks
 };
 
 /// The side-dual graph. The table must outlive the view.
