@@ -25,18 +25,17 @@ namespace {
 /// well, and of the worst elements one for each mesher and improver.
 class picture_album {
 public:
-  void add(const comparison_row& row, const generate_result& result) {
+  template <int D>
+  void add(const comparison_row& row, const generated<D>& result) {
     const combination& by = row.policies;
     const std::string decomposition = by.partitioner + ", " + simplification_of(by) + " simplification";
     if (is_new(pictures_.decompositions, decomposition)) {
-      pictures_.decompositions.push_back(
-          {decomposition, io::encode_png(picture_of_decomposition(result.mesh.skeleton))});
-      pictures_.interfaces.push_back(
-          {decomposition, io::encode_png(picture_of_interfaces(result.mesh.skeleton, result.fine_contract))});
+      pictures_.decompositions.push_back({decomposition, io::encode_png(picture_of_decomposition(result))});
+      pictures_.interfaces.push_back({decomposition, io::encode_png(picture_of_interfaces(result))});
     }
     const std::string meshing = meshing_of(row).name();
     if (is_new(pictures_.worst_elements, meshing))
-      pictures_.worst_elements.push_back({meshing, io::encode_png(picture_of_worst_elements(result.mesh))});
+      pictures_.worst_elements.push_back({meshing, io::encode_png(picture_of_worst_elements(result))});
   }
   const comparison_pictures& pictures() const { return pictures_; }
 
@@ -50,13 +49,14 @@ private:
 };
 
 /// One run of `dovetail compare`.
+template <int D>
 class compare_run {
 public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit compare_run(const compare_options& options)
       : options_(options), combinations_(combinations_of(options)) {
     for (const auto& each : combinations_)
-      policies_.push_back(make_policies(options_of_run(options, each)));
+      policies_.push_back(make_policies_of<D>(options_of_run(options, each)));
     parameters_ = make_generate_options(options_of_run(options, combinations_.front()));
     if (options.elements && !(*options.elements > 0))
       throw command_line_error("--elements: " + std::to_string(*options.elements) +
@@ -81,7 +81,7 @@ public:
 private:
   model_source load() {
     show("geometry");
-    model_source source = load_model(options_.model);
+    model_source source = load_model(options_.model, D);
     if (options_.elements)
       source.size = size_for_elements(source, *options_.elements, policies_.front(), parameters_);
     return source;
@@ -90,16 +90,17 @@ private:
   void run_all(const model_source& source) {
     compared_.model = source.name;
     compared_.workers = policies_.front().executor.workers();
-    compared_.angle_threshold = parameters_.interface_angle_deg;
-    background_store backgrounds;
+    compared_.dimension = D;
+    compared_.angle_threshold = D == 3 ? parameters_.interface_angle_deg : parameters_.surface_angle_deg;
+    background_store<D> backgrounds;
     for (std::size_t k = 0; k < combinations_.size(); ++k) {
       const combination& each = combinations_[k];
       const std::string label = std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " +
                                 name_of(each) + (each.simplified ? "" : ", plain");
       parameters_.on_progress = progress_of(label);
-      compared_.rows.push_back(run_combination(
+      compared_.rows.push_back(run_combination<D>(
           source, each, policies_[k], parameters_, backgrounds,
-          [this](const comparison_row& row, const generate_result& result) { album_.add(row, result); }));
+          [this](const comparison_row& row, const generated<D>& result) { album_.add(row, result); }));
     }
   }
 
@@ -133,7 +134,7 @@ private:
 
   const compare_options& options_;
   std::vector<combination> combinations_;
-  std::vector<chosen_policies> policies_; ///< per combination
+  std::vector<policies_of<D>> policies_; ///< per combination
   generate_options parameters_;
   std::optional<terminal_progress> lines_;
   comparison compared_;
@@ -144,7 +145,7 @@ private:
 
 int run_compare(const compare_options& options) {
   try {
-    return compare_run(options).run();
+    return options.dimension == 3 ? compare_run<3>(options).run() : compare_run<2>(options).run();
   } catch (const cancelled&) {
     complain("stopped; nothing was written");
     return exit_stopped;

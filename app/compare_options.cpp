@@ -1,26 +1,39 @@
 #include "compare_options.hpp"
 
 #include "policies.hpp"
+#include "surface_policies.hpp"
 
 #include <CLI/CLI.hpp>
 
 namespace dovetail::app {
 namespace {
 
-void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& chosen,
-               const std::string& what, const std::vector<std::string>& known) {
-  std::string text = what + ", separated by commas (default: " + known.front() + "). There are: ";
+std::string choice_of(const std::vector<std::string>& known) {
+  std::string text = "(default: " + known.front() + "). There are: ";
   for (const auto& name : known)
     text += (name == known.front() ? "" : ", ") + name;
-  command.add_option(option, chosen, text)->delimiter(',');
+  return text;
+}
+
+void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& chosen,
+               const std::string& what, const std::string& choice) {
+  command.add_option(option, chosen, what + ", separated by commas " + choice)->delimiter(',');
 }
 
 } // namespace
 
 void add_compare_options(CLI::App& command, compare_options& options) {
-  add_names(command, "--partitioners", options.partitioners, "Graph partitioners", partitioner_names());
-  add_names(command, "--meshers", options.meshers, "Volume meshers", mesher_names());
-  add_names(command, "--improvers", options.improvers, "Mesh improvers", improver_names());
+  command
+      .add_option(
+          "--dimension", options.dimension,
+          "Dimension of the elements: 3, or 2 for triangles on the model's surface or in a plane domain")
+      ->check(CLI::IsMember({2, 3}))
+      ->capture_default_str();
+  add_names(command, "--partitioners", options.partitioners, "Graph partitioners",
+            choice_of(partitioner_names()));
+  add_names(command, "--meshers", options.meshers, "Meshers",
+            choice_of(mesher_names()) + "; of --dimension 2 " + choice_of(surface_mesher_names()));
+  add_names(command, "--improvers", options.improvers, "Mesh improvers", choice_of(improver_names()));
   command
       .add_option("--elements", options.elements,
                   "About how many elements: scales the sizes to predict so many")

@@ -18,6 +18,7 @@ namespace dovetail::app {
 /// default policy.
 struct compare_options {
   model_options model;
+  int dimension = 3; ///< of the elements
   std::vector<std::string> partitioners;
   std::vector<std::string> meshers;
   std::vector<std::string> improvers;

@@ -111,9 +111,9 @@ std::string failures_of(const comparison& compared) {
   return items.empty() ? "" : paragraph("Combinations that failed:") + element("ul", items);
 }
 
-std::string meanings() {
+std::string meanings(int dimension) {
   std::string list;
-  for (const auto& columns : {result_columns(), time_columns()})
+  for (const auto& columns : {result_columns(dimension), time_columns()})
     for (const auto& column : columns)
       list += element("dt", escaped(column.heading)) + element("dd", escaped(column.meaning));
   return element("details", element("summary", "What the columns mean") + element("dl", list));
@@ -170,13 +170,14 @@ std::string sentence_on_angles(const std::vector<simplification_pair>& pairs, co
 
 std::string claim_section(const comparison& compared) {
   std::string text = section("The method's claim, as a question");
-  text += paragraph(
-      "Small angles where an interface meets itself, another interface or the surface force bad elements on "
-      "every "
-      "subdomain beside them. The method contracts the background mesh such that a partitioner cannot choose "
-      "faces with such angles. Does it keep angles under " +
-      fixed(compared.angle_threshold, 0) +
-      " degrees away from the interfaces of this model, and at what price?");
+  text += paragraph("Small angles where an interface meets itself, another interface or the " +
+                    std::string(compared.dimension == 3 ? "surface" : "model's curves") +
+                    " force bad elements on every subdomain beside them. The method contracts the background "
+                    "mesh such that a "
+                    "partitioner cannot choose " +
+                    (compared.dimension == 3 ? "faces" : "edges") +
+                    " with such angles. Does it keep angles under " + fixed(compared.angle_threshold, 0) +
+                    " degrees away from the interfaces of this model, and at what price?");
   const auto answers = answer_to_the_claim(compared);
   if (answers.empty())
     return text + paragraph("No decomposition went well both with and without simplification: no answer.");
@@ -185,10 +186,13 @@ std::string claim_section(const comparison& compared) {
     items += element("li", escaped(answer));
   return text + element("ul", items) + interfaces_plot(compared) +
          paragraph(
-             "The plot shows, for each partitioner and mesher, the smallest angle of an interface's "
-             "triangles "
-             "(face) and the smallest angle between an interface and its neighbours (wedge). The dashed line "
-             "is the threshold. Remeshing to the final size curves and refines interfaces, so the finished "
+             std::string("The plot shows, for each partitioner and mesher, the smallest angle ") +
+             (compared.dimension == 3
+                  ? "of an interface's triangles (face) and the smallest angle between an interface and its "
+                    "neighbours (wedge). "
+                  : "between a line and another one or a CAD curve (corner). ") +
+             "The dashed line is the threshold. Remeshing to the final size curves and refines interfaces, "
+             "so the finished "
              "mesh may have smaller angles than the background mesh.");
 }
 
@@ -206,6 +210,8 @@ std::string gallery(const std::string& title, const std::string& words,
 }
 
 std::string plots_section(const comparison& compared) {
+  const element_words words = words_of(compared.dimension);
+  const std::string angle = words.angle;
   return section("Time per stage") + times_plot(compared) +
          paragraph("Wall time of the stages, one after the other. Mesher and improver share their stage in "
                    "proportion to what the workers spent on each.") +
@@ -213,12 +219,13 @@ std::string plots_section(const comparison& compared) {
          paragraph("A point per combination, hollow without simplification; the lower left is best. A point "
                    "says its "
                    "name when the pointer rests on it.") +
-         section("Smallest dihedral angles") + histogram_plot(compared) +
-         paragraph("How many of a million elements have their smallest dihedral angle in each degree, for "
-                   "each mesher "
-                   "and improver. The scale is by powers of ten: the bad (red, under 12 degrees) and the low "
-                   "(orange, "
-                   "under 24) are what matters, and are few.");
+         section("Smallest " + angle + "s") + histogram_plot(compared) +
+         paragraph(
+             "How many of a million elements have their smallest " + angle +
+             " in each degree, for each mesher and improver. The scale is by powers of ten: the bad (red, "
+             "under " +
+             std::to_string(words.bad) + " degrees) and the low (orange, under " + std::to_string(words.low) +
+             ") are what matters, and are few.");
 }
 
 } // namespace
@@ -236,7 +243,8 @@ std::vector<std::string> answer_to_the_claim(const comparison& compared) {
   std::vector<std::string> answers{sentence_on_angles(pairs, "background mesh", &comparison_row::coarse),
                                    sentence_on_angles(pairs, "finished mesh", &comparison_row::fine)};
   if (const range cut = range_of(pairs, percent); !std::isnan(cut.least))
-    answers.push_back("The cut, in faces of the background mesh, changes by " + cut.text(1) + " percent.");
+    answers.push_back("The cut, in " + std::string(compared.dimension == 3 ? "faces" : "edges") +
+                      " of the background mesh, changes by " + cut.text(1) + " percent.");
   answers.push_back(
       "The imbalance, largest subdomain over the average in elements, is " +
       range_of(pairs, [](const auto& pair) { return pair.with.imbalance; }).text(3) + " with and " +
@@ -252,8 +260,8 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
                     "and without simplification of the background mesh; " + std::to_string(compared.workers) +
                     (compared.workers == 1 ? " worker." : " workers."));
   body += claim_section(compared);
-  body += section("Results") + table_of(compared, result_columns()) + failures_of(compared);
-  body += paragraph("A click on a column's head sorts by it.") + meanings();
+  body += section("Results") + table_of(compared, result_columns(compared.dimension)) + failures_of(compared);
+  body += paragraph("A click on a column's head sorts by it.") + meanings(compared.dimension);
   body += section("Seconds") + table_of(compared, time_columns());
   if (std::any_of(compared.rows.begin(), compared.rows.end(),
                   [](const comparison_row& row) { return row.background_reused; }))
@@ -261,22 +269,26 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
         paragraph("The background mesh depends on the mesher alone. It was made once for each; its time is "
                   "repeated in every row and contained in every total.");
   body += plots_section(compared);
-  body += gallery("Decompositions",
-                  "The subdomains of the finished mesh, pulled apart: for each partitioner, with and without "
-                  "simplification, of the first combination that went well.",
-                  pictures.decompositions);
+  const element_words words = words_of(compared.dimension);
   body += gallery(
-      "Interfaces",
-      "The interfaces between subdomains in the finished mesh, and the model's curves. Red: triangles and "
-      "edges with an angle under " +
-          fixed(compared.angle_threshold, 0) + " degrees, drawn in front of everything else.",
-      pictures.interfaces);
-  body += gallery(
-      "Worst elements",
-      "The 200 elements with the smallest dihedral angles, enlarged where they are too small to be seen. "
-      "Red: under 12 degrees; orange: under 24; blue: better. For each mesher and improver, of the first "
-      "combination that went well.",
-      pictures.worst_elements);
+      "Decompositions",
+      "The subdomains of the finished mesh" + std::string(compared.dimension == 3 ? ", pulled apart" : "") +
+          ": for each partitioner, with and without simplification, of the first combination that "
+          "went well.",
+      pictures.decompositions);
+  body += gallery("Interfaces",
+                  "The interfaces between subdomains in the finished mesh, and the model's curves. Red: " +
+                      std::string(compared.dimension == 3 ? "triangles and edges" : "corners") +
+                      " with an angle under " + fixed(compared.angle_threshold, 0) +
+                      " degrees, drawn in front of everything else.",
+                  pictures.interfaces);
+  body +=
+      gallery("Worst elements",
+              "The 200 elements with the smallest " + std::string(words.angle) +
+                  "s, enlarged where they are too small to be seen. Red: under " + std::to_string(words.bad) +
+                  " degrees; orange: under " + std::to_string(words.low) +
+                  "; blue: better. For each mesher and improver, of the first combination that went well.",
+              pictures.worst_elements);
   body += element("script", script);
   const std::string head = "<meta charset=\"utf-8\"/>\n" +
                            std::string("<meta name=\"viewport\" content=\"width=device-width\"/>\n") +

@@ -1,5 +1,7 @@
 #include "compare_pictures.hpp"
 
+#include "compare_rows.hpp"
+
 #include "dovetail/io/raster_render.hpp"
 #include "dovetail/mesh/quality.hpp"
 
@@ -19,8 +21,15 @@ constexpr io::rgb orange{240, 150, 30};
 constexpr io::rgb blue{70, 120, 200};
 constexpr io::rgb outline{120, 125, 135};
 
-io::raster_image rendered(const io::raster_scene& scene) {
-  const io::raster_view view = io::fitted(io::view_from({0.8, -1, 0.65}), scene, width, height);
+/// From where a scene is seen: one that lies in the plane z = const from above.
+vec3 direction_to_viewer(const io::raster_scene& scene) {
+  const box3 box = scene.bounds();
+  const bool flat = box.upper.z - box.lower.z <= 1e-9 * box.diagonal();
+  return flat ? vec3{0, 0, 1} : normalized({0.8, -1, 0.65});
+}
+
+io::raster_image rendered(const io::raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
+  const io::raster_view view = io::fitted(io::view_from(from), scene, width, height);
   return io::render(scene, view, width, height);
 }
 
@@ -79,6 +88,12 @@ void add_outline(io::raster_scene& scene, const fine_skeleton& skeleton) {
          0.8});
 }
 
+void add_outline(io::raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
+  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
+    if (skeleton.curves[e] != no_id)
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), outline, 0.8});
+}
+
 /// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.
 io::raster_line lifted(io::raster_line line, vec3 towards) {
   for (vec3& p : line.ends)
@@ -86,11 +101,12 @@ io::raster_line lifted(io::raster_line line, vec3 towards) {
   return line;
 }
 
+template <int D>
 struct ranked_element {
   double angle;
   local_id piece;
   local_id element;
-  std::array<vec3, 4> corners;
+  std::array<vec3, D + 1> corners;
 
   friend bool operator<(const ranked_element& a, const ranked_element& b) {
     return std::tie(a.angle, a.piece, a.element) < std::tie(b.angle, b.piece, b.element);
@@ -98,15 +114,16 @@ struct ranked_element {
 };
 
 /// The elements with the smallest angles, the worst first.
-std::vector<ranked_element> worst_elements(const distributed_mesh& mesh) {
-  std::vector<ranked_element> worst; // a heap, the best of them on top
+template <int D>
+std::vector<ranked_element<D>> worst_elements(const distributed_simplicial_mesh<D>& mesh) {
+  std::vector<ranked_element<D>> worst; // a heap, the best of them on top
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
     const auto piece = mesh.load(static_cast<local_id>(p));
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(std::span(piece.mesh.points), piece.mesh.elements[e]);
       const auto angles = wedge_angles(at);
-      const ranked_element here{*std::min_element(angles.begin(), angles.end()), static_cast<local_id>(p),
-                                static_cast<local_id>(e), at};
+      const ranked_element<D> here{*std::min_element(angles.begin(), angles.end()), static_cast<local_id>(p),
+                                   static_cast<local_id>(e), at};
       if (worst.size() == worst_elements_shown) {
         if (!(here < worst.front()))
           continue;
@@ -121,26 +138,38 @@ std::vector<ranked_element> worst_elements(const distributed_mesh& mesh) {
   return worst;
 }
 
+/// The triangles that bound an element: its sides, or itself.
+void add_faces(io::raster_scene& scene, const std::array<vec3, 4>& p, io::rgb colour) {
+  for (const auto& side : numbering::sides<3>)
+    scene.triangles.push_back({{p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
+                                p[static_cast<std::size_t>(side[2])]},
+                               colour});
+}
+void add_faces(io::raster_scene& scene, const std::array<vec3, 3>& p, io::rgb colour) {
+  scene.triangles.push_back({p, colour});
+}
+
 /// An element, scaled about its middle if it is smaller than `least` across.
-void add_element(io::raster_scene& scene, const ranked_element& element, double least) {
-  const auto& p = element.corners;
-  const vec3 middle = (p[0] + p[1] + p[2] + p[3]) / 4;
+template <int D>
+void add_element(io::raster_scene& scene, const ranked_element<D>& element, double least) {
+  const element_words words = words_of(D);
+  auto p = element.corners;
+  vec3 middle{};
+  for (const vec3 corner : p)
+    middle += corner / static_cast<double>(D + 1);
   double radius = 0;
   for (const vec3 corner : p)
     radius = std::max(radius, distance(corner, middle));
   const double factor = std::max(1.0, least / std::max(2 * radius, 1e-300));
-  const io::rgb colour = element.angle < 12 ? red : element.angle < 24 ? orange : blue;
-  for (const auto& side : numbering::sides<3>) {
-    io::raster_triangle triangle{{}, colour};
-    for (std::size_t k = 0; k < 3; ++k)
-      triangle.corners[k] = middle + factor * (p[static_cast<std::size_t>(side[k])] - middle);
-    scene.triangles.push_back(triangle);
-  }
+  for (vec3& corner : p)
+    corner = middle + factor * (corner - middle);
+  add_faces(scene, p, element.angle < words.bad ? red : element.angle < words.low ? orange : blue);
 }
 
 } // namespace
 
-io::raster_image picture_of_decomposition(const fine_skeleton& skeleton) {
+io::raster_image picture_of_decomposition(const generated<3>& result) {
+  const fine_skeleton& skeleton = result.mesh.skeleton;
   constexpr double explosion = 0.35;           // of the way from the middle of all to one's own
   constexpr std::size_t few_triangles = 12000; // so many have edges that can be told apart
   box3 box;
@@ -162,7 +191,28 @@ io::raster_image picture_of_decomposition(const fine_skeleton& skeleton) {
   return rendered(scene);
 }
 
-io::raster_image picture_of_interfaces(const fine_skeleton& skeleton, const interface_contract& contract) {
+io::raster_image picture_of_decomposition(const generated<2>& result) {
+  constexpr std::int64_t few_triangles = 12000; // so many have edges that can be told apart
+  std::int64_t triangles = 0;
+  for (const piece_counts& piece : result.mesh.counts)
+    triangles += piece.elements;
+  io::raster_scene scene;
+  for (std::size_t s = 0; s < result.mesh.counts.size(); ++s) {
+    const auto piece = result.mesh.load(static_cast<local_id>(s));
+    for (const simplex<2>& triangle : piece.mesh.elements) {
+      const auto p = corners(std::span(piece.mesh.points), triangle);
+      scene.triangles.push_back({p, colour_of_subdomain(static_cast<local_id>(s))});
+      if (triangles < few_triangles)
+        add_edges(scene, p);
+    }
+  }
+  add_outline(scene, result.mesh.skeleton);
+  return rendered(scene, direction_to_viewer(scene));
+}
+
+io::raster_image picture_of_interfaces(const generated<3>& result) {
+  const fine_skeleton& skeleton = result.mesh.skeleton;
+  const interface_contract& contract = result.fine_contract;
   constexpr std::size_t few_triangles = 12000;
   io::raster_scene scene;
   add_outline(scene, skeleton);
@@ -196,16 +246,42 @@ io::raster_image picture_of_interfaces(const fine_skeleton& skeleton, const inte
   return rendered(scene);
 }
 
-io::raster_image picture_of_worst_elements(const distributed_mesh& mesh) {
+io::raster_image picture_of_interfaces(const generated<2>& result) {
+  constexpr double arm = 0.012; // of the model's diagonal
+  const simplicial_skeleton<2>& skeleton = result.mesh.skeleton;
+  io::raster_scene scene;
+  add_outline(scene, skeleton);
+  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
+    if (skeleton.curves[e] == no_id)
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), blue, 1.5});
+  const vec3 from = direction_to_viewer(scene);
+  const double diagonal = scene.bounds().diagonal();
+  const io::raster_view view = io::view_from(from);
+  for (const contract_violation& violation : result.fine_contract.violations) {
+    // The vertices of lines are those of the background mesh.
+    const vec3 at = result.background.surface.mesh.points[static_cast<std::size_t>(violation.edge[0])];
+    for (const vec3 along : {view.right + view.up, view.right - view.up})
+      scene.lines.push_back(lifted({{at - arm * diagonal * along, at + arm * diagonal * along}, red, 2.5},
+                                   2 * diagonal * from));
+  }
+  return rendered(scene, from);
+}
+
+template <int D>
+io::raster_image picture_of_worst_elements(const generated<D>& result) {
   constexpr double least_across = 0.016; // of the model's diagonal
   io::raster_scene scene;
-  add_outline(scene, mesh.skeleton);
+  add_outline(scene, result.mesh.skeleton);
   box3 box;
-  for (const vec3 p : mesh.skeleton.points)
+  for (const vec3 p : result.mesh.skeleton.points)
     box.include(p);
-  for (const ranked_element& element : worst_elements(mesh))
-    add_element(scene, element, least_across * box.diagonal());
-  return rendered(scene);
+  const vec3 from = D == 3 ? normalized({0.8, -1, 0.65}) : direction_to_viewer(scene);
+  for (const auto& element : worst_elements(result.mesh))
+    add_element<D>(scene, element, least_across * box.diagonal());
+  return rendered(scene, from);
 }
+
+template io::raster_image picture_of_worst_elements(const generated<2>&);
+template io::raster_image picture_of_worst_elements(const generated<3>&);
 
 } // namespace dovetail::app

@@ -174,6 +174,7 @@ std::string times_plot(const comparison& compared) {
 std::string quality_plot(const comparison& compared) {
   const auto rows = successful(compared);
   const auto pairs = distinct_meshings(rows);
+  const int low_angle = words_of(compared.dimension).low;
   constexpr double left = 80;
   constexpr double height = 400;
   svg_drawing svg(width, height);
@@ -186,14 +187,15 @@ std::string quality_plot(const comparison& compared) {
   const double legend = draw_legend(svg, left, 6, names, colours);
   double most = 10;
   for (const auto& row : rows)
-    most = std::max(most, row.quality.per_million_under(24));
+    most = std::max(most, row.quality.per_million_under(low_angle));
   const axis x{0, 1.05 * longest_time(rows), left, width - 30};
   const axis y{0, log_of_count(1.5 * most), height - 50, legend + 36};
   draw_x_axis(svg, x, y.last, y.first, "seconds in total");
-  draw_log_axis(svg, y, left, width - 30, "elements under 24 degrees per million");
+  draw_log_axis(svg, y, left, width - 30,
+                "elements under " + std::to_string(low_angle) + " degrees per million");
   for (const auto& row : rows) {
     const auto pair = std::find(pairs.begin(), pairs.end(), meshing_of(row)) - pairs.begin();
-    const double low = row.quality.per_million_under(24);
+    const double low = row.quality.per_million_under(low_angle);
     svg.disc(x.at(row.seconds.total), y.at(log_of_count(low)), 5.5, colour_of(static_cast<std::size_t>(pair)),
              row.policies.simplified,
              full_name(row) + ": " + fixed(low, 1) + " per million, " + fixed(row.seconds.total, 1) + " s");
@@ -205,7 +207,8 @@ std::string histogram_plot(const comparison& compared) {
   const auto rows = first_of_each_meshing(compared);
   constexpr double left = 80;
   constexpr double height = 400;
-  constexpr int last_bin = 71; // a regular tetrahedron's angles are 70.5 degrees
+  const element_words words = words_of(compared.dimension);
+  const int last_bin = words.best;
   svg_drawing svg(width, height);
   std::vector<std::string> names;
   std::vector<std::string> colours;
@@ -225,9 +228,9 @@ std::string histogram_plot(const comparison& compared) {
   const double legend = draw_legend(svg, left, 6, names, colours);
   const axis x{0, last_bin + 1.0, left, width - 30};
   const axis y{0, log_of_count(1.5 * most), height - 50, legend + 36};
-  svg.rectangle(x.at(0), y.last, x.at(12) - x.at(0), y.first - y.last, "#fbe3e0");
-  svg.rectangle(x.at(12), y.last, x.at(24) - x.at(12), y.first - y.last, "#fdf1dc");
-  draw_x_axis(svg, x, y.last, y.first, "smallest dihedral angle of an element (degrees)");
+  svg.rectangle(x.at(0), y.last, x.at(words.bad) - x.at(0), y.first - y.last, "#fbe3e0");
+  svg.rectangle(x.at(words.bad), y.last, x.at(words.low) - x.at(words.bad), y.first - y.last, "#fdf1dc");
+  draw_x_axis(svg, x, y.last, y.first, "smallest " + std::string(words.angle) + " of an element (degrees)");
   draw_log_axis(svg, y, left, width - 30, "elements per million and degree");
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::vector<std::pair<double, double>> points;
@@ -235,7 +238,7 @@ std::string histogram_plot(const comparison& compared) {
       points.emplace_back(x.at(k + 0.5), y.at(log_of_count(share(rows[r], k))));
     svg.curve(points, colours[r]);
   }
-  return svg.element("Smallest dihedral angles");
+  return svg.element("Smallest " + std::string(words.angle) + "s");
 }
 
 std::string interfaces_plot(const comparison& compared) {
@@ -264,10 +267,12 @@ std::string interfaces_plot(const comparison& compared) {
     svg.line(x.at(compared.angle_threshold), top, x.at(compared.angle_threshold), bottom, "#c33", 1.2, true);
     for (std::size_t p = 0; p < pairs.size(); ++p)
       for (std::size_t k = 0; k < 2; ++k) {
+        if (compared.dimension == 2 && k == 0) // edges have no angles of their own
+          continue;
         const auto& kind = angle_kinds[2 * side + k];
         const double y = top + row_height * static_cast<double>(p) + 14 + 18 * static_cast<double>(k);
         if (side == 0)
-          svg.text(left - 10, y + 4, kind.name, text_anchor::end, quiet);
+          svg.text(left - 10, y + 4, compared.dimension == 3 ? kind.name : "corner", text_anchor::end, quiet);
         const double with = pairs[p].with.*kind.mesh.*kind.angle;
         const double without = pairs[p].without.*kind.mesh.*kind.angle;
         if (std::isnan(with) || std::isnan(without))

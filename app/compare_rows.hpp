@@ -28,7 +28,7 @@ struct combination {
 struct interface_row {
   double min_face_angle = std::numeric_limits<double>::quiet_NaN();
   double min_wedge = std::numeric_limits<double>::quiet_NaN();
-  std::int64_t faces = 0;
+  std::int64_t faces = 0;           ///< or edges, of dimension 2, which have no angles of their own
   std::int64_t under_threshold = 0; ///< faces and wedges
 };
 
@@ -49,9 +49,25 @@ struct comparison_row {
   bool failed() const { return !error.empty(); }
 };
 
+/// What is said of elements of a dimension, and from which angles on they are bad or low, in degrees.
+struct element_words {
+  const char* elements;
+  const char* angle; ///< at which quality is measured
+  int bad;
+  int low;
+  int best; ///< of a regular element, rounded up
+};
+
+inline element_words words_of(int dimension) {
+  if (dimension == 3)
+    return {"tetrahedra", "dihedral angle", 12, 24, 71};
+  return {"triangles", "angle", 15, 30, 60};
+}
+
 /// All rows, and what they have in common.
 struct comparison {
   std::string model;
+  int dimension = 3; ///< of the elements
   int workers = 1;
   double angle_threshold = 30; ///< degrees
   std::vector<comparison_row> rows;

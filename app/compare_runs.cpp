@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "policies.hpp"
 #include "stage_figures.hpp"
+#include "surface_policies.hpp"
 
 #include "dovetail/sizing/compose.hpp"
 
@@ -52,14 +53,16 @@ interface_row row_of(const interface_contract& contract) {
   interface_row row;
   row.faces = static_cast<std::int64_t>(contract.interface_faces);
   row.under_threshold = static_cast<std::int64_t>(contract.violations.size());
-  if (row.faces > 0) {
+  constexpr double nothing_measured = 360;
+  if (row.faces > 0 && contract.face_angle.angle_deg < nothing_measured)
     row.min_face_angle = contract.face_angle.angle_deg;
+  if (row.faces > 0 && contract.min_wedge_deg() < nothing_measured)
     row.min_wedge = contract.min_wedge_deg();
-  }
   return row;
 }
 
-void add_figures(const generate_result& result, comparison_row& row) {
+template <int D>
+void add_figures(const generated<D>& result, comparison_row& row) {
   row.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   row.subdomains = static_cast<int>(result.mesh.counts.size());
   const piece_figures pieces = figures_of_pieces(result.mesh.counts);
@@ -75,8 +78,9 @@ void add_figures(const generate_result& result, comparison_row& row) {
 
 std::vector<combination> combinations_of(const compare_options& options) {
   std::vector<combination> all;
+  const auto known_meshers = options.dimension == 3 ? mesher_names() : surface_mesher_names();
   for (const auto& partitioner : distinct_or_default(options.partitioners, partitioner_names()))
-    for (const auto& mesher : distinct_or_default(options.meshers, mesher_names()))
+    for (const auto& mesher : distinct_or_default(options.meshers, known_meshers))
       for (const auto& improver : distinct_or_default(options.improvers, improver_names()))
         for (const bool simplified : {true, false})
           all.push_back({partitioner, mesher, improver, simplified});
@@ -86,6 +90,7 @@ std::vector<combination> combinations_of(const compare_options& options) {
 mesh_options options_of_run(const compare_options& options, const combination& policies) {
   mesh_options run;
   run.model = options.model;
+  run.dimension = options.dimension;
   run.subdomains = options.subdomains;
   run.coarsening = options.coarsening;
   run.workers = options.workers;
@@ -96,8 +101,10 @@ mesh_options options_of_run(const compare_options& options, const combination& p
   return run;
 }
 
-background_store::entry background_store::get(const model_source& source, const chosen_policies& policies,
-                                              const generate_options& options) {
+template <int D>
+typename background_store<D>::entry background_store<D>::get(const model_source& source,
+                                                             const policies_of<D>& policies,
+                                                             const generate_options& options) {
   const std::string& mesher = policies.mesher.name();
   const bool reused = made_.contains(mesher);
   if (!reused) {
@@ -111,12 +118,14 @@ background_store::entry background_store::get(const model_source& source, const 
   }
   if (const auto* failure = std::get_if<std::exception_ptr>(&made_[mesher]))
     std::rethrow_exception(*failure);
-  return {std::get<background_result<3>>(made_[mesher]), reused};
+  return {std::get<background_result<D>>(made_[mesher]), reused};
 }
 
+template <int D>
 comparison_row run_combination(const model_source& source, const combination& policies,
-                               const chosen_policies& chosen, const generate_options& options,
-                               background_store& backgrounds, const result_observer& observe) {
+                               const policies_of<D>& chosen, const generate_options& options,
+                               background_store<D>& backgrounds,
+                               const std::type_identity_t<result_observer<D>>& observe) {
   comparison_row row;
   row.policies = policies;
   try {
@@ -143,18 +152,34 @@ comparison_row run_combination(const model_source& source, const combination& po
   return row;
 }
 
-any_sizing size_for_elements(const model_source& source, double elements, const chosen_policies& policies,
-                             const generate_options& options) {
+template <class Mesher>
+any_sizing size_for_elements(const model_source& source, double elements,
+                             const policies_with<Mesher>& policies, const generate_options& options) {
+  constexpr int dimension = std::same_as<Mesher, any_mesher> ? 3 : 2;
   if (!(elements > 0) || !std::isfinite(elements))
     throw command_line_error("--elements: " + std::to_string(elements) + " is not a number of elements");
   double factor = 1;
-  // The number goes with the size's inverse cube but for gradation and walls, so a second step is close.
+  // The number goes with a power of the size but for gradation and walls, so a second step is close.
   for (int step = 0; step < 2; ++step) {
     const any_sizing size = keep_bounds(scaled<any_sizing>(source.size, factor));
     factor *=
-        std::cbrt(plan_generation(source.geometry, size, policies, options).predicted_elements / elements);
+        std::pow(plan_generation(source.geometry, size, policies, options).predicted_elements / elements,
+                 1.0 / dimension);
   }
   return keep_bounds(scaled<any_sizing>(source.size, factor));
 }
+
+template class background_store<2>;
+template class background_store<3>;
+template comparison_row run_combination<2>(const model_source&, const combination&, const policies_of<2>&,
+                                           const generate_options&, background_store<2>&,
+                                           const result_observer<2>&);
+template comparison_row run_combination<3>(const model_source&, const combination&, const policies_of<3>&,
+                                           const generate_options&, background_store<3>&,
+                                           const result_observer<3>&);
+template any_sizing size_for_elements(const model_source&, double, const chosen_policies&,
+                                      const generate_options&);
+template any_sizing size_for_elements(const model_source&, double, const chosen_surface_policies&,
+                                      const generate_options&);
 
 } // namespace dovetail::app

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -25,31 +26,36 @@ mesh_options options_of_run(const compare_options& options, const combination& p
 
 /// The background meshes of one model, made when they are first asked for: one for each mesher, since neither
 /// partitioner nor improver nor simplification matters.
+template <int D>
 class background_store {
 public:
   struct entry {
-    const background_result<3>& background;
+    const background_result<D>& background;
     bool reused; ///< it was there already
   };
 
   /// Throws what making it throws, every time it is asked for.
-  entry get(const model_source& source, const chosen_policies& policies, const generate_options& options);
+  entry get(const model_source& source, const policies_of<D>& policies, const generate_options& options);
 
 private:
-  std::map<std::string, std::variant<background_result<3>, std::exception_ptr>> made_;
+  std::map<std::string, std::variant<background_result<D>, std::exception_ptr>> made_;
 };
 
 /// What is given to whoever wants more of a result than its figures; the result ends with the call.
-using result_observer = std::function<void(const comparison_row&, const generate_result&)>;
+template <int D>
+using result_observer = std::function<void(const comparison_row&, const generated<D>&)>;
 
 /// Runs one combination. An error of the pipeline is a row with its text; `cancelled` is passed on.
+template <int D>
 comparison_row run_combination(const model_source& source, const combination& policies,
-                               const chosen_policies& chosen, const generate_options& options,
-                               background_store& backgrounds, const result_observer& observe);
+                               const policies_of<D>& chosen, const generate_options& options,
+                               background_store<D>& backgrounds,
+                               const std::type_identity_t<result_observer<D>>& observe);
 
 /// The sizes of the model, scaled such that about `elements` elements are predicted. Throws
 /// `command_line_error` for a number that is not positive, and what planning throws.
-any_sizing size_for_elements(const model_source& source, double elements, const chosen_policies& policies,
-                             const generate_options& options);
+template <class Mesher>
+any_sizing size_for_elements(const model_source& source, double elements,
+                             const policies_with<Mesher>& policies, const generate_options& options);
 
 } // namespace dovetail::app

@@ -1,5 +1,7 @@
 #include "compare_table.hpp"
 
+#include "dovetail/core/sequence.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,18 +79,34 @@ std::string table_column::text(const comparison_row& row) const {
   return buffer;
 }
 
-std::vector<table_column> result_columns() {
+namespace {
+
+std::vector<table_column> quality_columns(const element_words& words) {
+  using row = const comparison_row&;
+  const std::string angle = words.angle;
+  const auto under = [&](int degrees) {
+    return "Elements with " + std::string(angle == "angle" ? "an " : "a ") + angle + " under " +
+           std::to_string(degrees) + " degrees, per million.";
+  };
+  const std::string key = angle == "angle" ? "angle" : "dihedral";
+  return {
+      {"elements", "elements", "Elements of the mesh: " + std::string(words.elements) + ".", 0,
+       [](row r) { return whole(r.elements); }},
+      {"bad_per_million", "bad/M", under(words.bad), 1,
+       [bad = words.bad](row r) { return r.quality.per_million_under(bad); }},
+      {"low_per_million", "low/M", under(words.low), 1,
+       [low = words.low](row r) { return r.quality.per_million_under(low); }},
+      {"min_" + key + "_deg", "min angle", "The smallest " + angle + " of any element, in degrees.", 2,
+       [](row r) { return r.quality.min_wedge_deg; }},
+      {"mean_min_" + key + "_deg", "mean min", "The mean over elements of their smallest " + angle + ".", 2,
+       [](row r) { return r.quality.mean_min_wedge_deg(); }},
+  };
+}
+
+/// Angles of triangles between subdomains, and at their edges.
+std::vector<table_column> interface_face_columns() {
   using row = const comparison_row&;
   return {
-      {"elements", "elements", "Tetrahedra of the mesh.", 0, [](row r) { return whole(r.elements); }},
-      {"bad_per_million", "bad/M", "Elements with a dihedral angle under 12 degrees, per million.", 1,
-       [](row r) { return r.quality.per_million_under(12); }},
-      {"low_per_million", "low/M", "Elements with a dihedral angle under 24 degrees, per million.", 1,
-       [](row r) { return r.quality.per_million_under(24); }},
-      {"min_dihedral_deg", "min angle", "The smallest dihedral angle of any element, in degrees.", 2,
-       [](row r) { return r.quality.min_wedge_deg; }},
-      {"mean_min_dihedral_deg", "mean min", "The mean over elements of their smallest dihedral angle.", 2,
-       [](row r) { return r.quality.mean_min_wedge_deg(); }},
       {"coarse_min_face_deg", "coarse face",
        "The smallest angle of a triangle of an interface in the background mesh, in degrees.", 1,
        [](row r) { return r.coarse.min_face_angle; }},
@@ -109,12 +127,47 @@ std::vector<table_column> result_columns() {
        [](row r) { return whole(r.coarse.faces); }},
       {"interface_triangles", "interf. tri.", "Triangles of the mesh between two subdomains.", 0,
        [](row r) { return whole(r.fine.faces); }},
-      {"imbalance", "imbalance", "Elements of the largest subdomain over the average.", 3,
-       [](row r) { return r.imbalance; }},
-      {"subdomains", "subdomains", "Subdomains of the mesh.", 0, [](row r) { return r.subdomains; }},
-      {"background_elements", "backgr. el.", "Tetrahedra of the background mesh.", 0,
-       [](row r) { return whole(r.background_elements); }},
   };
+}
+
+/// Angles where the lines between subsurfaces meet each other or a CAD curve.
+std::vector<table_column> interface_line_columns() {
+  using row = const comparison_row&;
+  return {
+      {"coarse_min_corner_deg", "coarse corner",
+       "The smallest angle that a line between subdomains makes with another one or with a CAD curve, in the "
+       "background mesh, in degrees.",
+       1, [](row r) { return r.coarse.min_wedge; }},
+      {"coarse_under_50", "coarse <50",
+       "How many of these angles are under 50 degrees in the background mesh.", 0,
+       [](row r) { return whole(r.coarse.under_threshold); }},
+      {"fine_min_corner_deg", "fine corner",
+       "The smallest angle between the first edges of such lines in the mesh.", 1,
+       [](row r) { return r.fine.min_wedge; }},
+      {"fine_under_50", "fine <50", "How many of these angles are under 50 degrees in the mesh.", 0,
+       [](row r) { return whole(r.fine.under_threshold); }},
+      {"cut", "cut", "Edges of the background mesh between two subdomains.", 0,
+       [](row r) { return whole(r.coarse.faces); }},
+  };
+}
+
+} // namespace
+
+std::vector<table_column> result_columns(int dimension) {
+  using row = const comparison_row&;
+  const element_words words = words_of(dimension);
+  std::vector<table_column> columns = quality_columns(words);
+  append(columns, dimension == 3 ? interface_face_columns() : interface_line_columns());
+  append(columns,
+         std::vector<table_column>{
+             {"imbalance", "imbalance", "Elements of the largest subdomain over the average.", 3,
+              [](row r) { return r.imbalance; }},
+             {"subdomains", "subdomains", "Subdomains of the mesh.", 0, [](row r) { return r.subdomains; }},
+             {"background_elements", "backgr. el.",
+              "Elements of the background mesh: " + std::string(words.elements) + ".", 0,
+              [](row r) { return whole(r.background_elements); }},
+         });
+  return columns;
 }
 
 std::vector<table_column> time_columns() {
@@ -131,7 +184,8 @@ std::vector<table_column> time_columns() {
              &stage_seconds::partition),
       column("skeleton", "skeleton", "Seconds for remeshing the interfaces and the surface.",
              &stage_seconds::skeleton),
-      column("intersection", "intersection", "Seconds for finding and removing crossings of the skeleton.",
+      column("intersection", "intersection",
+             "Seconds for finding crossing triangles, and for what removes them in dimension 3.",
              &stage_seconds::intersection),
       column("meshing", "meshing", "Seconds for meshing the subdomains, all workers together.",
              &stage_seconds::meshing),
@@ -141,8 +195,8 @@ std::vector<table_column> time_columns() {
 }
 
 std::string terminal_text(const comparison& compared) {
-  std::string text = "Results\n" + aligned_table(compared, result_columns()) + "\nSeconds\n" +
-                     aligned_table(compared, time_columns());
+  std::string text = "Results\n" + aligned_table(compared, result_columns(compared.dimension)) +
+                     "\nSeconds\n" + aligned_table(compared, time_columns());
   if (std::any_of(compared.rows.begin(), compared.rows.end(),
                   [](const comparison_row& row) { return row.background_reused; }))
     text += "The background mesh was made once for each mesher; its time is repeated and in every total.\n";
@@ -154,7 +208,7 @@ std::string terminal_text(const comparison& compared) {
 }
 
 std::string csv_text(const comparison& compared) {
-  std::vector<table_column> columns = result_columns();
+  std::vector<table_column> columns = result_columns(compared.dimension);
   const auto times = time_columns();
   columns.insert(columns.end(), times.begin(), times.end());
   text_row head{"partitioner", "mesher", "improver", "simplification", "error", "background_reused"};

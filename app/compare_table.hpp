@@ -23,7 +23,7 @@ struct table_column {
 };
 
 /// Elements, quality, interface angles, cut, imbalance.
-std::vector<table_column> result_columns();
+std::vector<table_column> result_columns(int dimension);
 
 /// Seconds per stage and in total.
 std::vector<table_column> time_columns();

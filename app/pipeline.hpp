@@ -43,12 +43,17 @@ generated<2> generate_mesh(const any_geometry& geometry, const any_sizing& size,
 generate_result generate_mesh(const any_geometry& geometry, const any_sizing& size,
                               const chosen_policies& policies, const generate_options& options);
 
-/// Its two halves: the background mesh, which depends on neither partitioner nor improver nor simplification,
-/// and the rest.
+/// The two halves of both: the background mesh, which depends on neither partitioner nor improver nor
+/// simplification, and the rest.
 background_result<3> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
                                           const chosen_policies& policies, const generate_options& options);
 generate_result generate_mesh_from(const background_result<3>& background, const any_geometry& geometry,
                                    const chosen_policies& policies, const generate_options& options);
+background_result<2> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
+                                          const chosen_surface_policies& policies,
+                                          const generate_options& options);
+generated<2> generate_mesh_from(const background_result<2>& background, const any_geometry& geometry,
+                                const chosen_surface_policies& policies, const generate_options& options);
 
 /// What `generate_mesh` would plan, without making anything but a first surface.
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,

@@ -62,6 +62,37 @@ compare --elements 3000 --subdomains 2 --quiet
 elements=$(column elements | head -n 1)
 ((elements > 1500 && elements < 6000)) || fault "$elements elements"
 
+# Triangles: a plane domain and the cube's surface, the same table with columns that make sense for them.
+cat >"$inputs/square.svg" <<<'<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H10 V10 H0 Z M3 3 V6 H6 V3 Z"/></svg>'
+expect_success compare "$inputs/square.svg" --dimension 2 --workers 1 --size 0.5 --subdomains 4 --out out \
+  --partitioners metis,greedy --meshers native --improvers none,native
+(($(wc -l <"$table") == 9)) || fault "$(wc -l <"$table") lines in the table of triangles"
+[[ -z $(column error | tr -d '\n') ]] || fault "errors: $(column error)"
+for key in elements bad_per_million low_per_million min_angle_deg mean_min_angle_deg coarse_min_corner_deg \
+  coarse_under_50 fine_min_corner_deg fine_under_50 cut imbalance background_elements seconds_total; do
+  (($(column "$key" | grep -cE '^[0-9]+(\.[0-9]+)?$') == 8)) || fault "no figures of triangles in the column $key"
+done
+! head -n 1 "$table" | grep -qE 'dihedral|face' || fault "columns of tetrahedra in the table of triangles"
+[[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subsurfaces"
+awk -F, 'NR > 1 { print $4 }' "$table" | paste -d, - <(column coarse_under_50) >"$sandbox/corners"
+! grep -qE '^with,[1-9]' "$sandbox/corners" || fault "small corners with simplification"
+(($(grep -c 'src="data:image/png;base64,' "$page") == 10)) || fault "not ten pictures of triangles"
+(($(grep -c '</svg>' "$page") == 4)) || fault "not four plots of triangles"
+! grep -q 'dihedral\|tetrahedra' "$page" || fault "words about tetrahedra on the page of triangles"
+if command -v python3 >/dev/null; then
+  python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$page" 2>"$sandbox/stderr" ||
+    fault "the page of triangles is not well-formed"
+fi
+elements=$(column elements | sed -n 3p)
+expect_success mesh "$inputs/square.svg" --dimension 2 --workers 1 --size 0.5 --subdomains 4 --partitioner metis \
+  --format none --report report.json
+grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements triangles"
+compare --dimension 2 --elements 2000 --subdomains 2 --quiet
+elements=$(column elements | head -n 1)
+((elements > 1500 && elements < 3000)) || fault "$elements triangles"
+expect_error "there is no 'tetgen'; there are: native" compare "$inputs/square.svg" --dimension 2 --meshers tetgen
+expect_error "--dimension" compare "$inputs/square.svg" --dimension 4
+
 # Wrong names and numbers are found before anything runs.
 expect_error "there is no 'nonsense'; there are: .*metis" compare "$inputs/cube.off" --partitioners metis,nonsense
 expect_error "there is no 'nonsense'; there are: .*tetgen" compare "$inputs/cube.off" --meshers nonsense

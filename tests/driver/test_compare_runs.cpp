@@ -1,9 +1,11 @@
 #include "compare_runs.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
+#include "surface_policies.hpp"
 
 #include "concepts/archetypes.hpp"
 
+#include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/parallel/serial.hpp"
 
 #include <doctest/doctest.h>
@@ -64,11 +66,33 @@ mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const cho
   return plan;
 }
 
+/// Of dimension 2 there is only a plan.
+mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const chosen_surface_policies&,
+                          const generate_options&) {
+  mesh_plan plan;
+  plan.predicted_elements = 500 / std::pow(size({}), 2);
+  return plan;
+}
+background_result<2> make_background_mesh(const any_geometry&, const any_sizing&,
+                                          const chosen_surface_policies&, const generate_options&) {
+  return {};
+}
+generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&,
+                                const chosen_surface_policies&, const generate_options&) {
+  generated<2> result;
+  result.coarse_contract.interface_faces = 7;
+  result.coarse_contract.surface_wedge.angle_deg = 51;
+  return result;
+}
+
 std::vector<std::string> partitioner_names() {
   return {"first", "second"};
 }
 std::vector<std::string> mesher_names() {
   return {"only"};
+}
+std::vector<std::string> surface_mesher_names() {
+  return {"flat"};
 }
 std::vector<std::string> improver_names() {
   return {"good", "none"};
@@ -96,7 +120,7 @@ model_source model() {
   return {"nowhere", any_geometry(nowhere{}), [](vec3) { return 0.5; }, {}};
 }
 
-chosen_policies policies_of(const combination& names) {
+chosen_policies policies_named(const combination& names) {
   return {any_mesher(names.mesher, archetype::mesher(0)),
           any_partitioner(names.partitioner, archetype::partitioner(0)),
           any_improver(names.improver, [](simplicial_mesh<3>&, const frozen_entities<3>&,
@@ -104,12 +128,12 @@ chosen_policies policies_of(const combination& names) {
           any_executor("serial", parallel::serial{})};
 }
 
-comparison_row run(const combination& names, background_store& backgrounds, int* observed = nullptr) {
-  return run_combination(model(), names, policies_of(names), {}, backgrounds,
-                         [&](const comparison_row&, const generate_result&) {
-                           if (observed != nullptr)
-                             ++*observed;
-                         });
+comparison_row run(const combination& names, background_store<3>& backgrounds, int* observed = nullptr) {
+  return run_combination<3>(model(), names, policies_named(names), {}, backgrounds,
+                            [&](const comparison_row&, const generate_result&) {
+                              if (observed != nullptr)
+                                ++*observed;
+                            });
 }
 
 TEST_CASE("every combination is run once, with and without simplification; no names are the defaults") {
@@ -124,10 +148,12 @@ TEST_CASE("every combination is run once, with and without simplification; no na
   const auto defaults = combinations_of({});
   REQUIRE(defaults.size() == 2);
   CHECK(defaults[0] == combination{"first", "only", "good", true});
+  options.dimension = 2;
+  CHECK(combinations_of(options).front() == combination{"a", "flat", "x", true});
 }
 
 TEST_CASE("a row has the figures of its run") {
-  background_store backgrounds;
+  background_store<3> backgrounds;
   int observed = 0;
   const auto with = run({"first", "only", "good", true}, backgrounds, &observed);
   const auto without = run({"first", "only", "good", false}, backgrounds, &observed);
@@ -146,7 +172,7 @@ TEST_CASE("a row has the figures of its run") {
 }
 
 TEST_CASE("a combination that fails is a row that names the kind of error, and the next one is run") {
-  background_store backgrounds;
+  background_store<3> backgrounds;
   int observed = 0;
   CHECK(run({"failing", "only", "good", true}, backgrounds, &observed).error ==
         "partition_error: part 2 is empty");
@@ -157,12 +183,12 @@ TEST_CASE("a combination that fails is a row that names the kind of error, and t
 }
 
 TEST_CASE("a request to stop is no failure of a combination") {
-  background_store backgrounds;
+  background_store<3> backgrounds;
   CHECK_THROWS_AS(run({"stopped", "only", "good", true}, backgrounds), cancelled);
 }
 
 TEST_CASE("the background mesh is made once for each mesher, also when that fails") {
-  background_store backgrounds;
+  background_store<3> backgrounds;
   backgrounds_made = 0;
   CHECK_FALSE(run({"first", "only", "good", true}, backgrounds).background_reused);
   CHECK(run({"second", "only", "none", false}, backgrounds).background_reused);
@@ -176,10 +202,28 @@ TEST_CASE("the background mesh is made once for each mesher, also when that fail
 }
 
 TEST_CASE("sizes are scaled to the number of elements asked for") {
-  const auto size = size_for_elements(model(), 32'000, policies_of({"first", "only", "good", true}), {});
+  const auto size = size_for_elements(model(), 32'000, policies_named({"first", "only", "good", true}), {});
   CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
-  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_of({"first", "only", "good", true}), {}),
+  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_named({"first", "only", "good", true}), {}),
                   command_line_error);
+}
+
+chosen_surface_policies surface_policies() {
+  const auto solid = policies_named({"first", "only", "good", true});
+  return {any_surface_mesher("flat", mesher::native_surface{}), solid.partitioner, solid.improver,
+          solid.executor};
+}
+
+TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements go with the size's square") {
+  background_store<2> backgrounds;
+  const auto row = run_combination<2>(model(), {"first", "flat", "good", true}, surface_policies(), {},
+                                      backgrounds, [](const comparison_row&, const generated<2>&) {});
+  CHECK_FALSE(row.failed());
+  CHECK(row.coarse.faces == 7);
+  CHECK(row.coarse.min_wedge == 51);
+  CHECK(std::isnan(row.coarse.min_face_angle));
+  const auto size = size_for_elements(model(), 8000, surface_policies(), {});
+  CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000
 }
 
 } // namespace
