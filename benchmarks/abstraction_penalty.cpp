@@ -1,8 +1,8 @@
 /// What it costs to see a mesh as a Boost graph: walks on the element-dual view and on the csr graph by way
 /// of Boost.Graph's interface, next to the same walks written by hand over the arrays. Each is the median of
-/// several runs, taken in turns, each first in every other. No walk is inlined, so that none depends on what
-/// else its caller does. Usage: abstraction_penalty [cells per axis (default 60: 1.3 million tetrahedra)]
-/// [runs (default 31)]
+/// several runs, taken in turns, each first in every other. No walk is inlined, and each begins at a multiple
+/// of 64 bytes, so that none depends on the code around it: that alone changes a short loop by up to 1.7.
+/// Usage: abstraction_penalty [cells per axis (default 60: 1.3 million tetrahedra)] [runs (default 31)]
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/csr_boost.hpp"
@@ -23,7 +23,7 @@ using namespace dovetail;
 
 /// The sum over all elements of all neighbours times an edge property, which no compiler can skip.
 template <class G>
-[[gnu::noinline]] std::int64_t sum_by_interface(const G& graph) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t sum_by_interface(const G& graph) {
   std::int64_t sum = 0;
   for (auto [v, v_end] = vertices(graph); v != v_end; ++v)
     for (auto [e, e_end] = out_edges(*v, graph); e != e_end; ++e)
@@ -38,7 +38,7 @@ local_id across(const side_table<3>& sides, local_id side, local_id element, boo
   return manifold || !sides.is_non_manifold(side) ? other : no_id;
 }
 
-[[gnu::noinline]] std::int64_t sum_by_hand(const side_table<3>& sides) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t sum_by_hand(const side_table<3>& sides) {
   const bool manifold = sides.further_elements.empty();
   std::int64_t sum = 0;
   for (std::size_t e = 0; e < sides.of_element.size(); ++e)
@@ -50,7 +50,7 @@ local_id across(const side_table<3>& sides, local_id side, local_id element, boo
   return sum;
 }
 
-[[gnu::noinline]] std::int64_t list_by_hand(const side_table<3>& sides) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t list_by_hand(const side_table<3>& sides) {
   const bool manifold = sides.further_elements.empty();
   std::int64_t sum = 0;
   for (std::size_t side = 0; side < sides.elements.size(); ++side) {
@@ -62,7 +62,7 @@ local_id across(const side_table<3>& sides, local_id side, local_id element, boo
 }
 
 template <class G>
-[[gnu::noinline]] std::int64_t list_by_interface(const G& graph) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t list_by_interface(const G& graph) {
   std::int64_t sum = 0;
   for (auto [e, end] = edges(graph); e != end; ++e)
     sum += (static_cast<std::int64_t>(source(*e, graph)) + target(*e, graph)) ^
@@ -70,7 +70,7 @@ template <class G>
   return sum;
 }
 
-[[gnu::noinline]] std::int64_t breadth_first_by_hand(const side_table<3>& sides) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t breadth_first_by_hand(const side_table<3>& sides) {
   const bool manifold = sides.further_elements.empty();
   std::vector<bool> seen(sides.of_element.size(), false);
   std::vector<local_id> order{0};
@@ -88,7 +88,7 @@ template <class G>
   return order.back();
 }
 
-[[gnu::noinline]] std::int64_t breadth_first_by_hand(const csr_graph& graph) {
+[[gnu::noinline, gnu::aligned(64)]] std::int64_t breadth_first_by_hand(const csr_graph& graph) {
   std::vector<bool> seen(graph.node_weights.size(), false);
   std::vector<local_id> order{0};
   seen[0] = true;

@@ -16,7 +16,7 @@
 namespace dovetail {
 
 /// The element-dual graph. Sides whose entry in `cut` is not zero are left out; `cut` may be empty. Both
-/// tables must outlive the view.
+/// tables must outlive the view, unchanged.
 template <int D>
 class element_dual {
 public:
@@ -30,21 +30,22 @@ public:
     const local_id side = sides_->of_element[static_cast<std::size_t>(element)][i];
     const auto& pair = sides_->elements[static_cast<std::size_t>(side)]; // {element, no_id} on the boundary
     e = {element, pair[0] == element ? pair[1] : pair[0], side};
-    return !is_left_out(side) && e.target != no_id;
+    return e.target != no_id && !is_left_out(side);
   }
   /// The edge that is dual to a side; false when there is none.
-  bool dual_to(local_id side, graph_edge& e) const {
-    const auto& pair = sides_->elements[static_cast<std::size_t>(side)];
-    e = {pair[0], pair[1], side};
-    return !is_left_out(side) && e.target != no_id;
+  bool dual_to(std::size_t side, graph_edge& e) const {
+    const auto& pair = sides_->elements[side];
+    e = {pair[0], pair[1], static_cast<std::int64_t>(side)};
+    return e.target != no_id && !is_left_out(static_cast<local_id>(side));
   }
 
 private:
   /// Two elements meet at the side, and yet it is no edge.
-  bool is_left_out(local_id side) const { return leaves_out_ && (is_cut(side) || is_non_manifold(side)); }
-  bool is_cut(local_id side) const { return !cut_.empty() && cut_[static_cast<std::size_t>(side)] != 0; }
-  /// Out of line, so that a walk over a manifold mesh is small enough to be inlined into the user's loop.
-  [[gnu::noinline]] bool is_non_manifold(local_id side) const { return sides_->is_non_manifold(side); }
+  bool is_left_out(local_id side) const { return leaves_out_ && is_cut_or_non_manifold(side); }
+  /// Out of line, so that a walk over a plain mesh is small enough to become a part of the user's loop.
+  [[gnu::noinline]] bool is_cut_or_non_manifold(local_id side) const {
+    return (!cut_.empty() && cut_[static_cast<std::size_t>(side)] != 0) || sides_->is_non_manifold(side);
+  }
 
   const side_table<D>* sides_;
   std::span<const std::uint8_t> cut_;
@@ -104,7 +105,7 @@ struct graph_access<element_dual<D>> {
   }
   static std::size_t edge_slots(const element_dual<D>& g) { return g.side_count(); }
   static bool list_edge(const element_dual<D>& g, std::size_t slot, graph_edge& e) {
-    return g.dual_to(static_cast<local_id>(slot), e);
+    return g.dual_to(slot, e);
   }
 };
 
