@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
   std::printf("%zu tetrahedra\n\n| walk | interface ms | by hand ms | ratio |\n|---|---|---|---|\n",
               mesh.elements.size());
   bool same = compare(
-      "all edges of the view", runs, [&] { return sum_by_interface(view); },
+      "all rows of the view", runs, [&] { return sum_by_interface(view); },
       [&] { return sum_by_hand(sides); });
   same &= compare(
       "edge list of the view", runs, [&] { return list_by_interface(view); },
