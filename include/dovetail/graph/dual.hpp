@@ -41,11 +41,12 @@ public:
 
 private:
   /// Two elements meet at the side, and yet it is no edge.
-  bool is_left_out(local_id side) const { return leaves_out_ && is_cut_or_non_manifold(side); }
-  /// Out of line, so that a walk over a plain mesh is small enough to become a part of the user's loop.
-  [[gnu::noinline]] bool is_cut_or_non_manifold(local_id side) const {
-    return (!cut_.empty() && cut_[static_cast<std::size_t>(side)] != 0) || sides_->is_non_manifold(side);
+  bool is_left_out(local_id side) const {
+    return leaves_out_ && ((!cut_.empty() && cut_[static_cast<std::size_t>(side)] != 0) ||
+                           (!sides_->further_elements.empty() && is_non_manifold(side)));
   }
+  /// Out of line, so that a walk over a manifold mesh is small enough to become a part of the user's loop.
+  [[gnu::noinline]] bool is_non_manifold(local_id side) const { return sides_->is_non_manifold(side); }
 
   const side_table<D>* sides_;
   std::span<const std::uint8_t> cut_;
