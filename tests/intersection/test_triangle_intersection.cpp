@@ -250,18 +250,18 @@ TEST_CASE("a sheet that comes back over itself is no single one, though all of i
   CHECK_FALSE(is_sheet(first(20))); // beyond the start
 }
 
-TEST_CASE("neighbours in a smooth surface are separated by an edge; crossing triangles never are") {
+TEST_CASE("neighbours in a smooth surface are separated by a plane; crossing triangles never are") {
   std::mt19937 engine(13);
   const rough_sheet smooth(8, 0.05, engine);
   int separated = 0, pairs = 0;
   for (std::size_t i = 0; i < smooth.triangles.size(); ++i)
     for (std::size_t j = i + 1; j < smooth.triangles.size(); ++j, ++pairs)
-      separated += separated_by_an_edge(smooth.points, smooth.triangles[i], smooth.triangles[j]);
+      separated += separated_by_a_plane(smooth.points, smooth.triangles[i], smooth.triangles[j]);
   CHECK(separated == pairs);
   const rough_sheet folded(12, 0.8, engine);
   const auto crossing = folded.pairs_by_testing_all();
   REQUIRE(crossing.size() > 20);
   for (const auto& [i, j] : crossing)
-    REQUIRE_FALSE(separated_by_an_edge(folded.points, folded.triangles[static_cast<std::size_t>(i)],
+    REQUIRE_FALSE(separated_by_a_plane(folded.points, folded.triangles[static_cast<std::size_t>(i)],
                                        folded.triangles[static_cast<std::size_t>(j)]));
 }

@@ -28,7 +28,7 @@ using triangle_pair = std::pair<local_id, local_id>;
 
 /// Parameters of the octree.
 struct crossing_parameters {
-  std::size_t leaf_size = 24; ///< no further subdivision at or below this many triangles (paper: 100)
+  std::size_t leaf_size = 40; ///< no further subdivision at or below this many triangles (paper: 100)
   int depth_limit = 16;
 };
 
@@ -152,7 +152,7 @@ private:
   bool cross(local_id i, local_id j) const {
     const simplex<2>& s = triangles_[static_cast<std::size_t>(i)];
     const simplex<2>& t = triangles_[static_cast<std::size_t>(j)];
-    return !(excluded_ && excluded_(i, j)) && !separated_by_an_edge(points_, s, t) &&
+    return !(excluded_ && excluded_(i, j)) && !separated_by_a_plane(points_, s, t) &&
            triangles_cross(points_, s, t);
   }
 
