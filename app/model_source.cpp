@@ -56,7 +56,7 @@ std::string ending_of(const std::filesystem::path& file) {
 /// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
 any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
   if (dimension != 2)
-    throw input_error(file.string() + ": a plane domain is meshed with triangles, by dovetail mesh --dimension 2");
+    throw input_error(file.string() + ": a plane domain is meshed with triangles; give --dimension 2");
   const plane_drawing drawing = ending_of(file) == ".svg" ? read_svg(file) : read_polygons(file);
   try {
     return any_geometry(plane_domain(drawing));
