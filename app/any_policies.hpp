@@ -9,6 +9,7 @@
 #include "dovetail/improver/surface_host.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/preferences.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/run_task.hpp"
 #include "dovetail/partition/concepts.hpp"
@@ -45,7 +46,9 @@ public:
   static constexpr double elements_per_inverse_cubed_size = 11.6;
 
   template <boundary_keeping_mesher<3> M>
-  any_mesher(std::string name, M policy) : name_(std::move(name)), actual_traits_(M::traits), call_(policy) {
+  any_mesher(std::string name, M policy)
+      : name_(std::move(name)), actual_traits_(M::traits),
+        elements_per_subdomain_(dovetail::elements_per_subdomain(policy)), call_(policy) {
     const std::vector<M> ladder = ladder_of(policy);
     for (std::size_t rung = 1; rung < ladder.size(); ++rung)
       fallbacks_.push_back(any_mesher(name_, ladder[rung], no_fallbacks{}));
@@ -60,6 +63,7 @@ public:
 
   const std::string& name() const { return name_; }
   const mesher_traits& actual_traits() const { return actual_traits_; }
+  double elements_per_subdomain() const { return elements_per_subdomain_; }
   std::vector<any_mesher> fallbacks() const { return fallbacks_; }
   mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
     return call_(input, size);
@@ -70,10 +74,12 @@ private:
 
   template <boundary_keeping_mesher<3> M>
   any_mesher(std::string name, M policy, no_fallbacks)
-      : name_(std::move(name)), actual_traits_(M::traits), call_(std::move(policy)) {}
+      : name_(std::move(name)), actual_traits_(M::traits),
+        elements_per_subdomain_(dovetail::elements_per_subdomain(policy)), call_(std::move(policy)) {}
 
   std::string name_;
   mesher_traits actual_traits_;
+  double elements_per_subdomain_;
   std::function<mesher_result<3>(const mesher_input<3>&, const any_sizing&)> call_;
   std::vector<any_mesher> fallbacks_;
 };

@@ -27,6 +27,9 @@ struct gmsh_hxt {
   /// What Gmsh is told over the size wanted, for a mean edge of h on uniform fields.
   static constexpr double calibration = 0.68;
 
+  /// Larger pieces than for other meshers, since each costs a process that loads Gmsh anew.
+  static constexpr double elements_per_subdomain() { return 75000; }
+
   /// Gmsh's `Mesh.OptimizeThreshold`, 0 (no optimisation) to 0.55. At Gmsh's own 0.35, pieces with bad
   /// boundary triangles take twenty times as long; an improver that follows needs no more than this.
   double optimise_threshold = 0.1;

@@ -7,6 +7,7 @@
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/mesher/preferences.hpp"
 #include "dovetail/pipeline/parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
@@ -58,8 +59,8 @@ void require_usable_size(const G& model, const H& size) {
                        std::to_string(box.diagonal()) + "; give a smaller size");
 }
 
-inline int default_subdomains(double elements, const generate_options& options) {
-  const double plain = elements / options.elements_per_subdomain;
+inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
+  const double plain = elements / per_subdomain;
   const double excess = std::max(1.0, elements / options.many_elements);
   return std::max(1, static_cast<int>(std::lround(plain / std::sqrt(excess))));
 }
@@ -133,18 +134,20 @@ background::coarse_surface_result surface_without_crossings(const G& model, cons
   }
 }
 
-/// Chooses the decomposition from the predicted size of a mesh. The numbers of background elements in the
-/// options are those of D = 3; a surface has as many per length.
+/// Chooses the decomposition from the predicted size of a mesh, in subdomains of `per_subdomain` elements.
+/// The numbers of background elements in the options are those of D = 3; a surface has as many per length.
 template <int D>
-mesh_plan plan_mesh(const element_prediction& predicted, const generate_options& options) {
+mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
+                    const generate_options& options) {
   const auto of_dimension = [](double elements) {
     return D == 3 ? elements : std::pow(elements, static_cast<double>(D) / 3);
   };
   mesh_plan plan;
   plan.predicted_elements = predicted.elements;
   plan.relative_error = predicted.relative_error;
-  plan.subdomains =
-      options.subdomains > 0 ? options.subdomains : detail::default_subdomains(predicted.elements, options);
+  plan.subdomains = options.subdomains > 0
+                        ? options.subdomains
+                        : detail::default_subdomains(predicted.elements, per_subdomain, options);
   const double coarse_elements =
       std::max(plan.subdomains * of_dimension(options.background_elements_per_subdomain),
                std::min(of_dimension(options.background_elements), predicted.elements / 10));
@@ -167,15 +170,6 @@ element_prediction predict_mesh(const surface_mesh& surface, const geometry_topo
   } else {
     return predict_elements<2>(surface.mesh, size);
   }
-}
-
-/// The elements a mesher makes per integral of h^-3; regular elements when it does not say.
-template <class Mesher>
-constexpr double elements_per_inverse_cubed_size() {
-  if constexpr (requires { Mesher::elements_per_inverse_cubed_size; })
-    return Mesher::elements_per_inverse_cubed_size;
-  else
-    return 0;
 }
 
 namespace detail {
@@ -216,6 +210,8 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
   const mesh_plan plan = plan_mesh<D>(
       predict_mesh<D>(first.surface, model.topology(), detail::allowed_size<D>(size, first),
                       elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>()),
+      options.elements_per_subdomain > 0 ? options.elements_per_subdomain
+                                         : elements_per_subdomain(given.mesh_it),
       options);
   if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
     throw too_many_elements(plan.predicted_elements, options.largest_prediction);

@@ -23,8 +23,8 @@ struct no_mesher {};
 struct generate_options {
   int subdomains = 0; ///< 0: from the predicted number of elements
   /// Predicted elements per subdomain when `subdomains` is 0; beyond `many_elements` subdomains grow larger,
-  /// as the square root of their number.
-  double elements_per_subdomain = 31250;
+  /// as the square root of their number. 0: what the mesher names (`elements_per_subdomain()`), or 31250.
+  double elements_per_subdomain = 0;
   double many_elements = 1e6;
   /// Elements of the background mesh: at least so many per subdomain, and about `background_elements` where
   /// that is no more than a tenth of the final mesh. From there on the simplification hardly refuses
@@ -43,9 +43,9 @@ struct generate_options {
   std::optional<spool> store = std::nullopt; ///< where finished subdomains go; none: they stay in memory
   std::filesystem::path failure_folder =
       {}; ///< where facets of failed subdomains are written; empty: nowhere
-  /// Makes the coarse elements good, so that clean interfaces are found everywhere. A few sweeps towards 32
+  /// Makes the coarse elements good, so that clean interfaces are found everywhere. A few sweeps towards 30
   /// degrees take a small part of the time of `native::hard()` and leave interfaces as clean.
-  improvement::native background_improver{.target_angle = 32, .passes = 6, .hard_passes = 2};
+  improvement::native background_improver{.target_angle = 30, .passes = 3, .hard_passes = 2};
   remesh::patch_remesher surface_remesher = {};
   progress on_progress = {};
 };
