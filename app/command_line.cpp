@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 
 #include "commands.hpp"
+#include "decomposition_options.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
 #include "stop_request.hpp"
@@ -44,17 +45,7 @@ void add_model_options(CLI::App& command, model_options& options) {
 }
 
 void add_run_options(CLI::App& command, mesh_options& options) {
-  command
-      .add_option(
-          "--dimension", options.dimension,
-          "Dimension of the elements: 3, or 2 for triangles on the model's surface or in a plane domain")
-      ->check(CLI::IsMember({2, 3}))
-      ->capture_default_str();
-  command.add_option("--subdomains", options.subdomains,
-                     "Number of subdomains (default: from the predicted number of elements)");
-  command.add_option("--coarsening", options.coarsening,
-                     "Edge length of the background mesh over the target (default: from the prediction)");
-  command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
+  add_decomposition_options(command, options);
   command.add_option("--mesher", options.mesher,
                      "Volume mesher: " + joined(mesher_names()) +
                          "; of --dimension 2: " + joined(surface_mesher_names()));

@@ -1,5 +1,6 @@
 #include "compare_options.hpp"
 
+#include "decomposition_options.hpp"
 #include "policies.hpp"
 #include "surface_policies.hpp"
 
@@ -23,12 +24,7 @@ void add_names(CLI::App& command, const std::string& option, std::vector<std::st
 } // namespace
 
 void add_compare_options(CLI::App& command, compare_options& options) {
-  command
-      .add_option(
-          "--dimension", options.dimension,
-          "Dimension of the elements: 3, or 2 for triangles on the model's surface or in a plane domain")
-      ->check(CLI::IsMember({2, 3}))
-      ->capture_default_str();
+  add_decomposition_options(command, options);
   add_names(command, "--partitioners", options.partitioners, "Graph partitioners",
             choice_of(partitioner_names()));
   add_names(command, "--meshers", options.meshers, "Meshers",
@@ -38,11 +34,6 @@ void add_compare_options(CLI::App& command, compare_options& options) {
       .add_option("--elements", options.elements,
                   "About how many elements: scales the sizes to predict so many")
       ->excludes(command.get_option("--size"));
-  command.add_option("--subdomains", options.subdomains,
-                     "Number of subdomains (default: from the predicted number of elements)");
-  command.add_option("--coarsening", options.coarsening,
-                     "Edge length of the background mesh over the target (default: from the prediction)");
-  command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
   command.add_option("--executor", options.executor, "Where pieces are meshed");
   command.add_option("--out", options.out, "Folder for compare.csv and compare.html")->capture_default_str();
   command.add_flag("--quiet", options.quiet, "No progress and no table on the terminal");
