@@ -6,8 +6,8 @@
 
 namespace dovetail::app {
 
-any_background_mesher cgal_background_mesher() {
-  return {"cgal", mesher::cgal_mesh_3{}};
+any_line_keeping_mesher cgal_background_mesher() {
+  return {mesher::cgal_mesh_3{}, "cgal"};
 }
 
 } // namespace dovetail::app

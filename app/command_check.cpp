@@ -3,8 +3,8 @@
 #include "mesh_files.hpp"
 #include "run_figures.hpp"
 
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/io/read_mesh.hpp"
-#include "dovetail/mesh/crossing_triangles.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
 

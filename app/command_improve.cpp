@@ -77,8 +77,8 @@ void print_change(const quality_terms& name, const quality_statistics& before,
 
 /// Improves `mesh` and says what that changed; `write` saves it before anything is printed.
 template <int D, class Write>
-void improve_and_report(const any_improver& improve, simplicial_mesh<D>& mesh, const improve_options& options,
-                        const Write& write) {
+void improve_and_report(const any_improver<D>& improve, simplicial_mesh<D>& mesh,
+                        const improve_options& options, const Write& write) {
   const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(mesh));
   const quality_statistics before = measure_quality(mesh);
   const frozen_entities<D> frozen = material_interfaces(mesh);
@@ -99,15 +99,17 @@ void improve_and_report(const any_improver& improve, simplicial_mesh<D>& mesh, c
 } // namespace
 
 int run_improve(const improve_options& options) {
-  const any_improver improve = make_improver(options.preset);
+  const auto improve_tetrahedra = make_improver<3>(options.preset);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input);
   if (!is_of_triangles(loaded)) {
-    improve_and_report(improve, loaded.mesh, options, [&] { write_mesh_file(loaded, options.out); });
+    improve_and_report(improve_tetrahedra, loaded.mesh, options,
+                       [&] { write_mesh_file(loaded, options.out); });
     return exit_ok;
   }
   simplicial_mesh<2> surface = take_triangles(std::move(loaded));
-  improve_and_report(improve, surface, options, [&] { write_mesh_file(surface, options.out); });
+  improve_and_report(make_improver<2>(options.preset), surface, options,
+                     [&] { write_mesh_file(surface, options.out); });
   return exit_ok;
 }
 

@@ -5,7 +5,6 @@
 #include "failure.hpp"
 #include "policies.hpp"
 #include "stop_request.hpp"
-#include "surface_policies.hpp"
 
 #include "dovetail/core/version.hpp"
 
@@ -47,8 +46,8 @@ void add_model_options(CLI::App& command, model_options& options) {
 void add_run_options(CLI::App& command, mesh_options& options) {
   add_decomposition_options(command, options);
   command.add_option("--mesher", options.mesher,
-                     "Volume mesher: " + joined(mesher_names()) +
-                         "; of --dimension 2: " + joined(surface_mesher_names()));
+                     "Volume mesher: " + joined(mesher_names<3>()) +
+                         "; of --dimension 2: " + joined(mesher_names<2>()));
   command.add_option("--background-mesher", options.background_mesher,
                      "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
   command.add_option("--partitioner", options.partitioner,

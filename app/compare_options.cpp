@@ -2,7 +2,6 @@
 
 #include "decomposition_options.hpp"
 #include "policies.hpp"
-#include "surface_policies.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -28,7 +27,7 @@ void add_compare_options(CLI::App& command, compare_options& options) {
   add_names(command, "--partitioners", options.partitioners, "Graph partitioners",
             choice_of(partitioner_names()));
   add_names(command, "--meshers", options.meshers, "Meshers",
-            choice_of(mesher_names()) + "; of --dimension 2 " + choice_of(surface_mesher_names()));
+            choice_of(mesher_names<3>()) + "; of --dimension 2 " + choice_of(mesher_names<2>()));
   add_names(command, "--improvers", options.improvers, "Mesh improvers", choice_of(improver_names()));
   command
       .add_option("--elements", options.elements,

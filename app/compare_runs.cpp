@@ -3,7 +3,6 @@
 #include "failure.hpp"
 #include "policies.hpp"
 #include "stage_figures.hpp"
-#include "surface_policies.hpp"
 
 #include "dovetail/sizing/compose.hpp"
 
@@ -78,7 +77,7 @@ void add_figures(const generated<D>& result, comparison_row& row) {
 
 std::vector<combination> combinations_of(const compare_options& options) {
   std::vector<combination> all;
-  const auto known_meshers = options.dimension == 3 ? mesher_names() : surface_mesher_names();
+  const auto known_meshers = options.dimension == 3 ? mesher_names<3>() : mesher_names<2>();
   for (const auto& partitioner : distinct_or_default(options.partitioners, partitioner_names()))
     for (const auto& mesher : distinct_or_default(options.meshers, known_meshers))
       for (const auto& improver : distinct_or_default(options.improvers, improver_names()))
@@ -133,7 +132,8 @@ comparison_row run_combination(const model_source& source, const combination& po
     plain_or_not.simplify = policies.simplified;
     const auto [background, reused] = backgrounds.get(source, chosen, options);
     row.background_reused = reused;
-    const auto result = generate_mesh_from(background, source.geometry, chosen, plain_or_not);
+    const auto result =
+        generate_from_background<D>(source.geometry, background, composed(chosen, plain_or_not));
     if (!result.failures.empty()) {
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +
@@ -152,19 +152,18 @@ comparison_row run_combination(const model_source& source, const combination& po
   return row;
 }
 
-template <class Mesher>
-any_sizing size_for_elements(const model_source& source, double elements,
-                             const policies_with<Mesher>& policies, const generate_options& options) {
-  constexpr int dimension = std::same_as<Mesher, any_mesher> ? 3 : 2;
+template <int D>
+any_sizing size_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
+                             const generate_options& options) {
   if (!(elements > 0) || !std::isfinite(elements))
     throw command_line_error("--elements: " + std::to_string(elements) + " is not a number of elements");
   double factor = 1;
   // The number goes with a power of the size but for gradation and walls, so a second step is close.
   for (int step = 0; step < 2; ++step) {
     const any_sizing size = keep_bounds(scaled<any_sizing>(source.size, factor));
-    factor *=
-        std::pow(plan_generation(source.geometry, size, policies, options).predicted_elements / elements,
-                 1.0 / dimension);
+    factor *= std::pow(
+        plan_background<D>(source.geometry, size, composed(policies, options)).predicted_elements / elements,
+        1.0 / D);
   }
   return keep_bounds(scaled<any_sizing>(source.size, factor));
 }
@@ -177,9 +176,9 @@ template comparison_row run_combination<2>(const model_source&, const combinatio
 template comparison_row run_combination<3>(const model_source&, const combination&, const policies_of<3>&,
                                            const generate_options&, background_store<3>&,
                                            const result_observer<3>&);
-template any_sizing size_for_elements(const model_source&, double, const chosen_policies&,
+template any_sizing size_for_elements(const model_source&, double, const policies_of<3>&,
                                       const generate_options&);
-template any_sizing size_for_elements(const model_source&, double, const chosen_surface_policies&,
+template any_sizing size_for_elements(const model_source&, double, const policies_of<2>&,
                                       const generate_options&);
 
 } // namespace dovetail::app

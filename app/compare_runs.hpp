@@ -54,8 +54,8 @@ comparison_row run_combination(const model_source& source, const combination& po
 
 /// The sizes of the model, scaled such that about `elements` elements are predicted. Throws
 /// `command_line_error` for a number that is not positive, and what planning throws.
-template <class Mesher>
-any_sizing size_for_elements(const model_source& source, double elements,
-                             const policies_with<Mesher>& policies, const generate_options& options);
+template <int D>
+any_sizing size_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
+                             const generate_options& options);
 
 } // namespace dovetail::app

@@ -6,9 +6,9 @@
 
 namespace dovetail::app {
 
-any_improver cgal_improver() {
+named_improver cgal_improver() {
   // CGAL 5.5 flips some pieces without end; others take seconds. A piece beyond the limit stays as it was.
-  return {"cgal", improvement::cgal{.limit_seconds = 30}};
+  return {improvement::cgal{.limit_seconds = 30}, "cgal"};
 }
 
 } // namespace dovetail::app

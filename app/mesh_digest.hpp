@@ -2,7 +2,7 @@
 /// The hash of a distributed mesh, by several workers.
 #pragma once
 
-#include "any_policies.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 
 #include "dovetail/mesh/distributed_mesh.hpp"
 

@@ -2,7 +2,7 @@
 /// The model and sizing field that a command line asks for.
 #pragma once
 
-#include "any_geometry.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "options.hpp"
 
 #include "dovetail/core/report.hpp"

@@ -1,5 +1,6 @@
 #include "policies.hpp"
 
+#include "named_improver.hpp"
 #include "named_policies.hpp"
 
 #include "dovetail/geometry/builtin_models.hpp"
@@ -41,30 +42,30 @@ namespace dovetail::app {
 namespace {
 
 std::vector<any_partitioner> partitioners() {
-  std::vector<any_partitioner> known{{"metis", partition::metis{}},
-                                     {"metis-recursive", partition::metis{.recursive = true}},
-                                     {"greedy", partition::greedy{}},
-                                     {"inertial", partition::inertial{}},
-                                     {"coordinate", partition::recursive_coordinate{}},
-                                     {"hilbert", partition::space_filling_curve{}}};
+  std::vector<any_partitioner> known{{partition::metis{}, "metis"},
+                                     {partition::metis{.recursive = true}, "metis-recursive"},
+                                     {partition::greedy{}, "greedy"},
+                                     {partition::inertial{}, "inertial"},
+                                     {partition::recursive_coordinate{}, "coordinate"},
+                                     {partition::space_filling_curve{}, "hilbert"}};
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
-  known.emplace_back("scotch", partition::scotch{});
+  known.emplace_back(partition::scotch{}, "scotch");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_EIGEN
-  known.emplace_back("spectral", partition::spectral{});
+  known.emplace_back(partition::spectral{}, "spectral");
 #endif
   return known;
 }
 
-std::vector<any_mesher> meshers() {
-  std::vector<any_mesher> known{{"tetgen", mesher::tetgen{}}};
+std::vector<any_mesher<3>> meshers() {
+  std::vector<any_mesher<3>> known{{mesher::tetgen{}, "tetgen"}};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
   // The others fail on some boundaries that TetGen meshes, such as two parts that touch in an edge.
-  known.push_back(any_mesher("hxt", mesher::gmsh_hxt{}).with_fallback(known.front()));
-  known.push_back(any_mesher("gmsh-delaunay", mesher::gmsh_delaunay{}).with_fallback(known.front()));
+  known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(known.front()));
+  known.push_back(any_mesher<3>(mesher::gmsh_delaunay{}, "gmsh-delaunay").with_fallback(known.front()));
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
-  known.push_back(any_mesher("netgen", mesher::netgen{}).with_fallback(known.front()));
+  known.push_back(any_mesher<3>(mesher::netgen{}, "netgen").with_fallback(known.front()));
 #endif
   return known;
 }
@@ -75,17 +76,17 @@ improvement::native uncounted(improvement::native preset) {
   return preset;
 }
 
-std::vector<any_improver> improvers() {
-  std::vector<any_improver> known{{"native", uncounted(improvement::native{})},
-                                  {"fast", uncounted(improvement::native::fast())},
-                                  {"fine", uncounted(improvement::native::fine())},
-                                  {"finest", uncounted(improvement::native::finest())},
-                                  {"none", improvement::none{}}};
+std::vector<named_improver> improvers() {
+  std::vector<named_improver> known{{uncounted(improvement::native{}), "native"},
+                                    {uncounted(improvement::native::fast()), "fast"},
+                                    {uncounted(improvement::native::fine()), "fine"},
+                                    {uncounted(improvement::native::finest()), "finest"},
+                                    {improvement::none{}, "none"}};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  known.emplace_back("gmsh", improvement::gmsh{});
+  known.emplace_back(improvement::gmsh{}, "gmsh");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
-  known.emplace_back("netgen", improvement::netgen{});
+  known.emplace_back(improvement::netgen{}, "netgen");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
   known.push_back(cgal_improver());
@@ -93,8 +94,8 @@ std::vector<any_improver> improvers() {
   return known;
 }
 
-std::vector<any_background_mesher> background_meshers() {
-  std::vector<any_background_mesher> known(1);
+std::vector<any_line_keeping_mesher> background_meshers() {
+  std::vector<any_line_keeping_mesher> known{any_line_keeping_mesher::none("native")};
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
   known.push_back(cgal_background_mesher());
 #endif
@@ -106,7 +107,8 @@ std::vector<any_background_mesher> background_meshers() {
 std::vector<std::string> partitioner_names() {
   return names_of(partitioners());
 }
-std::vector<std::string> mesher_names() {
+template <>
+std::vector<std::string> mesher_names<3>() {
   return names_of(meshers());
 }
 std::vector<std::string> improver_names() {
@@ -128,13 +130,23 @@ std::vector<std::string> builtin_model_names() {
 any_partitioner make_partitioner(const std::string& name) {
   return chosen(partitioners(), name, "--partitioner");
 }
-any_mesher make_mesher(const std::string& name) {
+template <>
+any_mesher<3> make_mesher<3>(const std::string& name) {
   return chosen(meshers(), name, "--mesher");
 }
-any_improver make_improver(const std::string& name) {
-  return chosen(improvers(), name, "--improver");
+template <>
+any_improver<3> make_improver<3>(const std::string& name) {
+  return chosen(improvers(), name, "--improver").of_tetrahedra();
 }
-any_background_mesher make_background_mesher(const std::string& name) {
+template <>
+any_improver<2> make_improver<2>(const std::string& name) {
+  const named_improver improver = chosen(improvers(), name, "--improver");
+  if (!improver.of_triangles())
+    throw command_line_error("--improver: " + improver.name() +
+                             " does not take meshes of triangles; use fine");
+  return improver.of_triangles();
+}
+any_line_keeping_mesher make_background_mesher(const std::string& name) {
   return chosen(background_meshers(), name, "--background-mesher");
 }
 
@@ -148,12 +160,12 @@ any_executor make_executor(const std::string& name, int workers, const std::stri
     if (!traits.thread_safe)
       throw command_line_error("--executor: the mesher " + mesher +
                                " cannot run in several threads of one process; use processes");
-    return {"threads", parallel::threads{.worker_count = workers}};
+    return {parallel::threads{.worker_count = workers}, "threads"};
   }
   if (name == "serial")
-    return {"serial", parallel::serial{}};
+    return {parallel::serial{}, "serial"};
   if (name.empty() || name == "processes")
-    return {"processes", parallel::processes{.worker_count = workers}};
+    return {parallel::processes{.worker_count = workers}, "processes"};
   throw command_line_error("--executor: there is no '" + name + "'; there are: processes, threads, serial");
 }
 

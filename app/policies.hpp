@@ -2,8 +2,11 @@
 /// The policies that the driver knows by name. The first name of each list is the default.
 #pragma once
 
-#include "any_background_mesher.hpp"
-#include "any_policies.hpp"
+#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/mesher/any_line_keeping_mesher.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
 
 #include <string>
 #include <vector>
@@ -11,6 +14,8 @@
 namespace dovetail::app {
 
 std::vector<std::string> partitioner_names();
+/// Of meshers of elements of dimension D.
+template <int D>
 std::vector<std::string> mesher_names();
 std::vector<std::string> improver_names();
 std::vector<std::string> background_mesher_names();
@@ -20,9 +25,13 @@ std::vector<std::string> builtin_model_names();
 /// Each throws `command_line_error` listing the names when there is none such. An empty name means the
 /// default.
 any_partitioner make_partitioner(const std::string& name);
-any_mesher make_mesher(const std::string& name);
-any_improver make_improver(const std::string& name);
-any_background_mesher make_background_mesher(const std::string& name);
+/// These two are named alike in both dimensions; also thrown for an improver that does not take elements of
+/// D.
+template <int D>
+any_mesher<D> make_mesher(const std::string& name);
+template <int D>
+any_improver<D> make_improver(const std::string& name);
+any_line_keeping_mesher make_background_mesher(const std::string& name);
 
 /// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of
 /// these traits cannot run in this executor.

@@ -1,7 +1,6 @@
 #include "run_identity.hpp"
 
 #include "policies.hpp"
-#include "surface_policies.hpp"
 
 #include "dovetail/core/hash.hpp"
 
@@ -58,11 +57,11 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");
   identity.emplace_back("dimension", std::to_string(options.dimension));
-  identity.emplace_back("mesher", options.dimension == 3 ? make_mesher(options.mesher).name()
-                                                         : make_surface_mesher(options.mesher).name());
+  identity.emplace_back("mesher", options.dimension == 3 ? make_mesher<3>(options.mesher).name()
+                                                         : make_mesher<2>(options.mesher).name());
   identity.emplace_back("background mesher", make_background_mesher(options.background_mesher).name());
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
-  identity.emplace_back("improver", make_improver(options.improver).name());
+  identity.emplace_back("improver", make_improver<3>(options.improver).name());
   return identity;
 }
 

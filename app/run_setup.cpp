@@ -2,31 +2,27 @@
 
 #include "failure.hpp"
 #include "policies.hpp"
-#include "surface_policies.hpp"
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace dovetail::app {
 
-chosen_policies make_policies(const mesh_options& options) {
-  any_mesher mesher = make_mesher(options.mesher);
-  any_executor executor =
-      make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
-  return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
-          std::move(executor), make_background_mesher(options.background_mesher)};
-}
-
-chosen_surface_policies make_surface_policies(const mesh_options& options) {
-  if (make_background_mesher(options.background_mesher).meshes_whole_domains())
+template <int D>
+policies_of<D> make_policies_of(const mesh_options& options) {
+  auto background_mesher = make_background_mesher(options.background_mesher);
+  if (D == 2 && background_mesher)
     throw command_line_error(
         "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
-  any_surface_mesher mesher = make_surface_mesher(options.mesher);
-  any_executor executor =
-      make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
-  return {std::move(mesher), make_partitioner(options.partitioner), make_improver(options.improver),
-          std::move(executor)};
+  auto mesher = make_mesher<D>(options.mesher);
+  auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
+  return {std::move(mesher), make_partitioner(options.partitioner), make_improver<D>(options.improver),
+          std::move(executor), std::move(background_mesher)};
 }
+
+template policies_of<2> make_policies_of<2>(const mesh_options&);
+template policies_of<3> make_policies_of<3>(const mesh_options&);
 
 generate_options make_generate_options(const mesh_options& options) {
   generate_options result;

@@ -1,6 +1,5 @@
-#include "surface_policies.hpp"
-
 #include "named_policies.hpp"
+#include "policies.hpp"
 
 #include "dovetail/mesher/native_surface.hpp"
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
@@ -13,25 +12,27 @@
 namespace dovetail::app {
 namespace {
 
-std::vector<any_surface_mesher> surface_meshers() {
-  std::vector<any_surface_mesher> known;
-  known.emplace_back("native", mesher::native_surface{});
+std::vector<any_mesher<2>> surface_meshers() {
+  std::vector<any_mesher<2>> known;
+  known.emplace_back(mesher::native_surface{}, "native");
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-  known.emplace_back("cgal", mesher::cgal_surface{});
+  known.emplace_back(mesher::cgal_surface{}, "cgal");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  known.emplace_back("gmsh", mesher::gmsh_surface{});
+  known.emplace_back(mesher::gmsh_surface{}, "gmsh");
 #endif
   return known;
 }
 
 } // namespace
 
-std::vector<std::string> surface_mesher_names() {
+template <>
+std::vector<std::string> mesher_names<2>() {
   return names_of(surface_meshers());
 }
 
-any_surface_mesher make_surface_mesher(const std::string& name) {
+template <>
+any_mesher<2> make_mesher<2>(const std::string& name) {
   return chosen(surface_meshers(), name, "--mesher with --dimension 2");
 }
 

@@ -28,7 +28,7 @@
 
 // The subdomains, meshed and improved in parallel.
 #include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"

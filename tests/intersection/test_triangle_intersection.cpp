@@ -1,4 +1,4 @@
-#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/mesher/checks.hpp"
-#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"

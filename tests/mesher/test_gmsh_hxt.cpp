@@ -1,6 +1,6 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/gmsh_hxt.hpp"
-#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "mesher/mesher_contract.hpp"
 

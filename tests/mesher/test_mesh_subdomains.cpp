@@ -1,4 +1,4 @@
-#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"

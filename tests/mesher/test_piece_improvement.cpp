@@ -1,5 +1,5 @@
 #include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/piece_improvement.hpp"
+#include "dovetail/meshing/piece_improvement.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "dovetail/parallel/piece_codec.hpp"
+#include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/spool.hpp"
 
 #include <doctest/doctest.h>

@@ -5,7 +5,7 @@
 #include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "io/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "dovetail/skeleton/extract.hpp"
+#include "dovetail/decomposition/extract_skeleton.hpp"
 
 #include <doctest/doctest.h>
 

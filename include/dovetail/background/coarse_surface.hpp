@@ -38,11 +38,10 @@ struct coarse_surface_result {
 namespace detail {
 
 /// State of the rounds of `coarse_surface`.
-template <geometry_model G, executor E>
 class coarse_surface_maker {
 public:
-  coarse_surface_maker(const G& model, const any_sizing& sizing, const coarse_surface_parameters& parameters,
-                       const E& run_tasks)
+  coarse_surface_maker(const any_geometry& model, const any_sizing& sizing,
+                       const coarse_surface_parameters& parameters, const any_executor& run_tasks)
       : model_(model), parameters_(parameters), run_tasks_(run_tasks), topology_(model.topology()),
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
@@ -76,7 +75,7 @@ public:
 private:
   static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
 
-  static std::vector<size_ball> all_balls(const G& model, const any_sizing& sizing,
+  static std::vector<size_ball> all_balls(const any_geometry& model, const any_sizing& sizing,
                                           const coarse_surface_parameters& parameters) {
     std::vector<size_ball> balls =
         curvature_balls(model, sizing, {parameters.turn, parameters.smallest_fraction});
@@ -319,9 +318,9 @@ private:
     result.summary.set("size_balls", static_cast<double>(balls_.size()));
   }
 
-  const G& model_;
+  const any_geometry& model_;
   const coarse_surface_parameters& parameters_;
-  const E& run_tasks_;
+  const any_executor& run_tasks_;
   const geometry_topology& topology_;
   any_sizing given_; ///< the caller's field, never above a quarter of the model's diagonal
   std::vector<size_ball> bounds_;
@@ -338,10 +337,10 @@ private:
 /// Meshes the surface of `model` with edges of about min(`sizing`, curvature bound, diagonal / 4). Triangles
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed.
-template <geometry_model G, executor E>
-coarse_surface_result coarse_surface(const G& model, const any_sizing& sizing,
-                                     const coarse_surface_parameters& parameters, const E& run_tasks) {
-  return detail::coarse_surface_maker<G, E>(model, sizing, parameters, run_tasks).run();
+inline coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
+                                            const coarse_surface_parameters& parameters,
+                                            const any_executor& run_tasks) {
+  return detail::coarse_surface_maker(model, sizing, parameters, run_tasks).run();
 }
 
 } // namespace dovetail::background

@@ -10,7 +10,7 @@
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesher/element_labels.hpp"
-#include "dovetail/mesher/mesh_subdomains.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 
 #include <array>
 #include <cstddef>
@@ -22,8 +22,9 @@
 namespace dovetail::background {
 
 struct coarse_volume_options {
-  std::filesystem::path failure_folder = {}; ///< where offending facets are written; empty: nowhere
-  double limit_seconds = 600;                ///< wall clock of one attempt; the last resort
+  /// As `meshing_options::on_failure`, for the solids that cannot be filled.
+  std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
+  double limit_seconds = 600; ///< wall clock of one attempt; the last resort
   progress on_progress = {};
 };
 
@@ -167,10 +168,10 @@ inline void append_piece(simplicial_mesh<3>& mesh, const mesh_piece& piece) {
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.
-template <boundary_keeping_mesher<3> M, improver<3> I, executor E>
-coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
-                                   const any_sizing& size, const M& mesh_it, const I& improve,
-                                   const E& run_tasks, const coarse_volume_options& options = {}) {
+inline coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
+                                          const any_sizing& size, const any_mesher<3>& mesh_it,
+                                          const any_improver<3>& improve, const any_executor& run_tasks,
+                                          const coarse_volume_options& options = {}) {
   if (topology.solids.empty())
     throw geometry_error("the model has no solid to mesh");
   const stopwatch clock;
@@ -193,7 +194,7 @@ coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_t
     const subdomain_source separately = [&](local_id solid) {
       return detail::piece_of_boundary(surface, boundary, solid);
     };
-    attempt.failure_folder = options.failure_folder;
+    attempt.on_failure = options.on_failure;
     made = mesh_subdomains(topology.solids.size(), separately, mesh_it, improve, size, run_tasks, attempt);
     if (!made.failures.empty())
       detail::throw_failed(made.failures, topology);

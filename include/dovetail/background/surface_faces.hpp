@@ -23,9 +23,9 @@ struct face_patch {
 namespace detail {
 
 /// Appends the points of one coedge but its last, which starts the next coedge.
-template <geometry_model G>
-void append_coedge(const G& model, local_id f, int k, const geometry_topology::coedge& coedge,
-                   const curve_points& curves, face_patch& made) {
+inline void append_coedge(const any_geometry& model, local_id f, int k,
+                          const geometry_topology::coedge& coedge, const curve_points& curves,
+                          face_patch& made) {
   const geometry_topology& topology = model.topology();
   const auto& t = curves.t[static_cast<std::size_t>(coedge.curve)];
   const std::size_t count = t.size() - 1;
@@ -42,16 +42,14 @@ void append_coedge(const G& model, local_id f, int k, const geometry_topology::c
 }
 
 /// True for a pole that is (nearly) a point in the parameter plane too: it adds nothing to the loop.
-template <geometry_model G>
-bool is_point_in_plane(const G& model, local_id f, int k, const geometry_topology::curve& curve,
-                       vec2 extent) {
+inline bool is_point_in_plane(const any_geometry& model, local_id f, int k,
+                              const geometry_topology::curve& curve, vec2 extent) {
   const vec2 d = model.curve_uv(f, k, curve.t[1]) - model.curve_uv(f, k, curve.t[0]);
   return curve.degenerate && std::abs(d.x) <= 1e-6 * extent.x && std::abs(d.y) <= 1e-6 * extent.y;
 }
 
 /// Width and height of a face in its parameter plane, from a few points of its curves.
-template <geometry_model G>
-vec2 parameter_extent(const G& model, local_id f) {
+inline vec2 parameter_extent(const any_geometry& model, local_id f) {
   const geometry_topology& topology = model.topology();
   vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
   int k = 0;
@@ -70,8 +68,7 @@ vec2 parameter_extent(const G& model, local_id f) {
 } // namespace detail
 
 /// Assembles the loops of a face from its curves' points.
-template <geometry_model G>
-face_patch make_face_patch(const G& model, local_id f, const curve_points& curves) {
+inline face_patch make_face_patch(const any_geometry& model, local_id f, const curve_points& curves) {
   const geometry_topology& topology = model.topology();
   const vec2 extent = detail::parameter_extent(model, f);
   face_patch made;
@@ -107,19 +104,20 @@ struct face_request {
 
 /// Meshes the requested faces through an executor, in batches so that a model that is not thread-safe is
 /// copied once per batch. Results do not depend on the batches.
-template <geometry_model G, executor E>
-std::vector<face_result> remesh_faces(const G& model, std::span<const face_request> requests,
-                                      const curve_points& curves, const any_sizing& sizing,
-                                      const remesh::patch_remesher& remesher, const E& run_tasks) {
+inline std::vector<face_result> remesh_faces(const any_geometry& model,
+                                             std::span<const face_request> requests,
+                                             const curve_points& curves, const any_sizing& sizing,
+                                             const remesh::patch_remesher& remesher,
+                                             const any_executor& run_tasks) {
   const auto workers = static_cast<std::size_t>(std::max(1, static_cast<int>(run_tasks.workers())));
   const std::size_t batches = std::min<std::size_t>(requests.size(), workers > 1 ? 8 * workers : 1);
-  const auto mesh_one = [&](const G& own, const face_request& request) {
+  const auto mesh_one = [&](const any_geometry& own, const face_request& request) {
     face_result result;
     try {
       face_patch patch = make_face_patch(own, request.face, curves);
       patch.boundary.forbidden_edges = request.forbidden_edges;
       const any_sizing inner = [&sizing, factor = request.size_factor](vec3 p) { return factor * sizing(p); };
-      result.mesh = remesher(remesh::model_surface<G>{&own, request.face}, patch.boundary, inner);
+      result.mesh = remesher(remesh::model_surface<any_geometry>{&own, request.face}, patch.boundary, inner);
     } catch (const std::exception& failure) {
       result.failure = failure.what();
     }
@@ -129,7 +127,7 @@ std::vector<face_result> remesh_faces(const G& model, std::span<const face_reque
   const auto outcomes = run_tasks.run(
       batches,
       [&](std::size_t batch) {
-        const task_model<G> own(model, run_tasks);
+        const task_model own(model, run_tasks);
         byte_writer out;
         for (std::size_t i = batch; i < requests.size(); i += batches) {
           const face_result result = mesh_one(own.get(), requests[i]);

@@ -111,10 +111,9 @@ private:
 };
 
 /// One use of `background_of_whole_domain`.
-template <geometry_model G>
 class boundary_hosts {
 public:
-  boundary_hosts(const G& model, const surface_mesh& reference, const simplicial_mesh<3>& volume)
+  boundary_hosts(const any_geometry& model, const surface_mesh& reference, const simplicial_mesh<3>& volume)
       : model_(model), topology_(model.topology()), reference_(reference), volume_(volume),
         locate_(reference), reach_(1e-7 * model.bounds().diagonal()), hull_(hull_of(volume)) {}
 
@@ -343,7 +342,7 @@ private:
     out.tags.assign(out.elements.size(), 0);
   }
 
-  const G& model_;
+  const any_geometry& model_;
   const geometry_topology& topology_;
   const surface_mesh& reference_;
   const simplicial_mesh<3>& volume_;
@@ -364,12 +363,11 @@ private:
 /// `lines_on_curves(reference)`. Boundary points move to the CAD surface. About n log n in the triangles.
 /// Throws `mesher_error` when a curve was not kept as a line or an element gets inverted, and what the
 /// geometry throws.
-template <geometry_model G>
-background_mesh background_of_whole_domain(const G& model, const surface_mesh& reference,
-                                           const simplicial_mesh<3>& volume) {
+inline background_mesh background_of_whole_domain(const any_geometry& model, const surface_mesh& reference,
+                                                  const simplicial_mesh<3>& volume) {
   if (model.topology().solids.size() != 1)
     throw mesher_error("a background mesher that keeps no boundary serves models of one solid");
-  return detail::boundary_hosts<G>(model, reference, volume).run();
+  return detail::boundary_hosts(model, reference, volume).run();
 }
 
 } // namespace dovetail::background

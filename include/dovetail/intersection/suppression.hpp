@@ -4,7 +4,7 @@
 /// size there.
 #pragma once
 
-#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <set>
@@ -48,9 +48,9 @@ inline surface_crossing describe_crossing(std::span<const vec3> points, std::spa
 /// Finds the crossings of a fine skeleton. Two triangles of planar interface faces are not tested: those
 /// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing
 /// interface faces the one with the smaller pair of subdomains goes.
-template <executor Executor>
-suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
-                                  const Executor& run, const crossing_parameters& parameters = {}) {
+inline suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
+                                         const any_executor& run,
+                                         const crossing_parameters& parameters = {}) {
   const auto both_planar = [&](local_id i, local_id j) {
     return planar[static_cast<std::size_t>(i)] && planar[static_cast<std::size_t>(j)];
   };

@@ -13,13 +13,15 @@ constexpr double elements_per_inverse_cubed_size() {
     return 0;
 }
 
+inline constexpr double default_elements_per_subdomain = 31250;
+
 /// The elements of the pieces that a mesher does best with.
 template <class Mesher>
 double elements_per_subdomain(const Mesher& mesher) {
   if constexpr (requires { mesher.elements_per_subdomain(); })
     return mesher.elements_per_subdomain();
   else
-    return 31250;
+    return default_elements_per_subdomain;
 }
 
 } // namespace dovetail

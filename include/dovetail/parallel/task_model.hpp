@@ -2,8 +2,8 @@
 /// The geometry model that a task may query.
 #pragma once
 
-#include "dovetail/geometry/concepts.hpp"
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 
 #include <optional>
 
@@ -11,19 +11,17 @@ namespace dovetail {
 
 /// Made at the start of a task: the model itself, or a copy of the task's own where tasks run in threads and
 /// threads may not share the model. The model must outlive it.
-template <geometry_model G>
 class task_model {
 public:
-  template <class E>
-  task_model(const G& model, const E& run) : shared_(&model) {
-    if (runs_in_threads(run) && !model.thread_safe())
+  task_model(const any_geometry& model, const any_executor& run) : shared_(&model) {
+    if (run.shares_process() && !model.thread_safe())
       own_.emplace(model);
   }
-  const G& get() const { return own_ ? *own_ : *shared_; }
+  const any_geometry& get() const { return own_ ? *own_ : *shared_; }
 
 private:
-  const G* shared_;
-  std::optional<G> own_;
+  const any_geometry* shared_;
+  std::optional<any_geometry> own_;
 };
 
 } // namespace dovetail

@@ -5,10 +5,10 @@
 
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/background/coarse_volume.hpp"
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
-#include "dovetail/mesh/crossing_triangles.hpp"
-#include "dovetail/mesher/preferences.hpp"
-#include "dovetail/pipeline/parameters.hpp"
+#include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
@@ -48,8 +48,7 @@ struct mesh_plan {
 namespace detail {
 
 /// A size is refused where it makes no sense: not positive, or larger than the model.
-template <geometry_model G, sizing_field H>
-void require_usable_size(const G& model, const H& size) {
+inline void require_usable_size(const any_geometry& model, const erased_sizing& size) {
   const box3 box = model.bounds();
   const double h = size(box.center());
   if (!std::isfinite(h) || h <= 0)
@@ -67,7 +66,7 @@ inline int default_subdomains(double elements, double per_subdomain, const gener
 
 /// Whether a pair of coarse triangles crosses, as places to refine: a ball around both at half their size.
 inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pair& pair,
-                                  std::vector<background::size_ball>& balls) {
+                                  std::vector<size_ball>& balls) {
   for (const local_id t : {pair.first, pair.second}) {
     const auto& triangle = surface.mesh.elements[static_cast<std::size_t>(t)];
     vec3 center{};
@@ -80,16 +79,6 @@ inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pa
     }
     balls.push_back({center, longest, 0.4 * longest});
   }
-}
-
-[[noreturn]] inline void throw_crossing_faces(const geometry_topology& topology, local_id first,
-                                              local_id second) {
-  const auto name = [&](local_id f) {
-    const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
-    return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
-  };
-  throw intersection_error("the surfaces of " + name(first) + " and " + name(second) +
-                           " cross, also when refined; repair the model there or give a smaller size");
 }
 
 /// The triangles with a solid on one side only, oriented outwards: they enclose all solids together.
@@ -112,10 +101,10 @@ inline simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geome
 
 /// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
 /// `intersection_error` naming the two CAD faces when that does not help.
-template <geometry_model G, executor Executor>
-background::coarse_surface_result surface_without_crossings(const G& model, const any_sizing& size,
-                                                            const Executor& run,
-                                                            const generate_options& options) {
+inline background::coarse_surface_result surface_without_crossings(const any_geometry& model,
+                                                                   const any_sizing& size,
+                                                                   const any_executor& run,
+                                                                   const generate_options& options) {
   background::coarse_surface_parameters parameters;
   parameters.remesher = options.surface_remesher;
   for (int round = 0;; ++round) {
@@ -161,9 +150,9 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
 /// The elements that a mesh of a model will have: tetrahedra inside a surface, or triangles on it. `surface`
 /// may be as coarse as the sizing field's features allow. `elements_per_unit_size` are the tetrahedra a
 /// mesher makes per integral of h^-3.
-template <int D, sizing_field H>
-element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology, const H& size,
-                                double elements_per_unit_size) {
+template <int D>
+element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology,
+                                const any_sizing& size, double elements_per_unit_size) {
   if constexpr (D == 3) {
     return predict_volume_elements(detail::outer_surface(surface, topology), size,
                                    {.density = elements_per_unit_size});
@@ -177,13 +166,12 @@ namespace detail {
 /// The size of a mesh that its coarse surface allows. In D = 3 that is the one given: where interfaces and
 /// surfaces cross, `realize` mends it. In D = 2 an edge turns with the surface by no more than an edge of the
 /// background mesh: beyond that, triangles of sheets that are near to each other would cross.
-template <int D, sizing_field H>
-any_sizing allowed_size(const H& size, const background::coarse_surface_result& coarse) {
+template <int D>
+any_sizing allowed_size(const erased_sizing& size, const background::coarse_surface_result& coarse) {
   if constexpr (D == 3)
     return keep_bounds(size);
   else
-    return background::within_bounds(keep_bounds(size), coarse.bounds,
-                                     background::coarse_surface_parameters{}.growth);
+    return within_bounds(keep_bounds(size), coarse.bounds, background::coarse_surface_parameters{}.growth);
 }
 
 } // namespace detail
@@ -199,20 +187,21 @@ struct background_result {
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
 /// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
 /// cannot be used, and what the surface mesher throws.
-template <int D = 3, geometry_model G, sizing_field H, class Parameters>
-mesh_plan plan_background(const G& model, const H& size, const Parameters& given) {
+template <int D = 3>
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
+                          const any_parameters<D>& given) {
   detail::require_usable_size(model, size);
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e6;
   options.on_progress("planning", 0, 0);
   const auto first = surface_without_crossings(
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
-  const mesh_plan plan = plan_mesh<D>(
-      predict_mesh<D>(first.surface, model.topology(), detail::allowed_size<D>(size, first),
-                      elements_per_inverse_cubed_size<std::remove_cvref_t<decltype(given.mesh_it)>>()),
-      options.elements_per_subdomain > 0 ? options.elements_per_subdomain
-                                         : elements_per_subdomain(given.mesh_it),
-      options);
+  const mesh_plan plan =
+      plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), detail::allowed_size<D>(size, first),
+                                   given.mesh_it.elements_per_inverse_cubed_size()),
+                   options.elements_per_subdomain > 0 ? options.elements_per_subdomain
+                                                      : given.mesh_it.elements_per_subdomain(),
+                   options);
   if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
     throw too_many_elements(plan.predicted_elements, options.largest_prediction);
   return plan;
@@ -220,8 +209,9 @@ mesh_plan plan_background(const G& model, const H& size, const Parameters& given
 
 /// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
 /// concerned.
-template <int D, geometry_model G, sizing_field H, class Parameters>
-background_result<D> make_background(const G& model, const H& size, const Parameters& given) {
+template <int D>
+background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
+                                     const any_parameters<D>& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
   background_result<D> result;
@@ -239,7 +229,7 @@ background_result<D> make_background(const G& model, const H& size, const Parame
     auto volume = background::coarse_volume(
         result.mesh.surface, model.topology(), coarse, given.mesh_it, options.background_improver,
         given.run_tasks,
-        {.failure_folder = options.failure_folder,
+        {.on_failure = write_facets_of_failures(options.failure_folder),
          .limit_seconds = options.limit_seconds,
          .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
     result.mesh.volume = std::move(volume.mesh);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/decomposition/decompose.hpp"
-#include "dovetail/mesh/merge_subdomains.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/piece_crossings.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
@@ -36,11 +36,11 @@ namespace detail {
 /// with a neighbour and all is done again, until nothing fails or nothing can be merged. So it is, with a
 /// smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when that does not
 /// help.
-template <int D, geometry_model G, class Parameters>
+template <int D>
 std::pair<realized<D>, meshed_pieces<D>>
-realize_and_mesh(const G& model, const simplicial_background<D>& mesh, const side_table<D>& sides,
+realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh, const side_table<D>& sides,
                  std::span<const side_state> side_states, decomposition pieces,
-                 std::span<const double> weights, const any_sizing& size, const Parameters& given) {
+                 std::span<const double> weights, const any_sizing& size, const any_parameters<D>& given) {
   std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
   piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
   for (int attempt = 0;; ++attempt) {
@@ -65,8 +65,8 @@ realize_and_mesh(const G& model, const simplicial_background<D>& mesh, const sid
   }
 }
 
-template <int D, geometry_model G>
-distributed_simplicial_mesh<D> assemble_mesh(const G& model, simplicial_skeleton<D> skeleton,
+template <int D>
+distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplicial_skeleton<D> skeleton,
                                              const meshed_pieces<D>& meshed) {
   distributed_simplicial_mesh<D> mesh;
   mesh.skeleton = std::move(skeleton);
@@ -87,10 +87,10 @@ distributed_simplicial_mesh<D> assemble_mesh(const G& model, simplicial_skeleton
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
 /// for the same model, field, mesher and options but `simplify`. For runs that differ in the partitioner or
 /// the improver alone.
-template <int D, geometry_model G, class Parameters>
+template <int D>
   requires(D == 2 || D == 3)
-generated<D> generate_from_background(const G& model, background_result<D> background,
-                                      const Parameters& given) {
+generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
+                                      const any_parameters<D>& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
   generated<D> result;
@@ -146,8 +146,10 @@ generated<D> generate_from_background(const G& model, background_result<D> backg
 /// mesh is data.
 template <int D, geometry_model G, sizing_field H, class Parameters>
   requires(D == 2 || D == 3)
-generated<D> generate(const G& model, const H& size, const Parameters& given) {
-  detail::require_mesher<D, Parameters>();
+generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {
+  const any_geometry model(given_model);
+  const erased_sizing size(given_size);
+  const any_parameters<D> given(policies);
   return generate_from_background<D>(model, make_background<D>(model, size, given), given);
 }
 

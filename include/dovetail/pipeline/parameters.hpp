@@ -2,7 +2,6 @@
 /// The parameters of `generate`, composed of policies: `parameters<>{}.with_mesher(mesher::tetgen{})`.
 #pragma once
 
-#include "dovetail/background/surface_size.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -10,6 +9,7 @@
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/sizing/size_balls.hpp"
 
 #include <filesystem>
 #include <optional>

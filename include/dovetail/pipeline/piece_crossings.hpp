@@ -4,11 +4,10 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/intersection/suppression.hpp"
-#include "dovetail/mesh/crossing_triangles.hpp"
-#include "dovetail/mesher/mesh_subdomains.hpp"
-#include "dovetail/pipeline/crossing_refinement.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/realize.hpp"
 
 #include <cmath>
@@ -22,26 +21,21 @@ namespace detail {
 
 /// Whether all faces are known to lie in one plane. Pieces there cannot cross: each covers what its lines
 /// enclose, which is checked, and the lines were tested with the background mesh.
-template <geometry_model G>
-bool lies_in_one_plane(const G& model) {
-  if constexpr (requires { model.plane_of_face(local_id{0}); }) {
-    std::optional<surface_frame> first;
-    const double tolerance = 1e-9 * model.bounds().diagonal();
-    for (std::size_t f = 0; f < model.topology().faces.size(); ++f) {
-      const auto plane = model.plane_of_face(static_cast<local_id>(f));
-      if (!plane)
-        return false;
-      if (!first)
-        first = plane;
-      const vec3 normal = normalized(cross(first->du, first->dv));
-      if (std::abs(dot(plane->point - first->point, normal)) > tolerance ||
-          norm(cross(normalized(cross(plane->du, plane->dv)), normal)) > 1e-9)
-        return false;
-    }
-    return true;
-  } else {
-    return false;
+inline bool lies_in_one_plane(const any_geometry& model) {
+  std::optional<surface_frame> first;
+  const double tolerance = 1e-9 * model.bounds().diagonal();
+  for (std::size_t f = 0; f < model.topology().faces.size(); ++f) {
+    const auto plane = model.plane_of_face(static_cast<local_id>(f));
+    if (!plane)
+      return false;
+    if (!first)
+      first = plane;
+    const vec3 normal = normalized(cross(first->du, first->dv));
+    if (std::abs(dot(plane->point - first->point, normal)) > tolerance ||
+        norm(cross(normalized(cross(plane->du, plane->dv)), normal)) > 1e-9)
+      return false;
   }
+  return true;
 }
 
 /// All pieces as one mesh; the elements' tags are CAD faces.
@@ -79,9 +73,10 @@ inline simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton,
 /// triangles of all pieces at once, also from a spool: about 32 bytes per triangle with the search's lists,
 /// which is the only step of D = 2 that needs memory for the whole mesh. Nothing is loaded when the model
 /// lies in one plane. O(n log n); on smooth surfaces a small part of the time for meshing them.
-template <geometry_model G, executor Executor>
-std::vector<surface_crossing> crossings_of_pieces(const G& model, const realized<2>& skeleton,
-                                                  const meshed_pieces<2>& meshed, const Executor& run) {
+inline std::vector<surface_crossing> crossings_of_pieces(const any_geometry& model,
+                                                         const realized<2>& skeleton,
+                                                         const meshed_pieces<2>& meshed,
+                                                         const any_executor& run) {
   std::vector<surface_crossing> crossings;
   if (lies_in_one_plane(model))
     return crossings;
@@ -94,9 +89,8 @@ std::vector<surface_crossing> crossings_of_pieces(const G& model, const realized
 
 /// In D = 3 crossings are removed before pieces are meshed, and tetrahedra inside a boundary without
 /// crossings do not cross.
-template <geometry_model G, executor Executor>
-std::vector<surface_crossing> crossings_of_pieces(const G&, const realized<3>&, const meshed_pieces<3>&,
-                                                  const Executor&) {
+inline std::vector<surface_crossing> crossings_of_pieces(const any_geometry&, const realized<3>&,
+                                                         const meshed_pieces<3>&, const any_executor&) {
   return {};
 }
 
@@ -114,9 +108,9 @@ public:
   /// Whether the pieces are fit to be kept; otherwise `size` is smaller afterwards. Pieces that failed are
   /// left to whoever deals with failures. Throws `intersection_error` naming two CAD faces that cross when
   /// all rounds are used up.
-  template <int D, geometry_model G, class Parameters>
-  bool accept(const G& model, const realized<D>& skeleton, const meshed_pieces<D>& meshed,
-              const Parameters& given) {
+  template <int D>
+  bool accept(const any_geometry& model, const realized<D>& skeleton, const meshed_pieces<D>& meshed,
+              const any_parameters<D>& given) {
     if (!meshed.failures.empty())
       return true;
     const stopwatch clock;

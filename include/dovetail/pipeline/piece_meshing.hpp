@@ -2,8 +2,7 @@
 /// From the fine boundaries of a decomposition to its meshed pieces, for D = 2 and D = 3.
 #pragma once
 
-#include "dovetail/mesher/mesh_subdomains.hpp"
-#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/skeleton/subdomain_surface.hpp"
 
@@ -14,29 +13,9 @@
 
 namespace dovetail::detail {
 
-/// A parameters' mesher that can serve D: in D = 2 the surface remesher unless another one was chosen.
-template <int D, class Parameters>
-auto piece_mesher_of(const Parameters& given) {
-  if constexpr (D == 2 && std::same_as<std::remove_cvref_t<decltype(given.mesh_it)>, no_mesher>)
-    return mesher::native_surface{given.options.surface_remesher};
-  else
-    return given.mesh_it;
-}
-
-/// Says what is missing where the parameters' mesher cannot serve D.
-template <int D, class Parameters>
-constexpr void require_mesher() {
-  using mesher_type = std::remove_cvref_t<decltype(std::declval<Parameters>().mesh_it)>;
-  static_assert(D != 3 || !std::same_as<mesher_type, no_mesher>,
-                "choose a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
-  static_assert(D != 2 || std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, 2>,
-                "generate<2> needs a mesher of triangles, or none for the native one");
-}
-
 /// The input of each piece's mesher, made in the worker.
-template <geometry_model G>
-piece_source<3> source_of_pieces(const G&, const simplicial_background<3>&, const realized<3>& skeleton,
-                                 bool) {
+inline piece_source<3> source_of_pieces(const any_geometry&, const simplicial_background<3>&,
+                                        const realized<3>& skeleton, bool) {
   auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   return [&skeleton, sorted](local_id s) {
@@ -50,28 +29,26 @@ piece_source<3> source_of_pieces(const G&, const simplicial_background<3>&, cons
 }
 
 /// A CAD face as a surface of its own, which keeps the model alive.
-template <geometry_model G>
-any_surface surface_of_face(const std::shared_ptr<const G>& model, local_id face) {
+inline any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face) {
   any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
                       [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};
-  if constexpr (requires { model->plane_of_face(face); })
-    if (const auto plane = model->plane_of_face(face))
-      surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
+  if (const auto plane = model->plane_of_face(face))
+    surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
   return surface;
 }
 
 /// `own_model`: a model that is not thread-safe is copied for every piece.
-template <geometry_model G>
-piece_source<2> source_of_pieces(const G& model, const simplicial_background<2>& mesh,
-                                 const realized<2>& skeleton, bool own_model) {
+inline piece_source<2> source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh,
+                                        const realized<2>& skeleton, bool own_model) {
   auto rule =
       std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
   auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   return [&model, &mesh, &skeleton, sorted, rule, own_model](local_id s) {
     auto lines = boundary_of_subdomain(skeleton.fine, *sorted, s);
-    const std::shared_ptr<const G> evaluated =
-        own_model ? std::make_shared<const G>(model) : std::shared_ptr<const G>(&model, [](const G*) {});
+    const std::shared_ptr<const any_geometry> evaluated =
+        own_model ? std::make_shared<const any_geometry>(model)
+                  : std::shared_ptr<const any_geometry>(&model, [](const any_geometry*) {});
     const auto numbers = std::make_shared<const std::vector<local_id>>(lines.skeleton_points);
     piece_input<2> input;
     for (const local_id r : skeleton.regions[static_cast<std::size_t>(s)]) {
@@ -109,20 +86,20 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
 }
 
 /// Meshes all pieces of a realized decomposition. Pieces of different attempts do not share files.
-template <int D, geometry_model G, class Parameters>
-meshed_pieces<D> mesh_all_pieces(const G& model, const simplicial_background<D>& mesh,
+template <int D>
+meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
                                  const realized<D>& skeleton, std::span<const double> weights, int attempt,
-                                 const Parameters& given) {
+                                 const any_parameters<D>& given) {
   meshing_options options;
   options.predicted_cost = weights_of_subdomains(skeleton, weights);
   options.store = given.options.store;
   options.store_prefix = attempt == 0 ? "" : "merged_" + std::to_string(attempt) + "_";
-  options.failure_folder = given.options.failure_folder;
+  options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;
-  const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();
+  const bool own_model = given.run_tasks.shares_process() && !model.thread_safe();
   return mesh_subdomains<D>(skeleton.material_of_subdomain.size(),
-                            source_of_pieces(model, mesh, skeleton, own_model), piece_mesher_of<D>(given),
+                            source_of_pieces(model, mesh, skeleton, own_model), given.mesh_it,
                             given.improve_it, skeleton.size, given.run_tasks, options);
 }
 

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/intersection/suppression.hpp"
-#include "dovetail/mesh/merge_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
-#include "dovetail/pipeline/crossing_refinement.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
@@ -49,11 +49,11 @@ using realized_skeleton = realized<3>;
 namespace detail {
 
 /// The rounds of `realize`.
-template <geometry_model G, class Parameters>
 class skeleton_rounds {
 public:
-  skeleton_rounds(const G& model, const background_mesh& mesh, const side_table<3>& sides,
-                  std::span<const side_state> side_states, const any_sizing& size, const Parameters& given)
+  skeleton_rounds(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
+                  std::span<const side_state> side_states, const any_sizing& size,
+                  const any_parameters<3>& given)
       : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), given_(given) {}
 
   realized_skeleton run(std::vector<local_id> subdomain_of_element, local_id subdomains) {
@@ -187,12 +187,12 @@ private:
     return origins;
   }
 
-  const G& model_;
+  const any_geometry& model_;
   const background_mesh& mesh_;
   const side_table<3>& sides_;
   std::span<const side_state> side_states_;
   any_sizing size_;
-  const Parameters& given_;
+  const any_parameters<3>& given_;
   crossing_refinement refinement_{size_, given_.options.refinement_rounds};
   int refinements_ = 0;
   patch_cache cache_;
@@ -205,10 +205,10 @@ private:
 
 /// Remeshes the lines of a decomposed surface, each once: what D = 3 does with the pieces that its subdomains
 /// induce on the surface, before it fills the regions between the lines. Throws what the geometry throws.
-template <geometry_model G, class Parameters>
-realized<2> realize(const G& model, const simplicial_background<2>& mesh, const side_table<2>& sides,
-                    std::span<const side_state>, std::vector<local_id> subdomain_of_element,
-                    local_id subdomains, const any_sizing& size, const Parameters& given) {
+inline realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
+                           const side_table<2>& sides, std::span<const side_state>,
+                           std::vector<local_id> subdomain_of_element, local_id subdomains,
+                           const any_sizing& size, const any_parameters<2>& given) {
   const stopwatch clock;
   realized<2> result;
   result.coarse = extract_skeleton(mesh.surface, own_pieces(subdomain_of_element));
@@ -233,11 +233,11 @@ realized<2> realize(const G& model, const simplicial_background<2>& mesh, const 
 /// Remeshes the skeleton of a decomposition until nothing crosses. `side_states` are what the simplification
 /// decided about the sides of the coarse volume. Throws `intersection_error` when too many subdomains would
 /// have to be merged or two CAD faces cross, `mesher_error` when a region cannot be remeshed.
-template <geometry_model G, class Parameters>
-realized_skeleton realize(const G& model, const background_mesh& mesh, const side_table<3>& sides,
-                          std::span<const side_state> side_states, std::vector<local_id> subdomain_of_element,
-                          local_id subdomains, const any_sizing& size, const Parameters& given) {
-  return detail::skeleton_rounds<G, Parameters>(model, mesh, sides, side_states, size, given)
+inline realized_skeleton realize(const any_geometry& model, const background_mesh& mesh,
+                                 const side_table<3>& sides, std::span<const side_state> side_states,
+                                 std::vector<local_id> subdomain_of_element, local_id subdomains,
+                                 const any_sizing& size, const any_parameters<3>& given) {
+  return detail::skeleton_rounds(model, mesh, sides, side_states, size, given)
       .run(std::move(subdomain_of_element), subdomains);
 }
 

@@ -4,7 +4,7 @@
 
 #include "dovetail/background/whole_domain.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/pipeline/background.hpp"
 
 #include <cstddef>
@@ -21,9 +21,9 @@ namespace dovetail {
 ///
 /// The mesher's triangles become the coarse surface. Throws `geometry_error` for models of several solids,
 /// whose common faces it would not keep, and what its steps throw.
-template <line_keeping_mesher M, geometry_model G, sizing_field H, class Parameters>
-background_result<3> make_background_by(const M& mesh_whole, const G& model, const H& size,
-                                        const Parameters& given) {
+inline background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
+                                               const any_geometry& model, const erased_sizing& size,
+                                               const any_parameters<3>& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
   if (const std::size_t solids = model.topology().solids.size(); solids != 1)

@@ -63,10 +63,10 @@ inline numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<
 
 /// Remeshes the lines of a skeleton, each once, and numbers their points: the step that D = 2 and the surface
 /// of D = 3 share.
-template <geometry_model G, executor Executor>
-numbered_lines realize_lines(const G& model, const surface_mesh& surface, const coarse_skeleton& skeleton,
-                             std::span<const vec3> coarse_points, const any_sizing& size, const Executor& run,
-                             const progress& on_progress) {
+inline numbered_lines realize_lines(const any_geometry& model, const surface_mesh& surface,
+                                    const coarse_skeleton& skeleton, std::span<const vec3> coarse_points,
+                                    const any_sizing& size, const any_executor& run,
+                                    const progress& on_progress) {
   return number_lines(skeleton, remesh_lines(model, skeleton.lines, coarse_points, size, run, on_progress),
                       coarse_points, surface.vertex_hosts);
 }

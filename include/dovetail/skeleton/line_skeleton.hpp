@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/skeleton/extract.hpp"
+#include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <utility>

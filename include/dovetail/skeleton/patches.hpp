@@ -3,10 +3,10 @@
 /// remeshed.
 #pragma once
 
+#include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
-#include "dovetail/skeleton/extract.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <map>
@@ -55,9 +55,8 @@ private:
 /// The parameters on a face of a point of one of its curves. A seam passes the face twice: the passage is the
 /// one whose end is nearer to `end_uv`, the parameters that the triangle beside it has at curve parameter
 /// `end_t`.
-template <geometry_model G>
-local_id coedge_beside(const G& model, local_id face, local_id curve, std::array<double, 2> end_t,
-                       std::array<vec2, 2> end_uv) {
+inline local_id coedge_beside(const any_geometry& model, local_id face, local_id curve,
+                              std::array<double, 2> end_t, std::array<vec2, 2> end_uv) {
   const auto& coedges = model.topology().faces[static_cast<std::size_t>(face)].coedges;
   local_id best = no_id;
   double least = 0;
@@ -104,9 +103,8 @@ struct inner_passage {
 
 /// The patch of a region: its lines, passed with the region on the left in the face's parameter plane, and
 /// poles.
-template <geometry_model G>
-skeleton_patch region_patch(const G& model, const surface_mesh& surface, const skeleton_region& region,
-                            const numbered_lines& lines) {
+inline skeleton_patch region_patch(const any_geometry& model, const surface_mesh& surface,
+                                   const skeleton_region& region, const numbered_lines& lines) {
   const bool reversed = model.topology().faces[static_cast<std::size_t>(region.cad_face)].reversed;
   detail::patch_builder patch(lines.points);
   std::map<std::array<local_id, 2>, detail::inner_passage>

@@ -4,10 +4,9 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
-#include "dovetail/skeleton/coarse_skeleton.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +26,9 @@ namespace detail {
 
 /// The chord between two points of a CAD face, projected to it; where the projection strays, the straight
 /// line in the parameter plane instead.
-template <geometry_model G>
 class face_line {
 public:
-  face_line(const G& model, const skeleton_line& line, vec3 first, vec3 last)
+  face_line(const any_geometry& model, const skeleton_line& line, vec3 first, vec3 last)
       : model_(model), face_(line.on.id), uv_(line.uv), first_(first), chord_(last - first) {
     constexpr int probes = 8;
     double before = 0;
@@ -61,15 +59,15 @@ public:
   }
 
 private:
-  const G& model_;
+  const any_geometry& model_;
   local_id face_;
   std::array<vec2, 2> uv_;
   vec3 first_, chord_;
   bool projected_ = true;
 };
 
-template <geometry_model G>
-fine_line space_on_curve(const G& model, const skeleton_line& line, const any_sizing& size) {
+inline fine_line space_on_curve(const any_geometry& model, const skeleton_line& line,
+                                const any_sizing& size) {
   const auto curve = [&](double t) { return model.curve_frame(line.on.id, t); };
   const bool backwards = line.t[0] > line.t[1];
   auto t =
@@ -84,10 +82,9 @@ fine_line space_on_curve(const G& model, const skeleton_line& line, const any_si
   return fine;
 }
 
-template <geometry_model G>
-fine_line space_on_face(const G& model, const skeleton_line& line, vec3 first, vec3 last,
-                        const any_sizing& size) {
-  const face_line<G> on_face(model, line, first, last);
+inline fine_line space_on_face(const any_geometry& model, const skeleton_line& line, vec3 first, vec3 last,
+                               const any_sizing& size) {
+  const face_line on_face(model, line, first, last);
   const auto s = remesh::line_spacing{.even_when_few = true}(on_face, 0.0, 1.0, size);
   fine_line fine;
   for (std::size_t i = 1; i + 1 < s.size(); ++i) {
@@ -109,9 +106,8 @@ inline fine_line space_straight(vec3 first, vec3 last, const any_sizing& size) {
 } // namespace detail
 
 /// Points of one line. `coarse_points` are the points of the background mesh.
-template <geometry_model G>
-fine_line remesh_line(const G& model, const skeleton_line& line, std::span<const vec3> coarse_points,
-                      const any_sizing& size) {
+inline fine_line remesh_line(const any_geometry& model, const skeleton_line& line,
+                             std::span<const vec3> coarse_points, const any_sizing& size) {
   const vec3 first = coarse_points[static_cast<std::size_t>(line.vertices[0])];
   const vec3 last = coarse_points[static_cast<std::size_t>(line.vertices[1])];
   if (line.on.dimension == 1)
@@ -123,16 +119,15 @@ fine_line remesh_line(const G& model, const skeleton_line& line, std::span<const
 
 /// Points of all lines, in tasks of many lines each. Throws `mesher_error` naming what could not be
 /// evaluated.
-template <geometry_model G, executor Executor>
-std::vector<fine_line> remesh_lines(const G& model, std::span<const skeleton_line> lines,
-                                    std::span<const vec3> coarse_points, const any_sizing& size,
-                                    const Executor& run, const progress& on_progress = {}) {
+inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
+                                           std::span<const vec3> coarse_points, const any_sizing& size,
+                                           const any_executor& run, const progress& on_progress = {}) {
   constexpr std::size_t lines_per_task = 256;
   const std::size_t tasks = (lines.size() + lines_per_task - 1) / lines_per_task;
   const auto outcomes = run.run(
       tasks,
       [&](std::size_t task) {
-        const task_model<G> own(model, run);
+        const task_model own(model, run);
         byte_writer out;
         for (std::size_t i = task * lines_per_task; i < std::min(lines.size(), (task + 1) * lines_per_task);
              ++i) {

@@ -36,13 +36,12 @@ struct remeshed_skeleton {
 
 namespace detail {
 
-template <geometry_model G, executor Executor>
 class skeleton_remesher {
 public:
-  skeleton_remesher(const G& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
-                    const coarse_skeleton& skeleton, const any_sizing& size,
-                    const remesh::patch_remesher& remesher, const Executor& run, patch_cache& cache,
-                    const progress& on_progress)
+  skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
+                    std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
+                    const any_sizing& size, const remesh::patch_remesher& remesher, const any_executor& run,
+                    patch_cache& cache, const progress& on_progress)
       : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), size_(size),
         remesher_(remesher), run_(run), cache_(cache), on_progress_(on_progress) {}
 
@@ -119,7 +118,7 @@ private:
     const auto outcomes = run_.run(
         missing.size(),
         [&](std::size_t i) {
-          const task_model<G> own(model_, run_);
+          const task_model own(model_, run_);
           return encode(remesh_patch(own.get(), missing[i]));
         },
         options);
@@ -130,10 +129,10 @@ private:
     }
   }
 
-  patch_mesh remesh_patch(const G& model, std::size_t p) const {
+  patch_mesh remesh_patch(const any_geometry& model, std::size_t p) const {
     if (is_region(p))
-      return remesher_(remesh::model_surface<G>{&model, skeleton_.regions[p].cad_face}, patches_[p].boundary,
-                       size_);
+      return remesher_(remesh::model_surface<any_geometry>{&model, skeleton_.regions[p].cad_face},
+                       patches_[p].boundary, size_);
     const face_patch face = interface_patch(face_of(p), coarse_points_, lines_);
     patch_boundary boundary = face.patch.boundary;
     boundary.forbidden_edges = patches_[p].boundary.forbidden_edges;
@@ -276,13 +275,13 @@ private:
     }
   }
 
-  const G& model_;
+  const any_geometry& model_;
   const surface_mesh& surface_;
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
   const any_sizing& size_;
   const remesh::patch_remesher& remesher_;
-  const Executor& run_;
+  const any_executor& run_;
   patch_cache& cache_;
   const progress& on_progress_;
   numbered_lines lines_;
@@ -296,13 +295,13 @@ private:
 /// the model, the coarse mesh and the field are the same; start with an empty one. About linear in the
 /// triangles made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at
 /// all.
-template <geometry_model G, executor Executor>
-remeshed_skeleton remesh_skeleton(const G& model, const surface_mesh& surface,
-                                  std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                  const any_sizing& size, const remesh::patch_remesher& remesher,
-                                  const Executor& run, patch_cache& cache, const progress& on_progress = {}) {
-  return detail::skeleton_remesher<G, Executor>(model, surface, coarse_points, skeleton, size, remesher, run,
-                                                cache, on_progress)
+inline remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
+                                         std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
+                                         const any_sizing& size, const remesh::patch_remesher& remesher,
+                                         const any_executor& run, patch_cache& cache,
+                                         const progress& on_progress = {}) {
+  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, size, remesher, run, cache,
+                                   on_progress)
       .run();
 }
 

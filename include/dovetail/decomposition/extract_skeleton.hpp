@@ -10,7 +10,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
-#include "dovetail/skeleton/coarse_skeleton.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
 
 #include <string>
 

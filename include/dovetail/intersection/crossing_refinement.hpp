@@ -3,14 +3,31 @@
 /// finished pieces.
 #pragma once
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/intersection/suppression.hpp"
-#include "dovetail/pipeline/background.hpp"
+#include "dovetail/sizing/size_balls.hpp"
 
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+namespace detail {
+
+[[noreturn]] inline void throw_crossing_faces(const geometry_topology& topology, local_id first,
+                                              local_id second) {
+  const auto name = [&](local_id f) {
+    const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
+    return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
+  };
+  throw intersection_error("the surfaces of " + name(first) + " and " + name(second) +
+                           " cross, also when refined; repair the model there or give a smaller size");
+}
+
+} // namespace detail
 
 /// A field that gets smaller around the crossings of each round.
 class crossing_refinement {
@@ -24,13 +41,13 @@ public:
       detail::throw_crossing_faces(topology, crossings.front().cad_faces[0], crossings.front().cad_faces[1]);
     for (const surface_crossing& crossing : crossings)
       balls_.push_back({crossing.center, 2 * crossing.size, 0.5 * crossing.size});
-    return background::within_bounds(plain_, balls_, 0.3);
+    return within_bounds(plain_, balls_, 0.3);
   }
 
 private:
   any_sizing plain_;
   int left_;
-  std::vector<background::size_ball> balls_;
+  std::vector<size_ball> balls_;
 };
 
 } // namespace dovetail

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace dovetail::background {
+namespace dovetail {
 
 /// A place where the size must not exceed `size` within `radius` of the center.
 struct size_ball {
@@ -111,4 +111,4 @@ inline any_sizing within_bounds(any_sizing field, std::vector<size_ball> bounds,
   return keep_bounds(bounded_size(std::move(field), std::move(bounds), growth));
 }
 
-} // namespace dovetail::background
+} // namespace dovetail

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/improver/concepts.hpp"
-#include "dovetail/improver/surface_host.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
 
@@ -65,9 +64,8 @@ inline std::vector<bool> poles_of(const mesher_input<2>& input, std::size_t poin
 }
 
 /// Improves tetrahedra inside their frozen boundary.
-template <improver<3> I>
-report improve_piece(mesher_result<3>& made, const mesher_input<3>& input, const I& improve,
-                     const any_sizing& size) {
+inline report improve_piece(mesher_result<3>& made, const mesher_input<3>& input,
+                            const any_improver<3>& improve, const any_sizing& size) {
   frozen_entities<3> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
@@ -162,33 +160,24 @@ report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& i
 
 /// Improves triangles inside their frozen lines. An improver that takes no host cannot know the surface: it
 /// may move points of planes in z = 0 only.
-template <improver<2> I>
-report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const I& improve,
-                     const any_sizing& size) {
+inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input,
+                            const any_improver<2>& improve, const any_sizing& size) {
   frozen_entities<2> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
   const auto at_poles = sides_at_poles(made.mesh, poles_of(input, made.mesh.points.size()));
   append(frozen.sides, at_poles);
-  constexpr bool takes_host = requires(const surface_host& host) {
-    improve(made.mesh, frozen, size, host);
-  };
   const std::size_t of_lines = input.boundary.points.size();
-  report result;
-  if constexpr (takes_host) {
-    const surface_host host = host_of_piece(input, std::move(made.corner_uv));
-    result = improve_without_chords(made.mesh, input, frozen,
-                                    [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
-                                      return improve(mesh, kept, size, host);
-                                    });
-  } else {
-    for (const surface_region& region : input.regions)
-      if (!region.surface.plane)
-        frozen.points = static_cast<local_id>(made.mesh.points.size());
-    result = improve_without_chords(
-        made.mesh, input, frozen,
-        [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) { return improve(mesh, kept, size); });
-  }
+  surface_host host;
+  if (improve.takes_host())
+    host = host_of_piece(input, std::move(made.corner_uv));
+  else if (std::any_of(input.regions.begin(), input.regions.end(),
+                       [](const surface_region& region) { return !region.surface.plane; }))
+    frozen.points = static_cast<local_id>(made.mesh.points.size());
+  report result = improve_without_chords(made.mesh, input, frozen,
+                                         [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
+                                           return improve(mesh, kept, size, host);
+                                         });
   drop_unused_points(made.mesh, of_lines);
   return result;
 }

@@ -4,13 +4,17 @@
 
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/crossing_triangles.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/serial.hpp"
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -72,6 +76,19 @@ inline std::size_t write_offending_facets(const simplicial_mesh<2>& boundary,
       facets.push_back(static_cast<local_id>(t));
   write_facets(boundary, facets, path);
   return crossing;
+}
+
+/// For `meshing_options::on_failure`: writes the offending facets of each failed subdomain to `folder`, which
+/// is made when the first one fails. An empty folder: nothing is written.
+inline std::function<void(piece_failure&, const simplicial_mesh<2>&)>
+write_facets_of_failures(std::filesystem::path folder) {
+  if (folder.empty())
+    return {};
+  return [folder = std::move(folder)](piece_failure& failure, const simplicial_mesh<2>& boundary) {
+    make_folder(folder);
+    failure.facets = folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");
+    failure.crossing_facets = write_offending_facets(boundary, failure.facets);
+  };
 }
 
 } // namespace dovetail

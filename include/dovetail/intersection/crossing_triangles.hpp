@@ -7,10 +7,10 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/single_sheet.hpp"
+#include "dovetail/intersection/single_sheet.hpp"
+#include "dovetail/intersection/triangle_separation.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
-#include "dovetail/mesh/triangle_separation.hpp"
-#include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -169,11 +169,11 @@ private:
 /// Crossing pairs among `triangles`, sorted, each once. A pair for which `excluded(i, j)` is true is not
 /// tested. O(n log n) for triangles of bounded overlap; exact. Tasks go through `run`; the result does not
 /// depend on its workers. Memory beside the triangles: some lists of 4 bytes per triangle.
-template <executor Executor>
-std::vector<triangle_pair>
-crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
-                   const std::function<bool(local_id, local_id)>& excluded, const Executor& run,
-                   const crossing_parameters& parameters = {}) {
+inline std::vector<triangle_pair> crossing_triangles(std::span<const vec3> points,
+                                                     std::span<const simplex<2>> triangles,
+                                                     const std::function<bool(local_id, local_id)>& excluded,
+                                                     const any_executor& run,
+                                                     const crossing_parameters& parameters = {}) {
   const auto most_tasks = 8 * static_cast<std::size_t>(run.workers());
   const auto cells = detail::crossing_search(points, triangles, excluded, parameters).start(most_tasks);
   const std::size_t tasks = std::min(cells.size(), most_tasks);
@@ -199,7 +199,7 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
   for (const task_outcome& outcome : outcomes) {
     if (!outcome.ok)
       throw error("intersection test failed: " + outcome.failure);
-    const auto flat = byte_reader(outcome.result).template array<local_id>();
+    const auto flat = byte_reader(outcome.result).array<local_id>();
     for (std::size_t k = 0; k < flat.size(); k += 2)
       pairs.push_back({flat[k], flat[k + 1]});
   }

@@ -1,5 +1,5 @@
 /// @file
-/// A geometry model chosen at run time: CAD or triangles behind one type.
+/// Any geometry model behind one type, so that the stages are compiled once and not once per kind of model.
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
@@ -9,14 +9,17 @@
 #include <optional>
 #include <utility>
 
-namespace dovetail::app {
+namespace dovetail {
 
-/// Holds any geometry model. Copies of a model that threads may share do share it.
+/// Holds any geometry model by value; a geometry model converts to it. Copies of a model that threads may
+/// share do share it; of another one they are copies, so that each thread may have its own. A query costs one
+/// virtual call more than the model's own.
 class any_geometry {
 public:
   template <geometry_model G>
     requires(!std::same_as<G, any_geometry>)
-  explicit any_geometry(G held) : held_(std::make_shared<const model<G>>(std::move(held))) {}
+  any_geometry(G held) // NOLINT: converts, as std::function does
+      : held_(std::make_shared<const model<G>>(std::move(held))) {}
 
   any_geometry(const any_geometry& other) : held_(other.thread_safe() ? other.held_ : other.held_->copy()) {}
   any_geometry(any_geometry&&) = default;
@@ -90,4 +93,4 @@ private:
 };
 static_assert(geometry_model<any_geometry>);
 
-} // namespace dovetail::app
+} // namespace dovetail

@@ -5,11 +5,10 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
-#include "dovetail/mesher/offending_facets.hpp"
-#include "dovetail/mesher/piece_work.hpp"
-#include "dovetail/parallel/concepts.hpp"
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/meshing/piece_work.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/spool.hpp"
 
 #include <algorithm>
@@ -32,6 +31,15 @@ template <int D>
 using piece_source = std::function<piece_input<D>(local_id)>;
 using subdomain_source = piece_source<3>;
 
+/// A subdomain that no rung of the ladder could mesh.
+struct piece_failure {
+  local_id subdomain = no_id;
+  std::vector<std::string> reasons; ///< one per rung
+  bool timed_out = false;           ///< some rung reached the wall-clock limit: the mesh may differ next time
+  std::size_t crossing_facets = 0;  ///< boundary triangles that cross others; known when a file was written
+  std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
+};
+
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
@@ -40,19 +48,11 @@ struct meshing_options {
   std::optional<spool> store = std::nullopt;
   /// Tells decompositions apart that share a spool, since the same number means another subdomain in each.
   std::string store_prefix = {};
-  /// Where the offending facets of failed subdomains are written, as OFF files; empty: nowhere.
-  std::filesystem::path failure_folder = {};
+  /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
+  /// keep a record of it; may be empty.
+  std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
   double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
   progress on_progress = {};
-};
-
-/// A subdomain that no rung of the ladder could mesh.
-struct piece_failure {
-  local_id subdomain = no_id;
-  std::vector<std::string> reasons; ///< one per rung
-  bool timed_out = false;           ///< some rung reached the wall-clock limit: the mesh may differ next time
-  std::size_t crossing_facets = 0;  ///< boundary triangles that cross others; known when a file was written
-  std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
 };
 
 template <int D>
@@ -121,11 +121,12 @@ private:
 enum class reply_kind : std::uint8_t { finished, cannot_store, bad_size };
 
 /// The rounds of `mesh_subdomains`.
-template <int D, class M, class I, class E>
+template <int D>
 class subdomain_rounds {
 public:
-  subdomain_rounds(std::size_t count, const piece_source<D>& source, const M& mesh_it, const I& improve,
-                   const any_sizing& size, const E& run_tasks, const meshing_options& options)
+  subdomain_rounds(std::size_t count, const piece_source<D>& source, const any_mesher<D>& mesh_it,
+                   const any_improver<D>& improve, const any_sizing& size, const any_executor& run_tasks,
+                   const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
         ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf<D>>(count, options)) {
     result_.pieces.resize(count);
@@ -138,7 +139,7 @@ public:
     const stopwatch clock;
     for (std::size_t rung = 0; rung < rung_count() && !pending_.empty(); ++rung)
       run_round(rung);
-    write_failures();
+    report_failures();
     summarize();
     result_.summary.seconds = clock.seconds();
     result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
@@ -147,12 +148,12 @@ public:
 
 private:
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
-  std::size_t rung_count() const { return ladder_.size() + (improver<I, D> ? 1 : 0); }
+  std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
   byte_buffer attempt(local_id subdomain, std::size_t rung) const {
     const piece_input<D> input = source_(subdomain);
     if (rung < ladder_.size())
       return make_piece<D>(subdomain, input, ladder_[rung], &improve_, size_, rung);
-    return make_piece<D, M, I>(subdomain, input, ladder_[0], nullptr, size_, rung);
+    return make_piece<D>(subdomain, input, ladder_[0], nullptr, size_, rung);
   }
 
   void run_round(std::size_t rung) {
@@ -236,19 +237,12 @@ private:
     return true;
   }
 
-  void write_failures() {
+  void report_failures() {
     result_.failures = std::move(pending_);
-    if constexpr (D == 3) {
-      if (options_.failure_folder.empty() || result_.failures.empty())
-        return;
-      make_folder(options_.failure_folder);
-      for (piece_failure& failure : result_.failures) {
-        failure.facets =
-            options_.failure_folder / ("failed_subdomain_" + std::to_string(failure.subdomain) + ".off");
-        failure.crossing_facets =
-            write_offending_facets(source_(failure.subdomain).boundary.boundary, failure.facets);
-      }
-    }
+    if constexpr (D == 3)
+      if (options_.on_failure)
+        for (piece_failure& failure : result_.failures)
+          options_.on_failure(failure, source_(failure.subdomain).boundary.boundary);
   }
 
   void summarize() {
@@ -275,11 +269,11 @@ private:
   }
 
   const piece_source<D>& source_;
-  const I& improve_;
+  const any_improver<D>& improve_;
   const any_sizing& size_;
-  const E& run_tasks_;
+  const any_executor& run_tasks_;
   const meshing_options& options_;
-  std::vector<M> ladder_;
+  std::vector<any_mesher<D>> ladder_;
   std::shared_ptr<piece_shelf<D>> shelf_;
   std::vector<piece_failure> pending_;
   meshed_pieces<D> result_;
@@ -296,18 +290,17 @@ private:
 /// threads, `io_error` when a finished piece cannot be stored, `sizing_error` when the field gives an
 /// unusable size, and `cancelled`. Memory: one piece per worker with a spool, else the whole mesh.
 ///
-/// In D = 2 the pieces are subsurfaces, and they are left as meshed when `improve` is no improver of D = 2.
-template <int D = 3, boundary_keeping_mesher<D> M, class I, executor E>
-  requires(D == 2 || improver<I, D>)
-meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
-                                 const M& mesh_it, const I& improve, const any_sizing& size,
-                                 const E& run_tasks, const meshing_options& options = {}) {
-  if (!M::traits.thread_safe && runs_in_threads(run_tasks))
+/// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
+template <int D = 3>
+meshed_pieces<D> mesh_subdomains(std::size_t count, const piece_source<D>& source,
+                                 const any_mesher<D>& mesh_it, const any_improver<D>& improve,
+                                 const any_sizing& size, const any_executor& run_tasks,
+                                 const meshing_options& options = {}) {
+  if (!mesh_it.actual_traits().thread_safe && run_tasks.shares_process())
     throw usage_error("this mesher must not run in several threads of one process; use worker processes");
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
-  return detail::subdomain_rounds<D, M, I, E>(count, source, mesh_it, improve, size, run_tasks, options)
-      .run();
+  return detail::subdomain_rounds<D>(count, source, mesh_it, improve, size, run_tasks, options).run();
 }
 
 } // namespace dovetail

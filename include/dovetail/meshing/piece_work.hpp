@@ -4,14 +4,14 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/checks.hpp"
-#include "dovetail/mesher/concepts.hpp"
-#include "dovetail/mesher/piece_improvement.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
-#include "dovetail/parallel/piece_codec.hpp"
+#include "dovetail/meshing/piece_codec.hpp"
+#include "dovetail/meshing/piece_improvement.hpp"
 
 #include <string>
 #include <utility>
@@ -74,8 +74,8 @@ simplicial_piece<D> piece_of(const byte_buffer& finished) {
 }
 
 /// Improves a mesh inside its frozen boundary and checks that the boundary is still there.
-template <int D, improver<D> I>
-report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, const I& improve,
+template <int D>
+report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, const any_improver<D>& improve,
                       const any_sizing& size) {
   const stopwatch clock;
   report summary = improve_piece(made, input, improve, size);
@@ -85,11 +85,11 @@ report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, cons
   return summary;
 }
 
-/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null or no
-/// improver of D. Throws what the mesher, the improver and the checks throw.
-template <int D, boundary_keeping_mesher<D> M, class I>
-byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const M& mesh_it, const I* improve,
-                       const any_sizing& size, std::size_t rung) {
+/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null or
+/// holds nothing. Throws what the mesher, the improver and the checks throw.
+template <int D>
+byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
+                       const any_improver<D>* improve, const any_sizing& size, std::size_t rung) {
   const stopwatch clock;
   auto made = mesh_it(input.boundary, size);
   piece_summary summary;
@@ -97,11 +97,11 @@ byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const M&
   summary.summary.set("rung", static_cast<double>(rung));
   made.summary.name = "mesher";
   summary.summary.children.push_back(std::move(made.summary));
-  if constexpr (!improver<I, D>)
-    check_mesher_result(input.boundary, made.mesh);
-  else if (improve != nullptr)
+  if (improve != nullptr && *improve)
     summary.summary.children.push_back(improve_inside<D>(made, input.boundary, *improve, size));
   else
+    check_mesher_result(input.boundary, made.mesh);
+  if (improve == nullptr)
     summary.summary.warnings.push_back("left unimproved, since every attempt to improve it failed");
   summary.counts.material = input.boundary.material;
   summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());

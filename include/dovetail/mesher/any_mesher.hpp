@@ -1,0 +1,75 @@
+/// @file
+/// Any mesher that keeps its boundary behind one type, so that the pipeline is compiled once and not once per
+/// mesher.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/preferences.hpp"
+
+#include <concepts>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Holds a mesher with its traits, preferences and fallbacks by value; a mesher converts to it. Made by
+/// default it holds none: whoever calls it then gets a `usage_error`. A call costs one indirect call.
+template <int D>
+class any_mesher {
+public:
+  /// What every held mesher promises; its own traits are `actual_traits`.
+  static constexpr mesher_traits traits{.keeps_boundary = true, .may_crash = true};
+
+  any_mesher() = default;
+  template <boundary_keeping_mesher<D> M>
+    requires(!std::same_as<M, any_mesher>)
+  any_mesher(M policy, std::string name = {}) // NOLINT: converts, as std::function does
+      : any_mesher(policy, std::move(name), without_fallbacks{}) {
+    const std::vector<M> ladder = ladder_of(policy);
+    for (std::size_t rung = 1; rung < ladder.size(); ++rung)
+      fallbacks_.push_back(any_mesher(ladder[rung], name_, without_fallbacks{}));
+  }
+
+  /// The same with another mesher as the last rung of the ladder, for pieces that this one cannot mesh.
+  any_mesher with_fallback(any_mesher other) const {
+    any_mesher extended = *this;
+    extended.fallbacks_.push_back(std::move(other));
+    return extended;
+  }
+
+  explicit operator bool() const { return static_cast<bool>(call_); }
+  /// The name it was given, for reports; may be empty.
+  const std::string& name() const { return name_; }
+  const mesher_traits& actual_traits() const { return actual_traits_; }
+  double elements_per_inverse_cubed_size() const { return elements_per_inverse_cubed_size_; }
+  double elements_per_subdomain() const { return elements_per_subdomain_; }
+  std::vector<any_mesher> fallbacks() const { return fallbacks_; }
+  mesher_result<D> operator()(const mesher_input<D>& input, const any_sizing& size) const {
+    if (!call_)
+      throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
+    return call_(input, size);
+  }
+
+private:
+  struct without_fallbacks {};
+
+  template <boundary_keeping_mesher<D> M>
+  any_mesher(M policy, std::string name, without_fallbacks /*tag*/)
+      : name_(std::move(name)), actual_traits_(M::traits),
+        elements_per_inverse_cubed_size_(dovetail::elements_per_inverse_cubed_size<M>()),
+        elements_per_subdomain_(dovetail::elements_per_subdomain(policy)), call_(std::move(policy)) {}
+
+  std::string name_;
+  mesher_traits actual_traits_ = traits;
+  double elements_per_inverse_cubed_size_ = 0;
+  double elements_per_subdomain_ = default_elements_per_subdomain;
+  std::function<mesher_result<D>(const mesher_input<D>&, const any_sizing&)> call_;
+  std::vector<any_mesher> fallbacks_;
+};
+static_assert(boundary_keeping_mesher<any_mesher<2>, 2> && boundary_keeping_mesher<any_mesher<3>, 3>);
+
+} // namespace dovetail

@@ -1,0 +1,60 @@
+/// @file
+/// The parameters of `generate<D>` with every policy behind its type-erased model: what the pipeline runs on,
+/// so that each stage is compiled once, whatever policies are chosen.
+#pragma once
+
+#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/pipeline/parameters.hpp"
+
+#include <concepts>
+#include <utility>
+
+namespace dovetail {
+
+/// `parameters` convert to it. In D = 2 the mesher is the surface remesher unless another one was chosen; in
+/// D = 3 one has to be, before anything is meshed. An improver of the other dimension is not called.
+template <int D>
+struct any_parameters {
+  any_mesher<D> mesh_it;
+  any_partitioner partition_it;
+  any_improver<D> improve_it;
+  any_executor run_tasks;
+  generate_options options;
+
+  any_parameters(any_mesher<D> mesher, any_partitioner partitioner, any_improver<D> improver,
+                 any_executor executor, generate_options given)
+      : mesh_it(std::move(mesher)), partition_it(std::move(partitioner)), improve_it(std::move(improver)),
+        run_tasks(std::move(executor)), options(std::move(given)) {}
+
+  template <class M, class P, class I, class E>
+  any_parameters(const parameters<M, P, I, E>& given) // NOLINT: converts
+      : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
+                       given.options) {}
+
+private:
+  template <class M, class P, class I, class E>
+  static any_mesher<D> mesher_of(const parameters<M, P, I, E>& given) {
+    static_assert(
+        std::same_as<M, no_mesher> || boundary_keeping_mesher<M, D>,
+        "generate<D> needs a mesher of D that keeps its boundary, or none for the native one of D = 2");
+    if constexpr (boundary_keeping_mesher<M, D>)
+      return given.mesh_it;
+    else if constexpr (D == 2)
+      return mesher::native_surface{given.options.surface_remesher};
+    else
+      return {};
+  }
+  template <class I>
+  static any_improver<D> improver_of(const I& given) {
+    if constexpr (improver<I, D>)
+      return given;
+    else
+      return {};
+  }
+};
+
+} // namespace dovetail
