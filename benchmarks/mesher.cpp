@@ -5,8 +5,8 @@
 //
 //   mesher [elements per case, default 1000000]
 #include "dovetail/improver/native.hpp"
-#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "mesher/shapes.hpp"
 

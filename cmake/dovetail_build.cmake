@@ -24,6 +24,18 @@ if(DOVETAIL_DEVELOPER AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   target_compile_options(dovetail_developer INTERFACE ${dovetail_warnings})
 endif()
 
+# What our own programs link: the compiled library where it is built, else the headers alone.
+function(dovetail_link target)
+  set(libraries dovetail::dovetail ${ARGN})
+  foreach(name IN LISTS dovetail_compiled_targets)
+    string(REPLACE compiled_ dovetail:: adapter "${name}")
+    if(name STREQUAL "compiled" OR adapter IN_LIST ARGN)
+      list(PREPEND libraries dovetail::${name})
+    endif()
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${libraries} dovetail_developer)
+endfunction()
+
 option(DOVETAIL_SANITIZE "Address and undefined-behaviour sanitizers in our own executables" OFF)
 if(DOVETAIL_SANITIZE)
   set(sanitizers -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/dovetail")
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/dovetail" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-  FILES_MATCHING PATTERN "*.hpp")
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.ipp")
 
 install(TARGETS dovetail EXPORT dovetail_core)
 install(EXPORT dovetail_core NAMESPACE dovetail:: FILE dovetail-core-targets.cmake DESTINATION "${config_directory}")
@@ -12,6 +12,12 @@ foreach(component IN LISTS dovetail_components)
   install(TARGETS dovetail_${component} EXPORT dovetail_${component})
   install(EXPORT dovetail_${component} NAMESPACE dovetail::
     FILE dovetail-${component}-targets.cmake DESTINATION "${config_directory}")
+endforeach()
+
+foreach(name IN LISTS dovetail_compiled_targets)
+  install(TARGETS dovetail_${name} EXPORT dovetail_${name} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT dovetail_${name} NAMESPACE dovetail::
+    FILE dovetail-${name}-targets.cmake DESTINATION "${config_directory}")
 endforeach()
 
 configure_package_config_file(

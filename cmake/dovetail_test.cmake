@@ -42,8 +42,8 @@ function(dovetail_test)
 
   set(executable test_${arg_NAME})
   add_executable(${executable} ${arg_SOURCES})
-  target_link_libraries(${executable} PRIVATE
-    dovetail::dovetail ${arg_LIBRARIES} dovetail_test_main dovetail_developer)
+  dovetail_link(${executable} ${arg_LIBRARIES})
+  target_link_libraries(${executable} PRIVATE dovetail_test_main)
   add_test(NAME ${arg_NAME} COMMAND ${executable})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)

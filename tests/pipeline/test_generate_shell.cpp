@@ -2,10 +2,10 @@
 
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "io/scratch_folder.hpp"

@@ -117,7 +117,7 @@ inline std::vector<face_result> remesh_faces(const any_geometry& model,
       face_patch patch = make_face_patch(own, request.face, curves);
       patch.boundary.forbidden_edges = request.forbidden_edges;
       const any_sizing inner = [&sizing, factor = request.size_factor](vec3 p) { return factor * sizing(p); };
-      result.mesh = remesher(remesh::model_surface<any_geometry>{&own, request.face}, patch.boundary, inner);
+      result.mesh = remesher(remesh::model_surface{&own, request.face}, patch.boundary, inner);
     } catch (const std::exception& failure) {
       result.failure = failure.what();
     }

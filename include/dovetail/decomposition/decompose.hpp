@@ -17,21 +17,12 @@
 ///         check_interface_contract({volume.points, boundary.sides, boundary.subdomains, origins});
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/decomposition/apportion.hpp"
-#include "dovetail/decomposition/connected_refinement.hpp"
-#include "dovetail/decomposition/connectivity.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
-#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -49,72 +40,6 @@ struct decomposition {
   report summary;
 };
 
-namespace detail {
-
-/// The graph of super-elements without the edges that cross a material face.
-inline csr_graph within_materials(const csr_graph& graph, std::span<const local_id> material) {
-  csr_graph filtered;
-  filtered.node_weights = graph.node_weights;
-  for (local_id v = 0; v < graph.node_count(); ++v) {
-    const auto row = graph.row(v);
-    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (material[static_cast<std::size_t>(v)] == material[static_cast<std::size_t>(row[k])]) {
-        filtered.neighbours.push_back(row[k]);
-        filtered.edge_weights.push_back(graph.edge_weights[begin + k]);
-      }
-    filtered.offsets.push_back(static_cast<std::int64_t>(filtered.neighbours.size()));
-  }
-  return filtered;
-}
-
-/// The mean of the centres of each super-element's elements, for partitioners that go by place.
-template <int D>
-std::vector<vec3> centres_of_supers(const simplicial_mesh<D>& mesh,
-                                    std::span<const local_id> super_of_element, std::size_t supers) {
-  std::vector<vec3> sums(supers);
-  std::vector<double> counts(supers, 0.0);
-  for (std::size_t e = 0; e < super_of_element.size(); ++e) {
-    const auto super = static_cast<std::size_t>(super_of_element[e]);
-    for (const local_id v : mesh.elements[e])
-      sums[super] += mesh.points[static_cast<std::size_t>(v)] / (D + 1.0);
-    counts[super] += 1;
-  }
-  for (std::size_t s = 0; s < supers; ++s)
-    sums[s] = sums[s] / std::max(1.0, counts[s]);
-  return sums;
-}
-
-/// Partitions each component on its own; the parts of one component have consecutive numbers.
-template <graph_partitioner Partitioner>
-std::vector<local_id> partition_components(const csr_graph& graph, const labelled_components& components,
-                                           const Partitioner& partitioner,
-                                           std::span<const int> parts_of_component) {
-  std::vector<local_id> part(graph.node_weights.size(), no_id);
-  local_id first_part = 0;
-  for (local_id c = 0; c < components.count; ++c) {
-    const int parts = parts_of_component[static_cast<std::size_t>(c)];
-    const subgraph piece = induced_subgraph(graph, components.of_node, c);
-    const std::vector<local_id> local = partitioner(piece.graph, parts);
-    for (std::size_t k = 0; k < local.size(); ++k)
-      part[static_cast<std::size_t>(piece.nodes[k])] = first_part + local[k];
-    first_part += parts;
-  }
-  return part;
-}
-
-/// The limit of every part: `imbalance` times the average of its component.
-inline std::vector<double> part_limits(std::span<const double> component_weights,
-                                       std::span<const int> parts_of_component, double imbalance) {
-  std::vector<double> limits;
-  for (std::size_t c = 0; c < component_weights.size(); ++c)
-    limits.insert(limits.end(), static_cast<std::size_t>(parts_of_component[c]),
-                  imbalance * component_weights[c] / parts_of_component[c]);
-  return limits;
-}
-
-} // namespace detail
-
 /// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).
 ///
 /// `material` has one entry per element, or is empty: `mesh.tags` for D = 3; empty for D = 2 when subsurfaces
@@ -122,71 +47,14 @@ inline std::vector<double> part_limits(std::span<const double> component_weights
 /// manifold but at `defective_points`. Parts are kept under `imbalance` times the average of their component
 /// where that is possible. Deterministic for a deterministic partitioner. Throws `partition_error` when the
 /// mesh is empty or the partitioner fails.
-template <int D, graph_partitioner Partitioner>
+template <int D>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
-                        std::span<const local_id> material, const Partitioner& partitioner, int parts,
-                        double imbalance = 1.05) {
-  const stopwatch time;
-  if (mesh.elements.empty())
-    throw partition_error("cannot decompose a mesh without elements");
-  std::vector<local_id> material_of_super(super_graph.node_weights.size(), 0);
-  if (!material.empty())
-    for (std::size_t e = 0; e < super_of_element.size(); ++e)
-      material_of_super[static_cast<std::size_t>(super_of_element[e])] = material[e];
-  csr_graph graph = detail::within_materials(super_graph, material_of_super);
-  graph.positions = detail::centres_of_supers<D>(mesh, super_of_element, graph.node_weights.size());
-  const labelled_components components = components_within(graph, material_of_super);
-  std::vector<double> weights = part_weights(graph, components.of_node, components.count);
-  std::vector<local_id> nodes(weights.size(), 0);
-  for (const local_id c : components.of_node)
-    ++nodes[static_cast<std::size_t>(c)];
-  const std::vector<int> parts_of_component = apportion_parts(weights, nodes, parts);
-
-  decomposition result;
-  result.part_of_super = detail::partition_components(graph, components, partitioner, parts_of_component);
-  for (const int count : parts_of_component)
-    result.parts += count;
-  const double cut = edge_cut(graph, result.part_of_super);
-  const std::size_t joined = join_stray_components(graph, result.part_of_super, result.parts);
-  reassignable_parts<D> reassignable(mesh, sides, super_of_element, graph, result.part_of_super,
-                                     detail::part_limits(weights, parts_of_component, imbalance));
-  manifold_repair<D> repair(reassignable);
-  repair.run();
-  const std::size_t repaired = reassignable.assignments();
-  connected_refinement<D>(reassignable).run();
-  repair.run();
-  const std::size_t refined = reassignable.assignments() - repaired;
-  result.defective_points = repair.defective_points();
-  result.non_manifold_edges = repair.total_defects().edges / 2;
-
-  result.part_of_element.resize(mesh.elements.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    result.part_of_element[e] = result.part_of_super[static_cast<std::size_t>(super_of_element[e])];
-  result.part_weights = part_weights(graph, result.part_of_super, result.parts);
-  result.material_of_part.assign(static_cast<std::size_t>(result.parts), 0);
-  for (std::size_t s = 0; s < material_of_super.size(); ++s)
-    result.material_of_part[static_cast<std::size_t>(result.part_of_super[s])] = material_of_super[s];
-
-  report& summary = result.summary;
-  summary.name = "partition";
-  summary.set("subdomains", result.parts);
-  summary.set("components", components.count);
-  summary.set("imbalance", imbalance_of(graph, result.part_of_super, result.parts));
-  summary.set("cut_of_partitioner", cut);
-  summary.set("cut", edge_cut(graph, result.part_of_super));
-  summary.set("joined_strays", static_cast<double>(joined));
-  summary.set("repaired_super_elements", static_cast<double>(repaired));
-  summary.set("refined_super_elements", static_cast<double>(refined));
-  summary.set("non_manifold_edges", result.non_manifold_edges);
-  summary.set("non_manifold_points", static_cast<double>(result.defective_points.size()));
-  if (!result.defective_points.empty())
-    summary.warnings.push_back("subdomain boundaries are not manifold at " +
-                               std::to_string(result.defective_points.size()) +
-                               " points, the first is point " +
-                               std::to_string(result.defective_points.front()) + " of the coarse mesh");
-  summary.seconds = time.seconds();
-  return result;
-}
+                        std::span<const local_id> material, const any_partitioner& partitioner, int parts,
+                        double imbalance = 1.05);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/decomposition/decompose.ipp"
+#endif

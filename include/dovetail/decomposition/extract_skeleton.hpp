@@ -6,13 +6,13 @@
 /// idea for every dimension), and the interface faces and the lines inside the domain are added.
 #pragma once
 
-#include "dovetail/core/error.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 
-#include <string>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace dovetail {
 
@@ -45,219 +45,32 @@ inline simplex<2> from_smallest(simplex<2> t) {
   return t;
 }
 
-/// Surface edges with, for each, the triangles around it and its place on a curve if it has one.
-class surface_edges {
-public:
-  explicit surface_edges(const surface_mesh& surface) : surface_(surface), sides_(build_sides(surface.mesh)) {
-    curve_edge_of_.assign(sides_.size(), no_id);
-    for (std::size_t i = 0; i < surface.curve_edges.size(); ++i) {
-      const auto& edge = surface.curve_edges[i];
-      const local_id side = find_side<2>(sides_, edge.vertices);
-      if (side == no_id)
-        throw mesh_error("curve " + std::to_string(edge.curve) + ": the coarse edge " +
-                         std::to_string(edge.vertices[0]) + "-" + std::to_string(edge.vertices[1]) +
-                         " is not an edge of the coarse surface mesh");
-      curve_edge_of_[static_cast<std::size_t>(side)] = static_cast<local_id>(i);
-    }
-  }
-
-  const side_table<2>& sides() const { return sides_; }
-  bool on_curve(std::size_t side) const { return curve_edge_of_[side] != no_id; }
-
-  /// The line along a surface edge, with its curve or face parameters in key order.
-  skeleton_line line(std::size_t side) const {
-    skeleton_line result;
-    result.vertices = sorted_vertices(sides_.vertices[side]);
-    if (on_curve(side)) {
-      const auto& edge = surface_.curve_edges[static_cast<std::size_t>(curve_edge_of_[side])];
-      result.on = {1, edge.curve};
-      result.t = edge.vertices == result.vertices ? edge.t : std::array{edge.t[1], edge.t[0]};
-      return result;
-    }
-    const auto triangle = static_cast<std::size_t>(sides_.elements[side][0]);
-    result.on = {2, surface_.mesh.tags[triangle]};
-    for (std::size_t end = 0; end < 2; ++end)
-      result.uv[end] = corner_uv(triangle, result.vertices[end]);
-    return result;
-  }
-
-private:
-  vec2 corner_uv(std::size_t triangle, local_id vertex) const {
-    const auto& corners = surface_.mesh.elements[triangle];
-    return surface_.corner_uv[triangle][static_cast<std::size_t>(
-        std::find(corners.begin(), corners.end(), vertex) - corners.begin())];
-  }
-
-  const surface_mesh& surface_;
-  side_table<2> sides_;
-  std::vector<local_id> curve_edge_of_;
-};
-
-/// Whether a surface edge bounds regions: on a curve, at a change of CAD face or subdomains, or not manifold.
-inline bool bounds_regions(const surface_edges& edges, std::size_t side, const surface_mesh& surface,
-                           const triangle_subdomains& pieces) {
-  const auto [first, second] = edges.sides().elements[side];
-  if (edges.on_curve(side) || !edges.sides().is_interior(static_cast<local_id>(side)))
-    return true;
-  const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
-  return pieces[a] != pieces[b] || surface.mesh.tags[a] != surface.mesh.tags[b];
-}
-
-inline std::vector<skeleton_region> connected_regions(const surface_mesh& surface, const surface_edges& edges,
-                                                      const std::vector<bool>& is_line,
-                                                      const triangle_subdomains& pieces) {
-  const auto& elements = surface.mesh.elements;
-  std::vector<bool> seen(elements.size(), false);
-  std::vector<skeleton_region> regions;
-  for (std::size_t start = 0; start < elements.size(); ++start) {
-    if (seen[start])
-      continue;
-    skeleton_region region{surface.mesh.tags[start], pieces[start]};
-    seen[start] = true;
-    region.triangles.push_back(static_cast<local_id>(start));
-    for (std::size_t next = 0; next < region.triangles.size(); ++next) {
-      const local_id triangle = region.triangles[next];
-      for (const local_id side : edges.sides().of_element[static_cast<std::size_t>(triangle)]) {
-        if (is_line[static_cast<std::size_t>(side)])
-          continue;
-        const local_id across = edges.sides().across(side, triangle);
-        if (!seen[static_cast<std::size_t>(across)]) {
-          seen[static_cast<std::size_t>(across)] = true;
-          region.triangles.push_back(across);
-        }
-      }
-    }
-    sort_all(region.triangles);
-    regions.push_back(std::move(region));
-  }
-  return regions;
-}
-
-/// Coarse vertices that interface faces use but no line of the region ends at: they must survive in its
-/// inside.
-inline void find_fixed_points(std::vector<skeleton_region>& regions, const surface_mesh& surface,
-                              const std::vector<skeleton_line>& lines,
-                              const std::vector<skeleton_face>& faces) {
-  std::vector<bool> on_line(surface.mesh.points.size(), false), on_face(surface.mesh.points.size(), false);
-  const auto mark = [&](std::vector<bool>& flags, local_id v) {
-    if (static_cast<std::size_t>(v) < flags.size())
-      flags[static_cast<std::size_t>(v)] = true;
-  };
-  for (const skeleton_line& line : lines)
-    if (line.on.dimension < 3)
-      for (const local_id v : line.vertices)
-        mark(on_line, v);
-  for (const skeleton_face& face : faces)
-    for (const local_id v : face.vertices)
-      mark(on_face, v);
-  for (skeleton_region& region : regions) {
-    for (const local_id triangle : region.triangles)
-      for (const local_id v : surface.mesh.elements[static_cast<std::size_t>(triangle)])
-        if (on_face[static_cast<std::size_t>(v)] && !on_line[static_cast<std::size_t>(v)])
-          region.fixed_points.push_back(v);
-    sort_unique(region.fixed_points);
-  }
-}
-
-/// Every edge of the interface faces, once, as a line inside the domain (surface edges are found elsewhere).
-inline std::vector<std::array<local_id, 2>> face_edges(const std::vector<skeleton_face>& faces) {
-  std::vector<std::array<local_id, 2>> edges;
-  for (const skeleton_face& face : faces)
-    for (std::size_t i = 0; i < 3; ++i)
-      edges.push_back(sorted_vertices(std::array{face.vertices[i], face.vertices[(i + 1) % 3]}));
-  sort_unique(edges);
-  return edges;
-}
-
 } // namespace detail
 
 /// The interface faces of a volume decomposition: sides inside one material between two subdomains.
-inline std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
-                                                  const std::vector<local_id>& subdomain_of_element) {
-  std::vector<skeleton_face> faces;
-  for (std::size_t side = 0; side < sides.size(); ++side) {
-    const auto [first, second] = sides.elements[side];
-    if (second == no_id)
-      continue;
-    const local_id a = subdomain_of_element[static_cast<std::size_t>(first)];
-    const local_id b = subdomain_of_element[static_cast<std::size_t>(second)];
-    const bool one_material =
-        mesh.volume.tags.empty() || mesh.volume.tags[static_cast<std::size_t>(first)] ==
-                                        mesh.volume.tags[static_cast<std::size_t>(second)];
-    if (a == b || !one_material)
-      continue;
-    simplex<2> outwards_of_a = sides.vertices[side];
-    if (a > b)
-      std::swap(outwards_of_a[1], outwards_of_a[2]);
-    faces.push_back({detail::from_smallest(outwards_of_a), {std::min(a, b), std::max(a, b)}});
-  }
-  return faces;
-}
+std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
+                                           const std::vector<local_id>& subdomain_of_element);
 
 /// The subdomains behind and in front of each surface triangle. Throws `mesh_error` when a surface triangle
 /// is not a side of the volume.
-inline triangle_subdomains induced_pieces(const background_mesh& mesh, const side_table<3>& sides,
-                                          const std::vector<local_id>& subdomain_of_element) {
-  triangle_subdomains pieces;
-  pieces.reserve(mesh.surface.mesh.elements.size());
-  for (const simplex<2>& triangle : mesh.surface.mesh.elements) {
-    const local_id side = detail::find_side<3>(sides, triangle);
-    if (side == no_id)
-      throw mesh_error("surface triangle " + std::to_string(pieces.size()) +
-                       " is not a side of the coarse volume mesh");
-    const auto& elements = sides.elements[static_cast<std::size_t>(side)];
-    const auto subdomain = [&](local_id e) {
-      return e == no_id ? no_id : subdomain_of_element[static_cast<std::size_t>(e)];
-    };
-    const bool first_is_behind = detail::same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
-    const std::array both{subdomain(elements[0]), subdomain(elements[1])};
-    pieces.push_back(first_is_behind ? both : std::array{both[1], both[0]});
-  }
-  return pieces;
-}
+triangle_subdomains induced_pieces(const background_mesh& mesh, const side_table<3>& sides,
+                                   const std::vector<local_id>& subdomain_of_element);
 
 /// The pieces of a surface that is itself decomposed (D = 2): the part of each triangle, nothing in front.
-inline triangle_subdomains own_pieces(const std::vector<local_id>& part_of_triangle) {
-  triangle_subdomains pieces;
-  pieces.reserve(part_of_triangle.size());
-  for (const local_id part : part_of_triangle)
-    pieces.push_back({part, no_id});
-  return pieces;
-}
+triangle_subdomains own_pieces(const std::vector<local_id>& part_of_triangle);
 
 /// The skeleton of a surface cut into pieces; `faces` are the interface faces that end on it (none for D =
 /// 2). O(n log n). Throws `mesh_error` when the surface mesh contradicts itself.
-inline coarse_skeleton extract_skeleton(const surface_mesh& surface, const triangle_subdomains& pieces,
-                                        std::vector<skeleton_face> faces = {}) {
-  const detail::surface_edges edges(surface);
-  const auto edges_of_faces = detail::face_edges(faces);
-  coarse_skeleton skeleton;
-  std::vector<bool> is_line(edges.sides().size());
-  for (std::size_t side = 0; side < is_line.size(); ++side) {
-    const auto key = sorted_vertices(edges.sides().vertices[side]);
-    is_line[side] = detail::bounds_regions(edges, side, surface, pieces) ||
-                    std::binary_search(edges_of_faces.begin(), edges_of_faces.end(), key);
-    if (is_line[side])
-      skeleton.lines.push_back(edges.line(side));
-  }
-  const auto surface_lines = skeleton.lines;
-  for (const auto& edge : edges_of_faces)
-    if (find_line(surface_lines, edge[0], edge[1]) == no_id)
-      skeleton.lines.push_back({.vertices = edge});
-  sort_all(skeleton.lines, [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
-
-  skeleton.regions = detail::connected_regions(surface, edges, is_line, pieces);
-  detail::find_fixed_points(skeleton.regions, surface, skeleton.lines, faces);
-  skeleton.faces = std::move(faces);
-  return skeleton;
-}
+coarse_skeleton extract_skeleton(const surface_mesh& surface, const triangle_subdomains& pieces,
+                                 std::vector<skeleton_face> faces = {});
 
 /// The skeleton of a volume decomposition: interface faces first, then the surface step with the induced
 /// pieces.
-inline coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
-                                        const std::vector<local_id>& subdomain_of_element) {
-  return extract_skeleton(mesh.surface, induced_pieces(mesh, sides, subdomain_of_element),
-                          interface_faces(mesh, sides, subdomain_of_element));
-}
+coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
+                                 const std::vector<local_id>& subdomain_of_element);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/decomposition/extract_skeleton.ipp"
+#endif

@@ -3,12 +3,11 @@
 /// coarse or on the fine skeleton; what is below the threshold is listed with its cause.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
-#include "dovetail/mesh/quality.hpp"
+
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
@@ -87,186 +86,26 @@ inline void sort_by_angle(std::vector<contract_violation>& violations) {
   });
 }
 
-class contract_checker {
-public:
-  contract_checker(const contract_input& input, double threshold_deg)
-      : in_(input), threshold_(threshold_deg - rounding_deg) {
-    if (in_.subdomains.size() != in_.triangles.size() || in_.origins.size() != in_.triangles.size())
-      throw usage_error("interface contract: " + std::to_string(in_.triangles.size()) + " triangles, but " +
-                        std::to_string(in_.subdomains.size()) + " pairs of subdomains and " +
-                        std::to_string(in_.origins.size()) + " origins");
-  }
-
-  interface_contract run() {
-    measure_faces();
-    for_each_group<2>(
-        in_.triangles.size() * 3, in_.points.size(),
-        [&](std::size_t h) {
-          return sorted_vertices(pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]));
-        },
-        [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
-          measure_wedges(edge, half_edges);
-        });
-    sort_by_angle(found_.violations);
-    return std::move(found_);
-  }
-
-private:
-  /// The same angle comes out differently when measured through elements, as the simplification does.
-  static constexpr double rounding_deg = 1e-6;
-
-  /// A triangle at an edge: its direction around the edge, and the subdomains on its two sides.
-  struct flap {
-    double direction; ///< angle around the edge, counter-clockwise seen against the edge
-    local_id triangle;
-    local_id before; ///< the subdomain on the clockwise side
-    local_id after;  ///< on the counter-clockwise side
-  };
-
-  bool is_cad(local_id t) const { return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::cad; }
-  bool is_refused(local_id t) const {
-    return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
-  }
-  contract_cause cause_of(local_id a, local_id b) const {
-    if (is_cad(a) && is_cad(b))
-      return contract_cause::forced;
-    return is_refused(a) || is_refused(b) ? contract_cause::refused : contract_cause::remeshing;
-  }
-  vec3 at(local_id v) const { return in_.points[static_cast<std::size_t>(v)]; }
-
-  void measure_faces() {
-    for (std::size_t t = 0; t < in_.triangles.size(); ++t) {
-      const auto id = static_cast<local_id>(t);
-      if (is_cad(id))
-        continue;
-      ++found_.interface_faces;
-      const auto angles = wedge_angles(corners(in_.points, in_.triangles[t]));
-      const double smallest = *std::min_element(angles.begin(), angles.end());
-      if (smallest < found_.face_angle.angle_deg)
-        found_.face_angle = {smallest, {id, no_id}, {no_id, no_id}};
-      if (smallest < threshold_)
-        found_.violations.push_back({smallest, cause_of(id, id), {id, no_id}, {no_id, no_id}, no_id});
-    }
-  }
-
-  void measure_wedges(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
-    const bool all_cad = std::all_of(half_edges.begin(), half_edges.end(),
-                                     [&](std::uint32_t h) { return is_cad(static_cast<local_id>(h / 3)); });
-    if (all_cad || half_edges.size() < 2)
-      return;
-    collect_flaps(edge, half_edges);
-    for (std::size_t k = 0; k < flaps_.size(); ++k) {
-      const flap& here = flaps_[k];
-      const flap& next = flaps_[(k + 1) % flaps_.size()];
-      if (here.after == no_id || here.after != next.before ||
-          (is_cad(here.triangle) && is_cad(next.triangle)))
-        continue; // outside of the domain, or none of the interfaces' business
-      const double turn =
-          next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
-      note_wedge(edge, here, next, turn * degrees_per_radian);
-    }
-  }
-
-  void collect_flaps(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
-    const vec3 origin = at(edge[0]);
-    const vec3 axis = normalized(at(edge[1]) - origin);
-    const auto apex = [&](std::uint32_t h) {
-      return in_.triangles[h / 3][h % 3];
-    }; // side i is opposite vertex i
-    const vec3 to_first = at(apex(half_edges[0])) - origin;
-    const vec3 x = normalized(to_first - dot(to_first, axis) * axis);
-    const vec3 y = cross(axis, x);
-    flaps_.clear();
-    for (const std::uint32_t h : half_edges) {
-      const auto t = static_cast<local_id>(h / 3);
-      const vec3 d = at(apex(h)) - origin;
-      const auto vertices = pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]);
-      // A triangle that passes the edge in the edge's direction has its normal, which points out of
-      // subdomains[0], on the counter-clockwise side.
-      const auto& both = in_.subdomains[h / 3];
-      const bool along = vertices[0] == edge[0];
-      flaps_.push_back({h == half_edges[0] ? 0.0 : std::atan2(dot(d, y), dot(d, x)), t,
-                        along ? both[0] : both[1], along ? both[1] : both[0]});
-    }
-    sort_all(flaps_, [](const flap& a, const flap& b) {
-      return std::pair(a.direction, a.triangle) < std::pair(b.direction, b.triangle);
-    });
-  }
-
-  void note_wedge(const std::array<local_id, 2>& edge, const flap& a, const flap& b, double angle) {
-    contract_minimum& minimum =
-        is_cad(a.triangle) || is_cad(b.triangle) ? found_.surface_wedge : found_.interface_wedge;
-    if (angle < minimum.angle_deg)
-      minimum = {angle, {a.triangle, b.triangle}, edge};
-    if (angle < threshold_)
-      found_.violations.push_back(
-          {angle, cause_of(a.triangle, b.triangle), {a.triangle, b.triangle}, edge, a.after});
-  }
-
-  const contract_input& in_;
-  double threshold_;
-  interface_contract found_;
-  std::vector<flap> flaps_; ///< scratch
-};
-
 } // namespace detail
 
 /// The origins of the sides of a decomposed coarse mesh, from what the simplification decided about them.
-inline std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
-                                                     std::span<const side_state> side_states) {
-  std::vector<triangle_origin> origins(boundary.sides.size(), triangle_origin::cad);
-  for (std::size_t k = 0; k < origins.size(); ++k)
-    if (boundary.on_surface[k] == 0)
-      origins[k] = side_states[static_cast<std::size_t>(boundary.side_ids[k])] == side_state::refused
-                       ? triangle_origin::refused
-                       : triangle_origin::kept;
-  return origins;
-}
+std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
+                                              std::span<const side_state> side_states);
 
 /// The origins of the triangles of a fine skeleton; `from_refused` marks those on coarse sides that ought to
 /// have been removed (one entry per triangle, or empty when that is not known).
-inline std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
-                                                     std::span<const std::uint8_t> from_refused = {}) {
-  std::vector<triangle_origin> origins(skeleton.triangles.size(), triangle_origin::cad);
-  for (std::size_t t = 0; t < origins.size(); ++t)
-    if (skeleton.cad_faces[t] == no_id)
-      origins[t] =
-          !from_refused.empty() && from_refused[t] != 0 ? triangle_origin::refused : triangle_origin::kept;
-  return origins;
-}
+std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
+                                              std::span<const std::uint8_t> from_refused = {});
 
 /// Measures the contract. About linear in the number of triangles. Throws `usage_error` when the spans do not
 /// match.
-inline interface_contract check_interface_contract(const contract_input& input, double threshold_deg = 30) {
-  return detail::contract_checker(input, threshold_deg).run();
-}
+interface_contract check_interface_contract(const contract_input& input, double threshold_deg = 30);
 
 /// The contract as counters of a report, and one warning with the worst place of each cause.
-inline report summarize(const interface_contract& contract, const std::string& name) {
-  report summary;
-  summary.name = name;
-  summary.set("faces", static_cast<double>(contract.interface_faces));
-  summary.set("min_face_angle_deg", contract.face_angle.angle_deg);
-  summary.set("min_wedge_deg", contract.min_wedge_deg());
-  summary.set("min_interface_wedge_deg", contract.interface_wedge.angle_deg);
-  summary.set("min_surface_wedge_deg", contract.surface_wedge.angle_deg);
-  constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
-  for (std::size_t c = 0; c < causes.size(); ++c) {
-    const auto cause = static_cast<contract_cause>(c);
-    summary.set(causes[c], static_cast<double>(contract.count(cause)));
-    const auto worst = std::find_if(contract.violations.begin(), contract.violations.end(),
-                                    [&](const contract_violation& v) { return v.cause == cause; });
-    if (worst == contract.violations.end())
-      continue;
-    summary.warnings.push_back(
-        std::to_string(contract.count(cause)) + " angles below the threshold (" + causes[c] +
-        "), the smallest " + std::to_string(worst->angle_deg) + " degrees " +
-        (worst->is_wedge() ? "between triangles " + std::to_string(worst->triangles[0]) + " and " +
-                                 std::to_string(worst->triangles[1]) + " at edge (" +
-                                 std::to_string(worst->edge[0]) + ", " + std::to_string(worst->edge[1]) + ")"
-                           : "in triangle " + std::to_string(worst->triangles[0])));
-  }
-  return summary;
-}
+report summarize(const interface_contract& contract, const std::string& name);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/decomposition/interface_contract.ipp"
+#endif

@@ -16,8 +16,8 @@ namespace dovetail {
 /// virtual call more than the model's own.
 class any_geometry {
 public:
-  template <geometry_model G>
-    requires(!std::same_as<G, any_geometry>)
+  template <class G>
+    requires(!std::same_as<G, any_geometry> && geometry_model<G>)
   any_geometry(G held) // NOLINT: converts, as std::function does
       : held_(std::make_shared<const model<G>>(std::move(held))) {}
 

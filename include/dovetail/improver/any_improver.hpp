@@ -30,8 +30,8 @@ template <int D>
 class any_improver {
 public:
   any_improver() = default;
-  template <improver<D> I>
-    requires(!std::same_as<I, any_improver>)
+  template <class I>
+    requires(!std::same_as<I, any_improver> && improver<I, D>)
   any_improver(I policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), takes_host_(detail::takes_host<I>) {
     if constexpr (D == 2)

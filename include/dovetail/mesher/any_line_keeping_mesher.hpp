@@ -26,8 +26,8 @@ public:
     nothing.name_ = std::move(name);
     return nothing;
   }
-  template <line_keeping_mesher M>
-    requires(!std::same_as<M, any_line_keeping_mesher>)
+  template <class M>
+    requires(!std::same_as<M, any_line_keeping_mesher> && line_keeping_mesher<M>)
   any_line_keeping_mesher(M policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)),
         call_([held = std::move(policy)](const auto& lines, const auto& input, const auto& size) {

@@ -25,8 +25,8 @@ public:
   static constexpr mesher_traits traits{.keeps_boundary = true, .may_crash = true};
 
   any_mesher() = default;
-  template <boundary_keeping_mesher<D> M>
-    requires(!std::same_as<M, any_mesher>)
+  template <class M>
+    requires(!std::same_as<M, any_mesher> && boundary_keeping_mesher<M, D>)
   any_mesher(M policy, std::string name = {}) // NOLINT: converts, as std::function does
       : any_mesher(policy, std::move(name), without_fallbacks{}) {
     const std::vector<M> ladder = ladder_of(policy);

@@ -7,19 +7,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
 namespace dovetail {
-
-/// A parametric surface chosen at run time; a model of `patch_surface`.
-struct any_surface {
-  std::function<surface_frame(vec2)> frame;
-  std::function<vec2(vec3, vec2)> project;
-  /// The same surface where it is a plane with orthonormal parameters: meshers then need no calls.
-  std::optional<remesh::plane_surface> plane = std::nullopt;
-};
 
 /// A region of a piece. The labels of its boundary are points of the piece's boundary.
 struct surface_region {

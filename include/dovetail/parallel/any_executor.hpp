@@ -15,8 +15,8 @@ namespace dovetail {
 /// Holds any executor by value; an executor converts to it. A run costs one indirect call.
 class any_executor {
 public:
-  template <executor E>
-    requires(!std::same_as<E, any_executor>)
+  template <class E>
+    requires(!std::same_as<E, any_executor> && executor<E>)
   any_executor(E policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
         shares_process_(runs_in_threads(policy)),

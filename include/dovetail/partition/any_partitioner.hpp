@@ -15,8 +15,8 @@ namespace dovetail {
 /// Holds any graph partitioner by value; a partitioner converts to it. A call costs one indirect call.
 class any_partitioner {
 public:
-  template <graph_partitioner P>
-    requires(!std::same_as<P, any_partitioner>)
+  template <class P>
+    requires(!std::same_as<P, any_partitioner> && graph_partitioner<P>)
   any_partitioner(P policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), call_(std::move(policy)) {}
 

@@ -4,18 +4,15 @@
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
-#include "dovetail/background/coarse_volume.hpp"
-#include "dovetail/intersection/crossing_refinement.hpp"
-#include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
-#include "dovetail/sizing/volume_prediction.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <type_traits>
 
 namespace dovetail {
 
@@ -45,136 +42,33 @@ struct mesh_plan {
   double coarse_scale = 1; ///< factor between coarse and final size
 };
 
-namespace detail {
-
-/// A size is refused where it makes no sense: not positive, or larger than the model.
-inline void require_usable_size(const any_geometry& model, const erased_sizing& size) {
-  const box3 box = model.bounds();
-  const double h = size(box.center());
-  if (!std::isfinite(h) || h <= 0)
-    throw sizing_error("the size at the model's center is " + std::to_string(h) + "; give a positive size");
-  if (h > box.diagonal())
-    throw sizing_error("the size " + std::to_string(h) + " is larger than the model, whose diagonal is " +
-                       std::to_string(box.diagonal()) + "; give a smaller size");
-}
-
-inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
-  const double plain = elements / per_subdomain;
-  const double excess = std::max(1.0, elements / options.many_elements);
-  return std::max(1, static_cast<int>(std::lround(plain / std::sqrt(excess))));
-}
-
-/// Whether a pair of coarse triangles crosses, as places to refine: a ball around both at half their size.
-inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pair& pair,
-                                  std::vector<size_ball>& balls) {
-  for (const local_id t : {pair.first, pair.second}) {
-    const auto& triangle = surface.mesh.elements[static_cast<std::size_t>(t)];
-    vec3 center{};
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 a = surface.mesh.points[static_cast<std::size_t>(triangle[k])];
-      const vec3 b = surface.mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
-      center += a / 3.0;
-      longest = std::max(longest, distance(a, b));
-    }
-    balls.push_back({center, longest, 0.4 * longest});
-  }
-}
-
 /// The triangles with a solid on one side only, oriented outwards: they enclose all solids together.
-inline simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_topology& topology) {
-  simplicial_mesh<2> outer;
-  outer.points = surface.mesh.points;
-  for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
-    const auto& [behind, in_front] = topology.faces[static_cast<std::size_t>(surface.mesh.tags[t])].solids;
-    if ((behind == no_id) == (in_front == no_id))
-      continue;
-    simplex<2> triangle = surface.mesh.elements[t];
-    if (behind == no_id)
-      std::swap(triangle[1], triangle[2]);
-    outer.elements.push_back(triangle);
-  }
-  return outer;
-}
-
-} // namespace detail
+simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_topology& topology);
 
 /// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
 /// `intersection_error` naming the two CAD faces when that does not help.
-inline background::coarse_surface_result surface_without_crossings(const any_geometry& model,
-                                                                   const any_sizing& size,
-                                                                   const any_executor& run,
-                                                                   const generate_options& options) {
-  background::coarse_surface_parameters parameters;
-  parameters.remesher = options.surface_remesher;
-  for (int round = 0;; ++round) {
-    auto result = background::coarse_surface(model, size, parameters, run);
-    const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
-    result.summary.set("refinement_rounds", round);
-    if (pairs.empty())
-      return result;
-    if (round == options.refinement_rounds) {
-      const auto& tags = result.surface.mesh.tags;
-      detail::throw_crossing_faces(model.topology(), tags[static_cast<std::size_t>(pairs.front().first)],
-                                   tags[static_cast<std::size_t>(pairs.front().second)]);
-    }
-    for (const triangle_pair& pair : pairs)
-      detail::add_balls_at_crossing(result.surface, pair, parameters.refinement);
-  }
-}
+background::coarse_surface_result surface_without_crossings(const any_geometry& model, const any_sizing& size,
+                                                            const any_executor& run,
+                                                            const generate_options& options);
 
 /// Chooses the decomposition from the predicted size of a mesh, in subdomains of `per_subdomain` elements.
 /// The numbers of background elements in the options are those of D = 3; a surface has as many per length.
 template <int D>
 mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
-                    const generate_options& options) {
-  const auto of_dimension = [](double elements) {
-    return D == 3 ? elements : std::pow(elements, static_cast<double>(D) / 3);
-  };
-  mesh_plan plan;
-  plan.predicted_elements = predicted.elements;
-  plan.relative_error = predicted.relative_error;
-  plan.subdomains = options.subdomains > 0
-                        ? options.subdomains
-                        : detail::default_subdomains(predicted.elements, per_subdomain, options);
-  const double coarse_elements =
-      std::max(plan.subdomains * of_dimension(options.background_elements_per_subdomain),
-               std::min(of_dimension(options.background_elements), predicted.elements / 10));
-  plan.coarse_scale = options.coarse_scale > 0
-                          ? options.coarse_scale
-                          : std::max(1.5, D == 3 ? std::cbrt(predicted.elements / coarse_elements)
-                                                 : std::pow(predicted.elements / coarse_elements, 1.0 / D));
-  return plan;
-}
+                    const generate_options& options);
 
 /// The elements that a mesh of a model will have: tetrahedra inside a surface, or triangles on it. `surface`
 /// may be as coarse as the sizing field's features allow. `elements_per_unit_size` are the tetrahedra a
 /// mesher makes per integral of h^-3.
 template <int D>
 element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology,
-                                const any_sizing& size, double elements_per_unit_size) {
-  if constexpr (D == 3) {
-    return predict_volume_elements(detail::outer_surface(surface, topology), size,
-                                   {.density = elements_per_unit_size});
-  } else {
-    return predict_elements<2>(surface.mesh, size);
-  }
-}
-
-namespace detail {
+                                const any_sizing& size, double elements_per_unit_size);
 
 /// The size of a mesh that its coarse surface allows. In D = 3 that is the one given: where interfaces and
 /// surfaces cross, `realize` mends it. In D = 2 an edge turns with the surface by no more than an edge of the
 /// background mesh: beyond that, triangles of sheets that are near to each other would cross.
 template <int D>
-any_sizing allowed_size(const erased_sizing& size, const background::coarse_surface_result& coarse) {
-  if constexpr (D == 3)
-    return keep_bounds(size);
-  else
-    return within_bounds(keep_bounds(size), coarse.bounds, background::coarse_surface_parameters{}.growth);
-}
-
-} // namespace detail
+any_sizing allowed_size(const erased_sizing& size, const background::coarse_surface_result& coarse);
 
 template <int D>
 struct background_result {
@@ -189,57 +83,16 @@ struct background_result {
 /// cannot be used, and what the surface mesher throws.
 template <int D = 3>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
-                          const any_parameters<D>& given) {
-  detail::require_usable_size(model, size);
-  const generate_options& options = given.options;
-  constexpr double as_coarse_as_possible = 1e6;
-  options.on_progress("planning", 0, 0);
-  const auto first = surface_without_crossings(
-      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
-  const mesh_plan plan =
-      plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), detail::allowed_size<D>(size, first),
-                                   given.mesh_it.elements_per_inverse_cubed_size()),
-                   options.elements_per_subdomain > 0 ? options.elements_per_subdomain
-                                                      : given.mesh_it.elements_per_subdomain(),
-                   options);
-  if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
-    throw too_many_elements(plan.predicted_elements, options.largest_prediction);
-  return plan;
-}
+                          const std::type_identity_t<any_parameters<D>>& given);
 
 /// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
 /// concerned.
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
-                                     const any_parameters<D>& given) {
-  const stopwatch clock;
-  const generate_options& options = given.options;
-  background_result<D> result;
-  result.summary.name = "background";
-  result.plan = plan_background<D>(model, size, given);
-
-  options.on_progress("background surface", 0, 0);
-  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
-  result.summary.children.push_back(std::move(surface.summary));
-  result.size = detail::allowed_size<D>(size, surface);
-  result.mesh.surface = std::move(surface.surface);
-  if constexpr (D == 3) {
-    options.on_progress("background volume", 0, 0);
-    auto volume = background::coarse_volume(
-        result.mesh.surface, model.topology(), coarse, given.mesh_it, options.background_improver,
-        given.run_tasks,
-        {.on_failure = write_facets_of_failures(options.failure_folder),
-         .limit_seconds = options.limit_seconds,
-         .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
-    result.mesh.volume = std::move(volume.mesh);
-    result.summary.children.push_back(std::move(volume.summary));
-  }
-  result.summary.set("predicted_elements", result.plan.predicted_elements);
-  result.summary.set("coarse_scale", result.plan.coarse_scale);
-  result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
-  result.summary.seconds = clock.seconds();
-  return result;
-}
+                                     const any_parameters<D>& given);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/background.ipp"
+#endif

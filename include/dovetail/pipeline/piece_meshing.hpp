@@ -2,8 +2,10 @@
 /// From the fine boundaries of a decomposition to its meshed pieces, for D = 2 and D = 3.
 #pragma once
 
+#include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/realize.hpp"
+#include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/subdomain_surface.hpp"
 
 #include <algorithm>
@@ -26,15 +28,6 @@ inline piece_source<3> source_of_pieces(const any_geometry&, const simplicial_ba
     input.skeleton_points = std::move(surface.skeleton_points);
     return input;
   };
-}
-
-/// A CAD face as a surface of its own, which keeps the model alive.
-inline any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face) {
-  any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
-                      [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};
-  if (const auto plane = model->plane_of_face(face))
-    surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
-  return surface;
 }
 
 /// `own_model`: a model that is not thread-safe is copied for every piece.

@@ -2,15 +2,8 @@
 /// The background mesh by a mesher that keeps no boundary, for `generate_from_background`.
 #pragma once
 
-#include "dovetail/background/whole_domain.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/pipeline/background.hpp"
-
-#include <cstddef>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace dovetail {
 
@@ -21,41 +14,11 @@ namespace dovetail {
 ///
 /// The mesher's triangles become the coarse surface. Throws `geometry_error` for models of several solids,
 /// whose common faces it would not keep, and what its steps throw.
-inline background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
-                                               const any_geometry& model, const erased_sizing& size,
-                                               const any_parameters<3>& given) {
-  const stopwatch clock;
-  const generate_options& options = given.options;
-  if (const std::size_t solids = model.topology().solids.size(); solids != 1)
-    throw geometry_error(
-        "the model has " + std::to_string(solids) +
-        " solids, and a mesher of whole domains makes the background mesh of one; use the native "
-        "background mesher");
-  background_result<3> result;
-  result.summary.name = "background";
-  result.plan = plan_background<3>(model, size, given);
-
-  // The domain is finer than the mesh of it, so that its points are near to the CAD surface.
-  constexpr double finer = 0.4;
-  options.on_progress("background surface", 0, 0);
-  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto domain = surface_without_crossings(
-      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, options);
-  result.summary.children.push_back(domain.summary);
-  result.size = detail::allowed_size<3>(size, domain);
-
-  options.on_progress("background volume", 0, 0);
-  const simplicial_mesh<2> shape = detail::outer_surface(domain.surface, model.topology());
-  auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
-  result.summary.children.push_back(std::move(whole.summary));
-  result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
-  result.summary.children.push_back(options.background_improver(
-      result.mesh.volume, {.points = static_cast<local_id>(result.mesh.surface.mesh.points.size())}, coarse));
-  result.summary.set("predicted_elements", result.plan.predicted_elements);
-  result.summary.set("coarse_scale", result.plan.coarse_scale);
-  result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
-  result.summary.seconds = clock.seconds();
-  return result;
-}
+background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole, const any_geometry& model,
+                                        const erased_sizing& size, const any_parameters<3>& given);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/whole_background.ipp"
+#endif

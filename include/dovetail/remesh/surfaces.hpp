@@ -2,7 +2,12 @@
 /// Surfaces for the patch remesher: a plane, a face of a geometry model, a curved interface face.
 #pragma once
 
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/remesh/patch.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
 
 namespace dovetail::remesh {
 
@@ -24,9 +29,8 @@ struct plane_surface {
 };
 
 /// A face of a geometry model, which must outlive this.
-template <geometry_model G>
 struct model_surface {
-  const G* model;
+  const any_geometry* model;
   local_id face;
 
   surface_frame frame(vec2 uv) const { return model->face_frame(face, uv); }
@@ -34,3 +38,31 @@ struct model_surface {
 };
 
 } // namespace dovetail::remesh
+
+namespace dovetail {
+
+/// A parametric surface chosen at run time; a model of `patch_surface`.
+struct any_surface {
+  std::function<surface_frame(vec2)> frame;
+  std::function<vec2(vec3, vec2)> project;
+  /// The same surface where it is a plane with orthonormal parameters: meshers then need no calls.
+  std::optional<remesh::plane_surface> plane = std::nullopt;
+
+  /// Another surface, which must outlive this.
+  template <patch_surface S>
+  static any_surface view_of(const S& surface) {
+    return {[&surface](vec2 uv) { return surface.frame(uv); },
+            [&surface](vec3 p, vec2 seed) { return surface.project(p, seed); }};
+  }
+};
+
+/// A face of a model, which it keeps alive.
+inline any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face) {
+  any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
+                      [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};
+  if (const auto plane = model->plane_of_face(face))
+    surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
+  return surface;
+}
+
+} // namespace dovetail

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
+#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <utility>

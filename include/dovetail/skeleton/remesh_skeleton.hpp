@@ -4,13 +4,13 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
-#include "dovetail/core/sequence.hpp"
-#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
-#include <numeric>
-#include <set>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace dovetail {
 
@@ -34,275 +34,18 @@ struct remeshed_skeleton {
   report summary;
 };
 
-namespace detail {
-
-class skeleton_remesher {
-public:
-  skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
-                    std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                    const any_sizing& size, const remesh::patch_remesher& remesher, const any_executor& run,
-                    patch_cache& cache, const progress& on_progress)
-      : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), size_(size),
-        remesher_(remesher), run_(run), cache_(cache), on_progress_(on_progress) {}
-
-  remeshed_skeleton run() {
-    const stopwatch clock;
-    lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, run_, on_progress_);
-    const double line_seconds = clock.seconds();
-    build_patches();
-    remesh_patches();
-    for (int round = 0; round < 6 && forbid_repeated_edges(); ++round)
-      remesh_patches();
-    remeshed_skeleton result = assemble();
-    result.summary.name = "skeleton";
-    result.summary.set("lines", static_cast<double>(skeleton_.lines.size()));
-    result.summary.set("regions", static_cast<double>(skeleton_.regions.size()));
-    result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
-    result.summary.set("triangles", static_cast<double>(result.fine.triangles.size()));
-    result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("line_seconds", line_seconds);
-    result.summary.seconds = clock.seconds();
-    return result;
-  }
-
-private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  std::size_t patch_count() const { return skeleton_.regions.size() + skeleton_.faces.size(); }
-  bool is_region(std::size_t patch) const { return patch < skeleton_.regions.size(); }
-  const skeleton_face& face_of(std::size_t patch) const {
-    return skeleton_.faces[patch - skeleton_.regions.size()];
-  }
-
-  void build_patches() {
-    patches_.reserve(patch_count());
-    for (const skeleton_region& region : skeleton_.regions)
-      patches_.push_back(region_patch(model_, surface_, region, lines_));
-    for (const skeleton_face& face : skeleton_.faces)
-      patches_.push_back(interface_patch(face, coarse_points_, lines_).patch);
-    keys_.resize(patch_count());
-    for (std::size_t p = 0; p < patch_count(); ++p)
-      keys_[p] = key_of(p);
-  }
-
-  /// What a patch's mesh depends on, by coarse numbers, which merges do not change.
-  std::vector<local_id> key_of(std::size_t p) const {
-    std::vector<local_id> key;
-    if (is_region(p)) {
-      const skeleton_region& region = skeleton_.regions[p];
-      key = {region.cad_face, static_cast<local_id>(region.triangles.size())};
-      append(key, region.triangles);
-      std::set<local_id> lines(patches_[p].line_of_segment.begin(), patches_[p].line_of_segment.end());
-      lines.erase(no_id);
-      for (const local_id line : lines)
-        append(key, lines_.keys[at(line)].vertices);
-      key.push_back(no_id);
-      append(key, region.fixed_points);
-    } else {
-      const simplex<2> corners = key_order(face_of(p));
-      key = {no_id, corners[0], corners[1], corners[2]};
-    }
-    return key;
-  }
-
-  void remesh_patches() {
-    std::vector<std::size_t> missing;
-    for (std::size_t p = 0; p < patch_count(); ++p)
-      if (!cache_.contains(keys_[p]))
-        missing.push_back(p);
-    run_options options{.on_progress = on_progress_, .stage = "skeleton"};
-    options.order.resize(missing.size());
-    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
-    stable_sort_all(options.order, [&](std::size_t a, std::size_t b) {
-      return patches_[missing[a]].boundary.segments.size() > patches_[missing[b]].boundary.segments.size();
-    });
-    const auto outcomes = run_.run(
-        missing.size(),
-        [&](std::size_t i) {
-          const task_model own(model_, run_);
-          return encode(remesh_patch(own.get(), missing[i]));
-        },
-        options);
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-      if (!outcomes[i].ok)
-        throw mesher_error("remeshing of " + name_of(missing[i]) + " failed: " + outcomes[i].failure);
-      cache_[keys_[missing[i]]] = decode_patch_mesh(outcomes[i].result);
-    }
-  }
-
-  patch_mesh remesh_patch(const any_geometry& model, std::size_t p) const {
-    if (is_region(p))
-      return remesher_(remesh::model_surface<any_geometry>{&model, skeleton_.regions[p].cad_face},
-                       patches_[p].boundary, size_);
-    const face_patch face = interface_patch(face_of(p), coarse_points_, lines_);
-    patch_boundary boundary = face.patch.boundary;
-    boundary.forbidden_edges = patches_[p].boundary.forbidden_edges;
-    return remesher_(face.surface, boundary, size_);
-  }
-
-  std::string name_of(std::size_t p) const {
-    if (!is_region(p))
-      return "interface face " + std::to_string(p - skeleton_.regions.size());
-    const local_id f = skeleton_.regions[p].cad_face;
-    const std::string& name = model_.topology().faces[at(f)].name;
-    return "a region of face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
-  }
-
-  /// An inner edge that joins two boundary points belongs to one patch only, and none joins neighbours on a
-  /// line. Tells the later patches to do without; false when there is nothing to do.
-  bool forbid_repeated_edges() {
-    std::vector<std::pair<std::array<local_id, 2>, std::size_t>> chords; // patch_count() stands for the lines
-    for (std::size_t l = 0; l < lines_.keys.size(); ++l) {
-      const auto numbers = lines_.along(static_cast<local_id>(l), lines_.keys[l].vertices[0]);
-      for (std::size_t i = 0; i + 1 < numbers.size(); ++i)
-        chords.emplace_back(sorted_vertices(std::array{numbers[i], numbers[i + 1]}), 0);
-    }
-    const std::size_t on_lines = chords.size();
-    for (std::size_t p = 0; p < patch_count(); ++p)
-      collect_chords(p, chords);
-    for (std::size_t i = on_lines; i < chords.size(); ++i)
-      ++chords[i].second; // lines sort first
-    sort_unique(chords);
-    std::set<std::size_t> changed;
-    for (std::size_t i = 1; i < chords.size(); ++i)
-      if (chords[i].first == chords[i - 1].first) {
-        const std::size_t p = chords[i].second - 1;
-        auto& forbidden = patches_[p].boundary.forbidden_edges;
-        if (std::find(forbidden.begin(), forbidden.end(), chords[i].first) == forbidden.end()) {
-          forbidden.push_back(chords[i].first);
-          changed.insert(p);
-        }
-      }
-    for (const std::size_t p : changed) {
-      keys_[p].push_back(no_id - 1); // a different mesh than without them
-      for (const auto& edge : patches_[p].boundary.forbidden_edges)
-        append(keys_[p], edge);
-    }
-    return !changed.empty();
-  }
-
-  void collect_chords(std::size_t p,
-                      std::vector<std::pair<std::array<local_id, 2>, std::size_t>>& chords) const {
-    const patch_boundary& boundary = patches_[p].boundary;
-    const auto frozen = static_cast<local_id>(boundary.labels.size());
-    std::set<std::array<local_id, 2>> own;
-    for (const auto& [a, b] : boundary.segments)
-      own.insert(sorted_vertices(std::array{boundary.labels[at(a)], boundary.labels[at(b)]}));
-    for (const simplex<2>& t : cache_.at(keys_[p]).triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const local_id a = t[i], b = t[(i + 1) % 3];
-        if (a >= frozen || b >= frozen)
-          continue;
-        const auto edge = sorted_vertices(std::array{boundary.labels[at(a)], boundary.labels[at(b)]});
-        if (edge[0] != edge[1] && !own.contains(edge))
-          chords.emplace_back(edge, p);
-      }
-  }
-
-  remeshed_skeleton assemble() {
-    remeshed_skeleton result;
-    fine_skeleton& fine = result.fine;
-    fine.points = lines_.points;
-    fine.point_hosts = lines_.hosts;
-    double folded = 0;
-    for (std::size_t p = 0; p < patch_count(); ++p) {
-      const patch_mesh& mesh = cache_.at(keys_[p]);
-      if (!mesh.crossings.empty() || !mesh.misplaced.empty())
-        result.failures.push_back(failure_of(p, mesh));
-      if (!mesh.folded.empty()) {
-        folded += static_cast<double>(mesh.folded.size());
-        if (is_region(p))
-          result.summary.warnings.push_back(name_of(p) + ": " + std::to_string(mesh.folded.size()) +
-                                            " triangles turn away from the surface");
-      }
-      append_patch(p, mesh, result);
-    }
-    result.summary.set("folded_triangles", folded);
-    for (std::size_t l = 0; l < lines_.keys.size(); ++l)
-      if (lines_.keys[l].on.dimension == 1)
-        append_curve_edges(static_cast<local_id>(l), fine);
-    return result;
-  }
-
-  patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {
-    patch_failure failure;
-    (is_region(p) ? failure.region : failure.face) =
-        static_cast<local_id>(is_region(p) ? p : p - skeleton_.regions.size());
-    std::set<local_id> lines;
-    for (const auto& [a, b] : mesh.crossings)
-      for (const local_id segment : {a, b})
-        lines.insert(patches_[p].line_of_segment[at(segment)]);
-    for (const local_id segment : mesh.misplaced)
-      lines.insert(patches_[p].line_of_segment[at(segment)]);
-    for (const local_id line : lines)
-      if (line != no_id && lines_.keys[at(line)].on.dimension > 1)
-        failure.removable_lines.push_back(line);
-    failure.reason = name_of(p) + ": its boundary lines cross in the parameter plane";
-    return failure;
-  }
-
-  void append_patch(std::size_t p, const patch_mesh& mesh, remeshed_skeleton& result) const {
-    fine_skeleton& fine = result.fine;
-    const auto& labels = patches_[p].boundary.labels;
-    const auto frozen = static_cast<local_id>(labels.size());
-    const auto first_inner = static_cast<local_id>(fine.points.size());
-    append(fine.points, mesh.inner_points);
-    fine.point_hosts.resize(fine.points.size(),
-                            is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
-    auto subdomains = is_region(p) ? skeleton_.regions[p].subdomains : face_of(p).subdomains;
-    bool swap = is_region(p) ? model_.topology().faces[at(skeleton_.regions[p].cad_face)].reversed
-                             : !same_turn(key_order(face_of(p)), face_of(p).vertices);
-    if (subdomains[0] == no_id) { // a face that bounds nothing behind it
-      std::swap(subdomains[0], subdomains[1]);
-      swap = !swap;
-    }
-    for (simplex<2> triangle : mesh.triangles) {
-      if (swap)
-        std::swap(triangle[1], triangle[2]);
-      for (local_id& v : triangle)
-        v = v < frozen ? labels[at(v)] : first_inner + v - frozen;
-      fine.triangles.push_back(triangle);
-      fine.subdomains.push_back(subdomains);
-      fine.cad_faces.push_back(is_region(p) ? skeleton_.regions[p].cad_face : no_id);
-      result.patch_of_triangle.push_back(static_cast<local_id>(p));
-    }
-  }
-
-  void append_curve_edges(local_id line, fine_skeleton& fine) const {
-    const auto numbers = lines_.along(line, lines_.keys[at(line)].vertices[0]);
-    for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
-      fine.curve_edges.push_back({numbers[i], numbers[i + 1]});
-      fine.curves.push_back(lines_.keys[at(line)].on.id);
-    }
-  }
-
-  const any_geometry& model_;
-  const surface_mesh& surface_;
-  std::span<const vec3> coarse_points_;
-  const coarse_skeleton& skeleton_;
-  const any_sizing& size_;
-  const remesh::patch_remesher& remesher_;
-  const any_executor& run_;
-  patch_cache& cache_;
-  const progress& on_progress_;
-  numbered_lines lines_;
-  std::vector<skeleton_patch> patches_;
-  std::vector<std::vector<local_id>> keys_;
-};
-
-} // namespace detail
-
 /// Remeshes the skeleton to the sizing field. `cache` carries patches from one call to the next as long as
 /// the model, the coarse mesh and the field are the same; start with an empty one. About linear in the
 /// triangles made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at
 /// all.
-inline remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
-                                         std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                         const any_sizing& size, const remesh::patch_remesher& remesher,
-                                         const any_executor& run, patch_cache& cache,
-                                         const progress& on_progress = {}) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, size, remesher, run, cache,
-                                   on_progress)
-      .run();
-}
+remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
+                                  std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
+                                  const any_sizing& size, const remesh::patch_remesher& remesher,
+                                  const any_executor& run, patch_cache& cache,
+                                  const progress& on_progress = {});
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/skeleton/remesh_skeleton.ipp"
+#endif

@@ -1,0 +1,209 @@
+/// @file
+/// What `realize.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
+#include "dovetail/intersection/suppression.hpp"
+#include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/skeleton/line_skeleton.hpp"
+#include "dovetail/skeleton/remesh_skeleton.hpp"
+
+#include <set>
+
+namespace dovetail {
+
+namespace detail {
+
+/// The rounds of `realize`.
+class skeleton_rounds {
+public:
+  skeleton_rounds(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
+                  std::span<const side_state> side_states, const any_sizing& size,
+                  const any_parameters<3>& given)
+      : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), given_(given) {}
+
+  realized_skeleton run(std::vector<local_id> subdomain_of_element, local_id subdomains) {
+    result_.subdomain_of_element = std::move(subdomain_of_element);
+    result_.size = size_;
+    sizes_.assign(static_cast<std::size_t>(subdomains), 1);
+    result_.skeleton_summary.name = "skeleton";
+    result_.intersection_summary.name = "intersection";
+    for (;;) {
+      remeshed_skeleton remeshed = remesh();
+      if (merge_failed_patches(remeshed))
+        continue;
+      const suppression_plan plan = find_crossings(remeshed);
+      if (plan.empty())
+        return finish(std::move(remeshed));
+      if (!plan.merges.empty())
+        merge(plan.merges);
+      else
+        refine(plan.surface_crossings);
+    }
+  }
+
+private:
+  remeshed_skeleton remesh() {
+    const stopwatch clock;
+    result_.coarse = extract_skeleton(mesh_, sides_, result_.subdomain_of_element);
+    auto remeshed = remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
+                                    given_.options.surface_remesher, given_.run_tasks, cache_,
+                                    given_.options.on_progress);
+    const double before = result_.skeleton_summary.seconds;
+    result_.skeleton_summary = remeshed.summary;
+    result_.skeleton_summary.seconds = before + clock.seconds();
+    return remeshed;
+  }
+
+  /// Lines that cross in a region's parameter plane go, with the interfaces that end on them.
+  bool merge_failed_patches(const remeshed_skeleton& remeshed) {
+    if (remeshed.failures.empty())
+      return false;
+    std::set<std::array<local_id, 2>> pairs;
+    for (const patch_failure& failure : remeshed.failures) {
+      std::set<std::array<local_id, 2>> here;
+      for (const local_id line : failure.removable_lines) {
+        const auto& ends = result_.coarse.lines[static_cast<std::size_t>(line)].vertices;
+        for (const skeleton_face& face : result_.coarse.faces)
+          if (std::count(face.vertices.begin(), face.vertices.end(), ends[0]) +
+                  std::count(face.vertices.begin(), face.vertices.end(), ends[1]) ==
+              2)
+            here.insert(face.subdomains);
+      }
+      if (here.empty())
+        throw mesher_error(failure.reason + "; give a smaller size there");
+      pairs.insert(here.begin(), here.end());
+    }
+    merge({pairs.begin(), pairs.end()});
+    return true;
+  }
+
+  suppression_plan find_crossings(const remeshed_skeleton& remeshed) {
+    const stopwatch clock;
+    given_.options.on_progress("intersection", 0, 0);
+    std::vector<bool> planar_patch;
+    planar_patch.resize(result_.coarse.regions.size(), false);
+    for (const skeleton_face& face : result_.coarse.faces)
+      planar_patch.push_back(!is_curved(face, result_.coarse.lines));
+    std::vector<bool> planar;
+    planar.reserve(remeshed.patch_of_triangle.size());
+    for (const local_id patch : remeshed.patch_of_triangle)
+      planar.push_back(planar_patch[static_cast<std::size_t>(patch)]);
+    auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks);
+    result_.intersection_summary.add("crossings", static_cast<double>(plan.crossings));
+    result_.intersection_summary.add("rounds", 1);
+    result_.intersection_summary.seconds += clock.seconds();
+    return plan;
+  }
+
+  void merge(const std::vector<std::array<local_id, 2>>& pairs) {
+    const std::size_t before = sizes_.size();
+    merge_subdomains(result_.subdomain_of_element, sizes_, pairs);
+    merged_ += static_cast<local_id>(before - sizes_.size());
+    const auto started_with = static_cast<double>(sizes_.size()) + merged_;
+    if (merged_ > std::max(2.0, given_.options.largest_merged_fraction * started_with))
+      throw intersection_error(
+          std::to_string(merged_) + " of " + std::to_string(std::lround(started_with)) +
+          " subdomains had to be merged, since their interfaces cross the surface; give a "
+          "smaller size or fewer subdomains");
+  }
+
+  void refine(const std::vector<surface_crossing>& crossings) {
+    result_.size = refinement_.refine(crossings, model_.topology());
+    ++refinements_;
+    cache_.clear();
+  }
+
+  realized_skeleton finish(remeshed_skeleton remeshed) {
+    result_.material_of_subdomain.assign(sizes_.size(), 0);
+    for (std::size_t e = 0; e < result_.subdomain_of_element.size(); ++e)
+      result_.material_of_subdomain[static_cast<std::size_t>(result_.subdomain_of_element[e])] =
+          mesh_.volume.tags[e];
+    result_.fine = std::move(remeshed.fine);
+    name_inner_hosts();
+    result_.origins = origins_of(remeshed.patch_of_triangle);
+    report& summary = result_.intersection_summary;
+    summary.set("merges", merged_);
+    summary.set("largest_merged", *std::max_element(sizes_.begin(), sizes_.end()));
+    summary.set("refinements", refinements_);
+    return std::move(result_);
+  }
+
+  /// Points of inner interfaces lie in the solid of the subdomains beside them.
+  void name_inner_hosts() {
+    fine_skeleton& fine = result_.fine;
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+      for (const local_id v : fine.triangles[t])
+        if (host& on = fine.point_hosts[static_cast<std::size_t>(v)]; on.dimension == 3)
+          on.id = result_.material_of_subdomain[static_cast<std::size_t>(fine.subdomains[t][0])];
+  }
+
+  /// What the simplification decided about the coarse face that each fine triangle lies on.
+  std::vector<triangle_origin> origins_of(const std::vector<local_id>& patch_of_triangle) const {
+    std::vector<triangle_origin> of_patch(result_.coarse.regions.size(), triangle_origin::cad);
+    for (const skeleton_face& face : result_.coarse.faces) {
+      const auto side = static_cast<std::size_t>(detail::find_side<3>(sides_, face.vertices));
+      of_patch.push_back(side_states_[side] == side_state::refused ? triangle_origin::refused
+                                                                   : triangle_origin::kept);
+    }
+    std::vector<triangle_origin> origins;
+    origins.reserve(patch_of_triangle.size());
+    for (const local_id patch : patch_of_triangle)
+      origins.push_back(of_patch[static_cast<std::size_t>(patch)]);
+    return origins;
+  }
+
+  const any_geometry& model_;
+  const background_mesh& mesh_;
+  const side_table<3>& sides_;
+  std::span<const side_state> side_states_;
+  any_sizing size_;
+  const any_parameters<3>& given_;
+  crossing_refinement refinement_{size_, given_.options.refinement_rounds};
+  int refinements_ = 0;
+  patch_cache cache_;
+  std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of
+  local_id merged_ = 0;
+  realized_skeleton result_;
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
+                                    const side_table<2>& sides, std::span<const side_state>,
+                                    std::vector<local_id> subdomain_of_element, local_id subdomains,
+                                    const any_sizing& size, const any_parameters<2>& given) {
+  const stopwatch clock;
+  realized<2> result;
+  result.coarse = extract_skeleton(mesh.surface, own_pieces(subdomain_of_element));
+  result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size,
+                               given.run_tasks, given.options.on_progress);
+  result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
+  result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(subdomains));
+  result.subdomain_of_element = std::move(subdomain_of_element);
+  result.material_of_subdomain.assign(static_cast<std::size_t>(subdomains), 0);
+  result.size = size;
+  result.intersection_summary.name = "intersection";
+  report& summary = result.skeleton_summary;
+  summary.name = "skeleton";
+  summary.set("lines", static_cast<double>(result.coarse.lines.size()));
+  summary.set("regions", static_cast<double>(result.coarse.regions.size()));
+  summary.set("edges", static_cast<double>(result.fine.edges.size()));
+  summary.set("points", static_cast<double>(result.fine.points.size()));
+  summary.seconds = clock.seconds();
+  return result;
+}
+
+DOVETAIL_INLINE realized_skeleton realize(const any_geometry& model, const background_mesh& mesh,
+                                          const side_table<3>& sides, std::span<const side_state> side_states,
+                                          std::vector<local_id> subdomain_of_element, local_id subdomains,
+                                          const any_sizing& size, const any_parameters<3>& given) {
+  return detail::skeleton_rounds(model, mesh, sides, side_states, size, given)
+      .run(std::move(subdomain_of_element), subdomains);
+}
+
+} // namespace dovetail
