@@ -4,7 +4,7 @@
 
 #include "compare_rows.hpp"
 
-#include "dovetail/io/raster_image.hpp"
+#include "raster_image.hpp"
 
 #include <cstdint>
 #include <string>

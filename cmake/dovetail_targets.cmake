@@ -64,6 +64,9 @@ dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
 find_package(nlohmann_json 3.7 QUIET CONFIG)
 dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)
 
+find_package(ZLIB QUIET)
+dovetail_adapter(zlib FOUND "${ZLIB_FOUND}" LIBRARIES ZLIB::ZLIB)
+
 message(STATUS "dovetail adapters: ${dovetail_components}")
 if(dovetail_missing_components)
   message(STATUS "dovetail adapters without their library: ${dovetail_missing_components}")

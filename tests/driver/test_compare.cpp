@@ -1,9 +1,9 @@
 #include "compare_groups.hpp"
 #include "compare_page.hpp"
 #include "compare_table.hpp"
+#include "png.hpp"
 
-#include "dovetail/io/png_output.hpp"
-#include "dovetail/io/xml_tree.hpp"
+#include "dovetail/core/xml_tree.hpp"
 
 #include <doctest/doctest.h>
 
@@ -68,8 +68,8 @@ std::vector<std::vector<std::string>> parsed_csv(const std::string& text) {
   return lines;
 }
 
-std::vector<const io::xml_element*> elements_called(const io::xml_element& root, std::string_view name) {
-  std::vector<const io::xml_element*> found;
+std::vector<const xml_element*> elements_called(const io::xml_element& root, std::string_view name) {
+  std::vector<const xml_element*> found;
   if (root.name == name)
     found.push_back(&root);
   for (const auto& child : root.children) {
@@ -153,12 +153,12 @@ TEST_CASE("the claim is answered with the measured figures") {
 
 TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
   comparison_pictures pictures;
-  const auto png = io::encode_png(io::raster_image(3, 2));
+  const auto png = encode_png(raster_image(3, 2));
   pictures.decompositions = {{"metis, with simplification", png}, {"metis, <without>", png}};
   pictures.worst_elements = {{"tetgen + none", png}};
   const std::string page = page_html(example(), pictures);
   CHECK(page.starts_with("<!DOCTYPE html>"));
-  const auto root = io::xml_parser(page, "page").parse();
+  const auto root = xml_parser(page, "page").parse();
   CHECK(root.name == "html");
   CHECK(elements_called(root, "svg").size() == 4);
   const auto images = elements_called(root, "img");
@@ -180,7 +180,7 @@ TEST_CASE("a page about failures only is still a page") {
   comparison compared = example();
   for (auto& row : compared.rows)
     row.error = "mesher_error: no";
-  const auto root = io::xml_parser(page_html(compared, {}), "page").parse();
+  const auto root = xml_parser(page_html(compared, {}), "page").parse();
   CHECK(elements_called(root, "tr").size() == 18);
   CHECK(page_html(compared, {}).find("no answer") != std::string::npos);
 }
