@@ -23,7 +23,7 @@ TEST_CASE("an SVG file's paths are read wherever they stand in it, and whatever 
                            "  <!ENTITY ns_svg \"http://www.w3.org/2000/svg\">\n]>\n"
                            "<!-- <path d='M0 0 H9 V9 Z'/> -->\n"
                            "<svg xmlns='&ns_svg;' viewBox='0 0 4 4'>\n"
-                           "<style><![CDATA[ g > path { fill: #ccc } </path> ]]></style>\n"
+                           "<style><![CDATA[ g[id] > path { fill: #ccc } </path> ]]></style>\n"
                            "<g id='a'><g><path id = 'outer &amp; first'\n d='M0 0 H4 V4 H0 Z'/></g></g>\n"
                            "<g><path d=\"M1 1 H2 V2 Z M1 3 L3 3\" fill=\"none\"></path></g>\n"
                            "</svg>\n");
