@@ -3,6 +3,7 @@
 /// extension.
 #pragma once
 
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
 
