@@ -1,5 +1,4 @@
 #include "commands.hpp"
-#include "compare_groups.hpp"
 #include "compare_page.hpp"
 #include "compare_pictures.hpp"
 #include "compare_runs.hpp"
@@ -33,7 +32,7 @@ public:
       pictures_.decompositions.push_back({decomposition, encode_png(picture_of_decomposition(result))});
       pictures_.interfaces.push_back({decomposition, encode_png(picture_of_interfaces(result))});
     }
-    const std::string meshing = meshing_of(row).name();
+    const std::string meshing = by.mesher + " + " + by.improver;
     if (is_new(pictures_.worst_elements, meshing))
       pictures_.worst_elements.push_back({meshing, encode_png(picture_of_worst_elements(result))});
   }
