@@ -26,7 +26,7 @@ namespace detail {
 /// Masses M are the node weights, but none is zero, so that light nodes go with their neighbours.
 class inverse_laplacian {
 public:
-  using Scalar = double;
+  using Scalar = double; // NOLINT: the name is Spectra's
 
   explicit inverse_laplacian(const csr_graph& graph) : scale_(graph.node_count()) {
     constexpr double epsilon = 1e-9; // of the largest entry: L itself has the eigenvalue 0
