@@ -5,6 +5,7 @@
 
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/io/zlib.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
 
@@ -53,7 +54,7 @@ int print_quality(const simplicial_mesh<D>& mesh, const stats_options& options) 
 /// Calls `f` with the mesh in the file: tetrahedra, or triangles where it has none.
 template <class F>
 int with_mesh_of(const std::string& file, const F& f) {
-  io::loaded_mesh loaded = io::read_mesh(file);
+  io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
   return is_of_triangles(loaded) ? f(take_triangles(std::move(loaded))) : f(loaded.mesh);
 }
 

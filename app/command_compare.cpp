@@ -1,5 +1,4 @@
 #include "commands.hpp"
-#include "compare_groups.hpp"
 #include "compare_page.hpp"
 #include "compare_pictures.hpp"
 #include "compare_runs.hpp"
@@ -12,7 +11,7 @@
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/io/png_output.hpp"
+#include "png.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -30,12 +29,12 @@ public:
     const combination& by = row.policies;
     const std::string decomposition = by.partitioner + ", " + simplification_of(by) + " simplification";
     if (is_new(pictures_.decompositions, decomposition)) {
-      pictures_.decompositions.push_back({decomposition, io::encode_png(picture_of_decomposition(result))});
-      pictures_.interfaces.push_back({decomposition, io::encode_png(picture_of_interfaces(result))});
+      pictures_.decompositions.push_back({decomposition, encode_png(picture_of_decomposition(result))});
+      pictures_.interfaces.push_back({decomposition, encode_png(picture_of_interfaces(result))});
     }
-    const std::string meshing = meshing_of(row).name();
+    const std::string meshing = by.mesher + " + " + by.improver;
     if (is_new(pictures_.worst_elements, meshing))
-      pictures_.worst_elements.push_back({meshing, io::encode_png(picture_of_worst_elements(result))});
+      pictures_.worst_elements.push_back({meshing, encode_png(picture_of_worst_elements(result))});
   }
   const comparison_pictures& pictures() const { return pictures_; }
 

@@ -6,6 +6,7 @@
 #include "run_figures.hpp"
 
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/io/zlib.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <cstdio>
@@ -101,7 +102,7 @@ void improve_and_report(const any_improver<D>& improve, simplicial_mesh<D>& mesh
 int run_improve(const improve_options& options) {
   const auto improve_tetrahedra = make_improver<3>(options.preset);
   check_can_write(options.out);
-  io::loaded_mesh loaded = io::read_mesh(options.input);
+  io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
   if (!is_of_triangles(loaded)) {
     improve_and_report(improve_tetrahedra, loaded.mesh, options,
                        [&] { write_mesh_file(loaded, options.out); });

@@ -1,10 +1,9 @@
 /// @file
-/// A comparison as one page that needs nothing else: tables, plots and pictures in one HTML file.
+/// A comparison as one page that needs nothing else: tables, plots and pictures in one HTML file, drawn from
+/// the figures in it by the script of compare_page.html.
 #pragma once
 
 #include "compare_rows.hpp"
-
-#include "dovetail/io/raster_image.hpp"
 
 #include <cstdint>
 #include <string>
@@ -25,11 +24,7 @@ struct comparison_pictures {
   std::vector<captioned_picture> worst_elements;
 };
 
-/// The page, well-formed as XML as well.
+/// The page with its data.
 std::string page_html(const comparison& compared, const comparison_pictures& pictures);
-
-/// What was measured of the method's claim, in sentences: one each for the background mesh's interfaces, the
-/// finished mesh's, the cut and the imbalance. Empty when no pair of rows went well.
-std::vector<std::string> answer_to_the_claim(const comparison& compared);
 
 } // namespace dovetail::app

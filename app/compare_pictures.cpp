@@ -2,8 +2,8 @@
 
 #include "compare_rows.hpp"
 
-#include "dovetail/io/raster_render.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "raster_render.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,25 +16,25 @@ namespace {
 
 constexpr int width = 560;
 constexpr int height = 400;
-constexpr io::rgb red{205, 40, 40};
-constexpr io::rgb orange{240, 150, 30};
-constexpr io::rgb blue{70, 120, 200};
-constexpr io::rgb outline{120, 125, 135};
+constexpr rgb red{205, 40, 40};
+constexpr rgb orange{240, 150, 30};
+constexpr rgb blue{70, 120, 200};
+constexpr rgb outline{120, 125, 135};
 
 /// From where a scene is seen: one that lies in the plane z = const from above.
-vec3 direction_to_viewer(const io::raster_scene& scene) {
+vec3 direction_to_viewer(const raster_scene& scene) {
   const box3 box = scene.bounds();
   const bool flat = box.upper.z - box.lower.z <= 1e-9 * box.diagonal();
   return flat ? vec3{0, 0, 1} : normalized({0.8, -1, 0.65});
 }
 
-io::raster_image rendered(const io::raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
-  const io::raster_view view = io::fitted(io::view_from(from), scene, width, height);
-  return io::render(scene, view, width, height);
+raster_image rendered(const raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
+  const raster_view view = fitted(view_from(from), scene, width, height);
+  return render(scene, view, width, height);
 }
 
 /// Soft colours, neighbours in number far apart in hue: hues go round by the golden ratio.
-io::rgb colour_of_subdomain(local_id s) {
+rgb colour_of_subdomain(local_id s) {
   const double turn = 0.58 + 0.6180339887498949 * s;
   const double hue = 6 * (turn - std::floor(turn));
   const double light = 0.85 + 0.1 * (s % 2);
@@ -74,13 +74,13 @@ std::vector<vec3> centers_of_subdomains(const fine_skeleton& skeleton) {
   return sums;
 }
 
-void add_edges(io::raster_scene& scene, const std::array<vec3, 3>& p) {
+void add_edges(raster_scene& scene, const std::array<vec3, 3>& p) {
   for (std::size_t k = 0; k < 3; ++k)
     scene.lines.push_back({{p[k], p[(k + 1) % 3]}, {70, 70, 80}, 0.5});
 }
 
 /// The edges on CAD curves.
-void add_outline(io::raster_scene& scene, const fine_skeleton& skeleton) {
+void add_outline(raster_scene& scene, const fine_skeleton& skeleton) {
   for (const auto& [a, b] : skeleton.curve_edges)
     scene.lines.push_back(
         {{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
@@ -88,14 +88,14 @@ void add_outline(io::raster_scene& scene, const fine_skeleton& skeleton) {
          0.8});
 }
 
-void add_outline(io::raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
+void add_outline(raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
   for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
     if (skeleton.curves[e] != no_id)
       scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), outline, 0.8});
 }
 
 /// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.
-io::raster_line lifted(io::raster_line line, vec3 towards) {
+raster_line lifted(raster_line line, vec3 towards) {
   for (vec3& p : line.ends)
     p += towards;
   return line;
@@ -139,19 +139,19 @@ std::vector<ranked_element<D>> worst_elements(const distributed_simplicial_mesh<
 }
 
 /// The triangles that bound an element: its sides, or itself.
-void add_faces(io::raster_scene& scene, const std::array<vec3, 4>& p, io::rgb colour) {
+void add_faces(raster_scene& scene, const std::array<vec3, 4>& p, rgb colour) {
   for (const auto& side : numbering::sides<3>)
     scene.triangles.push_back({{p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
                                 p[static_cast<std::size_t>(side[2])]},
                                colour});
 }
-void add_faces(io::raster_scene& scene, const std::array<vec3, 3>& p, io::rgb colour) {
+void add_faces(raster_scene& scene, const std::array<vec3, 3>& p, rgb colour) {
   scene.triangles.push_back({p, colour});
 }
 
 /// An element, scaled about its middle if it is smaller than `least` across.
 template <int D>
-void add_element(io::raster_scene& scene, const ranked_element<D>& element, double least) {
+void add_element(raster_scene& scene, const ranked_element<D>& element, double least) {
   const element_words words = words_of(D);
   auto p = element.corners;
   vec3 middle{};
@@ -168,7 +168,7 @@ void add_element(io::raster_scene& scene, const ranked_element<D>& element, doub
 
 } // namespace
 
-io::raster_image picture_of_decomposition(const generated<3>& result) {
+raster_image picture_of_decomposition(const generated<3>& result) {
   const fine_skeleton& skeleton = result.mesh.skeleton;
   constexpr double explosion = 0.35;           // of the way from the middle of all to one's own
   constexpr std::size_t few_triangles = 12000; // so many have edges that can be told apart
@@ -176,7 +176,7 @@ io::raster_image picture_of_decomposition(const generated<3>& result) {
   for (const vec3 p : skeleton.points)
     box.include(p);
   const std::vector<vec3> centers = centers_of_subdomains(skeleton);
-  io::raster_scene scene;
+  raster_scene scene;
   for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
     for (const local_id s : skeleton.subdomains[t]) {
       if (s == no_id)
@@ -191,12 +191,12 @@ io::raster_image picture_of_decomposition(const generated<3>& result) {
   return rendered(scene);
 }
 
-io::raster_image picture_of_decomposition(const generated<2>& result) {
+raster_image picture_of_decomposition(const generated<2>& result) {
   constexpr std::int64_t few_triangles = 12000; // so many have edges that can be told apart
   std::int64_t triangles = 0;
   for (const piece_counts& piece : result.mesh.counts)
     triangles += piece.elements;
-  io::raster_scene scene;
+  raster_scene scene;
   for (std::size_t s = 0; s < result.mesh.counts.size(); ++s) {
     const auto piece = result.mesh.load(static_cast<local_id>(s));
     for (const simplex<2>& triangle : piece.mesh.elements) {
@@ -210,11 +210,11 @@ io::raster_image picture_of_decomposition(const generated<2>& result) {
   return rendered(scene, direction_to_viewer(scene));
 }
 
-io::raster_image picture_of_interfaces(const generated<3>& result) {
+raster_image picture_of_interfaces(const generated<3>& result) {
   const fine_skeleton& skeleton = result.mesh.skeleton;
   const interface_contract& contract = result.fine_contract;
   constexpr std::size_t few_triangles = 12000;
-  io::raster_scene scene;
+  raster_scene scene;
   add_outline(scene, skeleton);
   std::vector<std::array<vec3, 3>> interfaces;
   for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
@@ -246,17 +246,17 @@ io::raster_image picture_of_interfaces(const generated<3>& result) {
   return rendered(scene);
 }
 
-io::raster_image picture_of_interfaces(const generated<2>& result) {
+raster_image picture_of_interfaces(const generated<2>& result) {
   constexpr double arm = 0.012; // of the model's diagonal
   const simplicial_skeleton<2>& skeleton = result.mesh.skeleton;
-  io::raster_scene scene;
+  raster_scene scene;
   add_outline(scene, skeleton);
   for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
     if (skeleton.curves[e] == no_id)
       scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), blue, 1.5});
   const vec3 from = direction_to_viewer(scene);
   const double diagonal = scene.bounds().diagonal();
-  const io::raster_view view = io::view_from(from);
+  const raster_view view = view_from(from);
   for (const contract_violation& violation : result.fine_contract.violations) {
     // The vertices of lines are those of the background mesh.
     const vec3 at = result.background.surface.mesh.points[static_cast<std::size_t>(violation.edge[0])];
@@ -268,9 +268,9 @@ io::raster_image picture_of_interfaces(const generated<2>& result) {
 }
 
 template <int D>
-io::raster_image picture_of_worst_elements(const generated<D>& result) {
+raster_image picture_of_worst_elements(const generated<D>& result) {
   constexpr double least_across = 0.016; // of the model's diagonal
-  io::raster_scene scene;
+  raster_scene scene;
   add_outline(scene, result.mesh.skeleton);
   box3 box;
   for (const vec3 p : result.mesh.skeleton.points)
@@ -281,7 +281,7 @@ io::raster_image picture_of_worst_elements(const generated<D>& result) {
   return rendered(scene, from);
 }
 
-template io::raster_image picture_of_worst_elements(const generated<2>&);
-template io::raster_image picture_of_worst_elements(const generated<3>&);
+template raster_image picture_of_worst_elements(const generated<2>&);
+template raster_image picture_of_worst_elements(const generated<3>&);
 
 } // namespace dovetail::app

@@ -10,6 +10,7 @@
 #include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/geometry/plane_read.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/io/zlib.hpp"
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/json.hpp"
 #include "dovetail/sizing/sources.hpp"
@@ -126,7 +127,7 @@ model_source file_source(const model_options& options, int dimension) {
 }
 
 background_field load_background(const std::filesystem::path& file, const std::string& array) {
-  io::loaded_mesh loaded = io::read_mesh(file);
+  io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
   const auto* sizes = loaded.scalars(array);
   if (!sizes)
     throw sizing_error(file.string() + ": there is no point array '" + array + "' in this mesh");

@@ -68,7 +68,7 @@ output_folder::output_folder(std::filesystem::path path) : path_(std::move(path)
     made_.push_back(folder);
   }
   try {
-    io::make_folder(path_);
+    make_folder(path_);
     check_can_create(path_ / "written_by_dovetail");
   } catch (...) {
     remove_if_empty();

@@ -31,7 +31,7 @@
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
 #include "dovetail/partition/scotch.hpp"
 #endif
-#ifdef DOVETAIL_DRIVER_WITH_EIGEN
+#ifdef DOVETAIL_DRIVER_WITH_SPECTRA
 #include "dovetail/partition/spectral.hpp"
 #endif
 
@@ -51,7 +51,7 @@ std::vector<any_partitioner> partitioners() {
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
   known.emplace_back(partition::scotch{}, "scotch");
 #endif
-#ifdef DOVETAIL_DRIVER_WITH_EIGEN
+#ifdef DOVETAIL_DRIVER_WITH_SPECTRA
   known.emplace_back(partition::spectral{}, "spectral");
 #endif
   return known;

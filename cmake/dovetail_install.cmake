@@ -35,6 +35,7 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindNetgen.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindScotch.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindSpectra.cmake"
   DESTINATION "${config_directory}")
 
 if(TARGET dovetail_driver)

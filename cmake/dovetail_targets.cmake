@@ -58,11 +58,14 @@ dovetail_adapter(gmsh FOUND "${Gmsh_FOUND}" LIBRARIES Gmsh::Gmsh)
 find_package(Netgen QUIET)
 dovetail_adapter(netgen FOUND "${Netgen_FOUND}" LIBRARIES Netgen::nglib)
 
-find_package(Eigen3 3.3 QUIET CONFIG)
-dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
+find_package(Spectra QUIET)
+dovetail_adapter(spectra FOUND "${Spectra_FOUND}" LIBRARIES Spectra::Spectra)
 
 find_package(nlohmann_json 3.7 QUIET CONFIG)
 dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)
+
+find_package(ZLIB QUIET)
+dovetail_adapter(zlib FOUND "${ZLIB_FOUND}" LIBRARIES ZLIB::ZLIB)
 
 message(STATUS "dovetail adapters: ${dovetail_components}")
 if(dovetail_missing_components)

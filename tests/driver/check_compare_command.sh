@@ -40,15 +40,24 @@ awk -F, 'NR > 1 { print $1 "," $4 }' "$table" | paste -d, - <(column cut) | sort
 (($(wc -l <"$sandbox/cuts") == 4)) || fault "the improver changes the cut"
 grep -q "^metis  *tetgen  *native  *without" "$sandbox/stdout" || fault "no table on the terminal"
 
-# One page, well-formed, with nothing from outside.
+# One page with nothing from outside; what its script draws is well-formed.
 [[ $(head -n 1 "$page") == "<!DOCTYPE html>" ]] || fault "the page has no doctype"
-(($(grep -c 'src="data:image/png;base64,' "$page") == 10)) || fault "not ten pictures"
-(($(grep -c '</svg>' "$page") == 4)) || fault "not four plots"
-! grep -qE 'src="[^d]|href=' "$page" || fault "the page refers to something outside"
-if command -v python3 >/dev/null; then
-  python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$page" 2>"$sandbox/stderr" ||
-    fault "the page is not well-formed"
-fi
+! grep -qE 'http|src="|href=' "$page" || fault "the page refers to something outside"
+check_drawn_page() { # of what
+  command -v node >/dev/null || return 0
+  node "$(dirname "$0")/draw_page.js" "$page" >"$drawn" 2>"$sandbox/stderr" || fault "the page of $1 is not drawn"
+  (($(grep -c 'src="data:image/png;base64,' "$drawn") == 10)) || fault "not ten pictures of $1"
+  (($(grep -c '</svg>' "$drawn") == 4)) || fault "not four plots of $1"
+  ! grep -qE 'src="[^d]|href=|http' "$drawn" || fault "the page of $1 refers to something outside"
+  ! sed 's/base64,[^"]*//' "$drawn" | grep -qE 'NaN|null|undefined|Infinity' ||
+    fault "the page of $1 has figures that are none"
+  if command -v python3 >/dev/null; then
+    python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$drawn" 2>"$sandbox/stderr" ||
+      fault "the page of $1 is not well-formed"
+  fi
+}
+drawn=$sandbox/drawn.html
+check_drawn_page tetrahedra
 
 # The same figures as a run of that combination has, whatever is shared.
 elements=$(column elements | sed -n 3p)
@@ -76,13 +85,8 @@ done
 [[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subsurfaces"
 awk -F, 'NR > 1 { print $4 }' "$table" | paste -d, - <(column coarse_under_50) >"$sandbox/corners"
 ! grep -qE '^with,[1-9]' "$sandbox/corners" || fault "small corners with simplification"
-(($(grep -c 'src="data:image/png;base64,' "$page") == 10)) || fault "not ten pictures of triangles"
-(($(grep -c '</svg>' "$page") == 4)) || fault "not four plots of triangles"
+check_drawn_page triangles
 ! grep -q 'dihedral\|tetrahedra' "$page" || fault "words about tetrahedra on the page of triangles"
-if command -v python3 >/dev/null; then
-  python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$page" 2>"$sandbox/stderr" ||
-    fault "the page of triangles is not well-formed"
-fi
 elements=$(column elements | sed -n 3p)
 expect_success mesh "$inputs/square.svg" --dimension 2 --workers 1 --size 0.5 --subdomains 4 --partitioner metis \
   --format none --report report.json

@@ -167,10 +167,10 @@ list number 'polygon outer' '0 0' '9 zero' '9 9'
 expect_error "number.txt, line 3: two numbers" mesh "$inputs/number.txt" --dimension 2
 : >"$inputs/empty.svg"
 : >"$inputs/empty.txt"
-refused empty.svg "there is no closed path"
-refused empty.txt "there is no polygon"
-refused missing.svg "the file cannot be read"
-refused missing.txt "the file cannot be read"
+refused empty.svg "the file is empty"
+refused empty.txt "the file is empty"
+refused missing.svg "there is no such file"
+refused missing.txt "there is no such file"
 sed 's/#5=PLANE.*//' "$inputs/plate.step" >"$inputs/no_surface.step"
 expect_error "no_surface.step" mesh "$inputs/no_surface.step" --dimension 2
 

@@ -1,14 +1,14 @@
-#include "compare_groups.hpp"
 #include "compare_page.hpp"
 #include "compare_table.hpp"
+#include "png.hpp"
 
-#include "dovetail/io/png_output.hpp"
-#include "dovetail/io/xml_tree.hpp"
+#include "dovetail/core/xml_tree.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <sstream>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -68,8 +68,8 @@ std::vector<std::vector<std::string>> parsed_csv(const std::string& text) {
   return lines;
 }
 
-std::vector<const io::xml_element*> elements_called(const io::xml_element& root, std::string_view name) {
-  std::vector<const io::xml_element*> found;
+std::vector<const xml_element*> elements_called(const xml_element& root, std::string_view name) {
+  std::vector<const xml_element*> found;
   if (root.name == name)
     found.push_back(&root);
   for (const auto& child : root.children) {
@@ -114,6 +114,44 @@ TEST_CASE("a combination that failed is a row with its error and without figures
                                       "partition_error: part 3") != std::string::npos);
 }
 
+bool has_node() {
+  if (std::system("node --version > /dev/null 2>&1") == 0)
+    return true;
+  MESSAGE("skipped: node is not installed");
+  return false;
+}
+
+/// The body of a page as its script draws it.
+class drawn_page {
+public:
+  explicit drawn_page(const std::string& page) {
+    const testing::scratch_folder folder("compare_page");
+    testing::write_content(folder / "page.html", page);
+    const int status = std::system(("node '" DOVETAIL_DRAW_PAGE "' '" + (folder / "page.html").string() +
+                                    "' > '" + (folder / "body.html").string() + "'")
+                                       .c_str());
+    REQUIRE(status == 0);
+    text = testing::file_content(folder / "body.html");
+    root = xml_parser(text, "page").parse();
+  }
+  std::string text;
+  xml_element root;
+};
+
+/// The items of the first list: what was measured of the method's claim.
+std::vector<std::string> answers_on(const drawn_page& page) {
+  std::vector<std::string> answers;
+  for (const auto* list : elements_called(page.root, "ul"))
+    if (answers.empty())
+      for (const auto& item : list->children)
+        answers.emplace_back(item.text);
+  return answers;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 TEST_CASE("without interfaces there are no angles") {
   comparison compared = example();
   compared.rows.resize(2);
@@ -124,65 +162,82 @@ TEST_CASE("without interfaces there are no angles") {
   const auto at =
       static_cast<std::size_t>(std::find(head.begin(), head.end(), "coarse_min_face_deg") - head.begin());
   CHECK(lines[1][at].empty());
-  CHECK(answer_to_the_claim(compared).front() == "There are no interfaces in the background mesh.");
-  CHECK(page_html(compared, {}).find("nan") == std::string::npos);
+  if (!has_node())
+    return;
+  const drawn_page page(page_html(compared, {}));
+  CHECK(answers_on(page).front() == "There are no interfaces in the background mesh.");
+  CHECK_FALSE(contains(page.text, "nan"));
+  CHECK_FALSE(contains(page.text, "NaN"));
+  CHECK_FALSE(contains(page.text, "null"));
+  CHECK_FALSE(contains(page.text, "Infinity"));
 }
 
-TEST_CASE("with and without simplification are paired once for each partitioner and mesher") {
-  const auto pairs = simplification_pairs(example());
-  REQUIRE(pairs.size() == 1);
-  CHECK(pairs[0].name() == "metis + tetgen");
-  CHECK(pairs[0].with.policies.simplified);
-  CHECK_FALSE(pairs[0].without.policies.simplified);
-  CHECK(first_of_each_meshing(example()).size() == 2);
-}
-
-TEST_CASE("the claim is answered with the measured figures") {
-  const auto answers = answer_to_the_claim(example());
+TEST_CASE("the claim is answered with the measured figures, for each partitioner and mesher once") {
+  if (!has_node())
+    return;
+  const drawn_page page(page_html(example(), {}));
+  const auto answers = answers_on(page);
   REQUIRE(answers.size() == 4);
-  CHECK(answers[0].find("30.5 degrees with simplification and 14.0 without") != std::string::npos);
-  CHECK(answers[0].find("0 with, 25 without") != std::string::npos);
-  CHECK(answers[1].find("22.0 degrees with simplification and 13.0 without") != std::string::npos);
-  CHECK(answers[2].find("20.0 percent") != std::string::npos);
-  CHECK(answers[3].find("1.050 with and 1.020 without") != std::string::npos);
-  comparison failed = example();
-  for (auto& row : failed.rows)
-    row.error = "mesher_error: no";
-  CHECK(answer_to_the_claim(failed).empty());
+  CHECK(contains(answers[0], "30.5 degrees with simplification and 14.0 without"));
+  CHECK(contains(answers[0], "larger with it in 1 of 1 decompositions"));
+  CHECK(contains(answers[0], "0 with, 25 without"));
+  CHECK(contains(answers[1], "22.0 degrees with simplification and 13.0 without"));
+  CHECK(contains(answers[2], "20.0 percent"));
+  CHECK(contains(answers[3], "1.050 with and 1.020 without"));
+  const auto plots = elements_called(page.root, "svg");
+  REQUIRE(plots.size() == 4);
+  CHECK(plots[0]->attribute("aria-label") == "Smallest interface angles with and without simplification");
+  CHECK(elements_called(*plots[0], "circle").size() == 2 + 8); // the legend; two meshes, two kinds of angles
+  CHECK(elements_called(*plots[1], "rect").size() == 7 + 6 * 7); // the legend; the stages of what went well
+  CHECK(elements_called(*plots[2], "circle").size() == 6);
+  CHECK(elements_called(*plots[3], "polyline").size() == 2); // one for each mesher and improver
 }
 
 TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
   comparison_pictures pictures;
-  const auto png = io::encode_png(io::raster_image(3, 2));
+  const auto png = encode_png(raster_image(3, 2));
   pictures.decompositions = {{"metis, with simplification", png}, {"metis, <without>", png}};
   pictures.worst_elements = {{"tetgen + none", png}};
-  const std::string page = page_html(example(), pictures);
-  CHECK(page.starts_with("<!DOCTYPE html>"));
-  const auto root = io::xml_parser(page, "page").parse();
-  CHECK(root.name == "html");
-  CHECK(elements_called(root, "svg").size() == 4);
-  const auto images = elements_called(root, "img");
+  comparison compared = example();
+  compared.model += " </script>";
+  const std::string html = page_html(compared, pictures);
+  CHECK(html.starts_with("<!DOCTYPE html>"));
+  CHECK_FALSE(contains(html, "http"));
+  CHECK_FALSE(contains(html, "src=\""));
+  if (!has_node())
+    return;
+  const drawn_page page(html);
+  CHECK(elements_called(page.root, "svg").size() == 4);
+  const auto images = elements_called(page.root, "img");
   REQUIRE(images.size() == 3);
   for (const auto* image : images)
     CHECK(image->attribute("src").starts_with("data:image/png;base64,iVBORw0KGgo"));
-  CHECK(elements_called(root, "link").empty());
-  CHECK(elements_called(root, "a").empty());
-  CHECK(page.find("src=\"http") == std::string::npos);
-  const auto tables = elements_called(root, "tbody");
+  CHECK(elements_called(page.root, "link").empty());
+  CHECK(elements_called(page.root, "a").empty());
+  const auto tables = elements_called(page.root, "tbody");
   REQUIRE(tables.size() == 2);
   for (const auto* table : tables)
     CHECK(table->children.size() == 8);
-  CHECK(page.find("a &lt;odd&gt; &amp; &quot;quoted&quot; name") != std::string::npos);
-  CHECK(page.find("partition_error: part 3 is empty") != std::string::npos);
+  CHECK(tables[0]->children[0].children.size() == 4 + result_columns(3).size());
+  CHECK(tables[1]->children[0].children.size() == 4 + time_columns().size());
+  CHECK(tables[0]->children[0].children[4].text == "100000");
+  CHECK(tables[0]->children[5].attribute("class") == "failed");
+  CHECK(tables[0]->children[5].children[4].text == "-");
+  CHECK(elements_called(page.root, "dt").size() == result_columns(3).size() + time_columns().size());
+  CHECK(contains(page.text, "a &lt;odd&gt; &amp; &quot;quoted&quot; name &lt;/script&gt;"));
+  CHECK(contains(page.text, "partition_error: part 3 is empty"));
 }
 
 TEST_CASE("a page about failures only is still a page") {
   comparison compared = example();
   for (auto& row : compared.rows)
     row.error = "mesher_error: no";
-  const auto root = io::xml_parser(page_html(compared, {}), "page").parse();
-  CHECK(elements_called(root, "tr").size() == 18);
-  CHECK(page_html(compared, {}).find("no answer") != std::string::npos);
+  if (!has_node())
+    return;
+  const drawn_page page(page_html(compared, {}));
+  CHECK(elements_called(page.root, "tr").size() == 18);
+  CHECK(answers_on(page).front().starts_with("metis + tetgen + none, with simplification: mesher_error"));
+  CHECK(contains(page.text, "no answer"));
 }
 
 } // namespace

@@ -71,8 +71,8 @@ void write_named_step(const std::filesystem::path& path, const char* unit) {
 
 TEST_CASE("files that are missing, no file, empty or foreign are refused by name") {
   const scratch_folder folder("bad");
-  CHECK_THROWS_WITH_AS(read_occt_model(folder / "none.step"), doctest::Contains("none.step: no such file"),
-                       input_error);
+  CHECK_THROWS_WITH_AS(read_occt_model(folder / "none.step"),
+                       doctest::Contains("none.step: there is no such file"), input_error);
   CHECK_THROWS_AS(read_occt_model(folder / ""), input_error);
   write_text(folder / "empty.step", "");
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "empty.step"), doctest::Contains("empty"), input_error);

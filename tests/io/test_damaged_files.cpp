@@ -4,6 +4,7 @@
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/io/write_mesh.hpp"
+#include "dovetail/io/zlib.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -52,7 +53,7 @@ std::vector<std::pair<std::string, std::string>> valid_files() {
 /// Reads a file; a mesh must be consistent, and an error must be the right one.
 void read_or_refuse(const std::filesystem::path& path, std::size_t& read, std::size_t& refused) {
   try {
-    const auto mesh = io::read_mesh(path);
+    const auto mesh = io::read_mesh(path, io::zlib_expand);
     ++read;
     const auto points = static_cast<local_id>(mesh.mesh.points.size());
     const auto in_range = [&](local_id v) { return v >= 0 && v < points; };
@@ -77,11 +78,44 @@ void read_or_refuse(const std::filesystem::path& path, std::size_t& read, std::s
 
 } // namespace
 
-TEST_CASE("the compressed file is valid to begin with") {
+namespace {
+
+/// The compressed file with one text replaced, read.
+io::loaded_mesh read_compressed(const std::string& old_text, const std::string& new_text,
+                                io::vtk_expander expand = io::zlib_expand) {
   const testing::scratch_folder folder("compressed");
-  testing::write_content(folder / "a.vtu", compressed_vtu);
-  CHECK(io::read_mesh(folder / "a.vtu").mesh.points ==
-        std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  auto content = compressed_vtu;
+  content.replace(content.find(old_text), old_text.size(), new_text);
+  testing::write_content(folder / "a.vtu", content);
+  return io::read_mesh(folder / "a.vtu", expand);
+}
+
+} // namespace
+
+TEST_CASE("the compressed file is valid to begin with, and refused without what expands it") {
+  CHECK(read_compressed("", "").mesh.points == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  CHECK_THROWS_WITH_AS(read_compressed("", "", nullptr),
+                       doctest::Contains("a.vtu: array \"\": it is compressed"), input_error);
+}
+
+TEST_CASE("sizes that compressed data cannot have are refused, before they are allocated") {
+  // One block of 2^31 - 1 bytes, for four points.
+  CHECK_THROWS_WITH_AS(read_compressed("AQAAAACAAAAwAAAA", "AQAAAACAAAD///9/"),
+                       doctest::Contains("a.vtu: array \"\": its compressed data announce more"),
+                       input_error);
+  // The same for so many points that they would need it.
+  CHECK_THROWS_WITH_AS(
+      read_compressed(
+          "\"4\" NumberOfCells=\"1\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+          "format=\"binary\">AQAAAACAAAAwAAAA",
+          "\"200000000\" NumberOfCells=\"1\">\n<Points><DataArray type=\"Float32\" "
+          "NumberOfComponents=\"3\" format=\"binary\">AQAAAACAAAD///9/"),
+      doctest::Contains("a.vtu: array \"\": its compressed data end early"), input_error);
+  // Another size than the stream gives, and a damaged stream.
+  CHECK_THROWS_WITH_AS(read_compressed("AQAAAACAAAAwAAAA", "AQAAAACAAAAkAAAA"),
+                       doctest::Contains("a.vtu: array \"\": compressed data are damaged"), input_error);
+  CHECK_THROWS_WITH_AS(read_compressed("eJxjYEAGDfYM", "eJxjYEAGDfYN"),
+                       doctest::Contains("a.vtu: array \"\": compressed data are damaged"), input_error);
 }
 
 TEST_CASE("a file that is cut off anywhere is refused") {

@@ -133,7 +133,7 @@ TEST_CASE("a full device is an io_error when the buffer is flushed, at the lates
     return;
   const testing::scratch_folder folder("vtu_device");
   std::filesystem::create_symlink("/dev/full", folder / "a.part");
-  io::output_file file(folder / "a");
+  output_file file(folder / "a");
   file.text("hello");
   CHECK_THROWS_WITH_AS(file.commit(), doctest::Contains("No space left"), io_error);
   CHECK_FALSE(std::filesystem::exists(folder / "a"));

@@ -33,7 +33,7 @@ done < <(grep -H '#include "dovetail/' */*.hpp)
 
 # Headers of the standard library have no slash and no dot; POSIX ones are listed. graph/ models Boost.Graph's concepts.
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
-adapters='^(partition/(metis|scotch|parmetis|spectral|greedy)|mesher/(tetgen|gmsh|hxt|netgen|cgal)|improver/(gmsh|netgen|cgal)|geometry/(occt|discrete|builtin_models)|parallel/mpi|io/hdf5|sizing/json|graph/)'
+adapters='^(partition/(metis|scotch|parmetis|spectral|greedy)|mesher/(tetgen|gmsh|hxt|netgen|cgal)|improver/(gmsh|netgen|cgal)|geometry/(occt|discrete|builtin_models)|parallel/mpi|io/(hdf5|zlib)|sizing/json|graph/)'
 while IFS=: read -r file include; do
   header=${include#*<}
   header=${header%%>*}

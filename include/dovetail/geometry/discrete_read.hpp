@@ -2,6 +2,7 @@
 /// Triangulated surfaces from files: STL, OBJ, OFF, PLY.
 #pragma once
 
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/geometry/discrete_obj_off.hpp"
 #include "dovetail/geometry/discrete_ply.hpp"
 #include "dovetail/geometry/discrete_soup.hpp"
@@ -9,8 +10,6 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 namespace dovetail {
@@ -35,14 +34,7 @@ inline triangle_soup read_triangles(const std::filesystem::path& file) {
   const std::string format = triangle_format_of(file);
   if (format.empty())
     throw input_error(name + ": unknown kind of surface file; known are .stl, .obj, .off, .ply");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
-    throw input_error(name + ": the file cannot be read; check its name and permissions");
-  std::ostringstream buffer;
-  buffer << stream.rdbuf();
-  const std::string data = buffer.str();
-  if (data.empty())
-    throw input_error(name + ": the file is empty");
+  const std::string data = read_file(file);
   triangle_soup soup = format == "stl"   ? discrete::parse_stl(data, name)
                        : format == "obj" ? discrete::parse_obj(data, name)
                        : format == "off" ? discrete::parse_off(data, name)

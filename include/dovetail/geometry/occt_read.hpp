@@ -3,6 +3,7 @@
 /// extension.
 #pragma once
 
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
 
@@ -40,22 +41,6 @@ inline file_format format_of_content(std::string_view head) {
   if (first_card.size() >= 73 && (first_card[72] == 'S' || first_card[72] == 'C'))
     return file_format::iges;
   return file_format::unknown;
-}
-
-/// The whole content of a file; throws `input_error` when it is missing, no regular file, or empty.
-inline std::string file_content(const std::filesystem::path& path) {
-  std::error_code failed;
-  if (!std::filesystem::exists(path, failed))
-    throw input_error(path.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(path, failed))
-    throw input_error(path.string() + ": not a regular file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (!file || (content << file.rdbuf(), file.bad()))
-    throw input_error(path.string() + ": cannot be read; check its permissions");
-  if (content.str().empty())
-    throw input_error(path.string() + ": the file is empty");
-  return std::move(content).str();
 }
 
 /// Whether a BREP text has all the shapes it announces. OCCT's own reader loops for ever on some truncated
@@ -115,7 +100,7 @@ inline TopoDS_Shape read_brep(const std::string& source, const std::string& cont
 inline attributed_shape read_shape(const std::filesystem::path& path, length_unit unit) {
   const silenced quiet;
   const std::string source = path.string();
-  const std::string content = file_content(path);
+  const std::string content = read_file(path);
   const file_format format = format_of_content(std::string_view(content).substr(0, 4096));
   if (format == file_format::unknown)
     throw input_error(source + ": neither STEP, IGES nor BREP; convert the model to one of these");

@@ -2,39 +2,39 @@
 /// Plane drawings from files: the paths of an SVG file, or a plain list of points.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/core/xml_tree.hpp"
 #include "dovetail/geometry/plane_svg_path.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 namespace dovetail {
 
 namespace detail {
 
-inline std::string file_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw input_error(file.string() + ": the file cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The value of an attribute inside a tag, or nothing.
-inline std::string_view svg_attribute(std::string_view tag, std::string_view name) {
-  for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
-    const bool starts = at > 0 && std::isspace(static_cast<unsigned char>(tag[at - 1])) != 0;
-    std::size_t next = at + name.size();
-    while (next < tag.size() && std::isspace(static_cast<unsigned char>(tag[next])) != 0)
-      ++next;
-    if (!starts || next >= tag.size() || tag[next] != '=')
-      continue;
-    const std::size_t open = tag.find_first_of("'\"", next);
-    const std::size_t close = open == std::string_view::npos ? open : tag.find(tag[open], open + 1);
-    if (close != std::string_view::npos)
-      return tag.substr(open + 1, close - open - 1);
+/// Adds the paths of an SVG element and of all that it contains.
+inline void add_svg_paths(const xml_element& element, double chord_error, plane_drawing& drawing) {
+  constexpr std::array<std::string_view, 7> not_read{"rect",     "circle", "ellipse", "polygon",
+                                                     "polyline", "line",   "use"};
+  if (std::find(not_read.begin(), not_read.end(), element.name) != not_read.end())
+    throw input_error(std::string(element.name) + " elements are not read; convert them to paths");
+  if (!element.attribute("transform").empty())
+    throw input_error("a transform is not supported; apply it to the paths");
+  if (element.name == "path") {
+    const plane_drawing paths = drawing_from_svg_path(
+        element.attribute("d"), {.chord_error = chord_error,
+                                 .open_paths_are_lines = element.attribute("fill") == "none",
+                                 .name = xml_unescaped(element.attribute("id"))});
+    append(drawing.polygons, paths.polygons);
+    append(drawing.lines, paths.lines);
   }
-  return {};
+  for (const xml_element& child : element.children)
+    add_svg_paths(child, chord_error, drawing);
 }
 
 } // namespace detail
@@ -43,31 +43,11 @@ inline std::string_view svg_attribute(std::string_view tag, std::string_view nam
 /// must be closed. Other shapes and transformations are refused rather than left out. Throws `input_error`
 /// naming the file.
 inline plane_drawing read_svg(const std::filesystem::path& file, double chord_error = 0) {
-  const std::string text = detail::file_text(file);
+  const std::string content = read_file(file);
+  const xml_element root = xml_parser(content, file.string()).parse();
   plane_drawing drawing;
   try {
-    for (std::size_t open = text.find('<'); open != std::string::npos; open = text.find('<', open + 1)) {
-      if (text.compare(open, 4, "<!--") == 0) {
-        open = std::min(text.find("-->", open), text.size() - 1);
-        continue;
-      }
-      const std::size_t close = std::min(text.find('>', open), text.size());
-      const std::string_view tag = std::string_view(text).substr(open, close - open);
-      for (const char* shape : {"<rect", "<circle", "<ellipse", "<polygon", "<polyline", "<line ", "<use"})
-        if (tag.starts_with(shape))
-          throw input_error(std::string(shape + 1) + " elements are not read; convert them to paths");
-      if (!detail::svg_attribute(tag, "transform").empty())
-        throw input_error("a transform is not supported; apply it to the paths");
-      if (!tag.starts_with("<path"))
-        continue;
-      const plane_drawing paths =
-          drawing_from_svg_path(detail::svg_attribute(tag, "d"),
-                                {.chord_error = chord_error,
-                                 .open_paths_are_lines = detail::svg_attribute(tag, "fill") == "none",
-                                 .name = std::string(detail::svg_attribute(tag, "id"))});
-      drawing.polygons.insert(drawing.polygons.end(), paths.polygons.begin(), paths.polygons.end());
-      drawing.lines.insert(drawing.lines.end(), paths.lines.begin(), paths.lines.end());
-    }
+    detail::add_svg_paths(root, chord_error, drawing);
   } catch (const input_error& problem) {
     throw input_error(file.string() + ": " + problem.what());
   } catch (const geometry_error& problem) {
@@ -81,7 +61,7 @@ inline plane_drawing read_svg(const std::filesystem::path& file, double chord_er
 /// A list of points, one "x y" per line, under headings "polygon [name]" or "line [name]"; # starts a
 /// comment. Throws `input_error` naming the file and the line.
 inline plane_drawing read_polygons(const std::filesystem::path& file) {
-  std::istringstream in(detail::file_text(file));
+  std::istringstream in(read_file(file));
   plane_drawing drawing;
   plane_path* path = nullptr;
   std::string row;

@@ -2,8 +2,8 @@
 /// The numbers in an MSH file, as text or raw bytes, and the nodes that its numbers name.
 #pragma once
 
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/io/input_file.hpp"
 #include "dovetail/io/msh_encoder.hpp"
 
 #include <algorithm>

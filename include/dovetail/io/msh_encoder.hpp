@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
+#include "dovetail/core/output_file.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/io/output_file.hpp"
 
 #include <algorithm>
 #include <cstdint>

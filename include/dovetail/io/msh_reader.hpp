@@ -2,7 +2,7 @@
 /// Reads Gmsh's MSH files, versions 2.2 and 4.1, text and binary.
 #pragma once
 
-#include "dovetail/io/input_file.hpp"
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
 #include "dovetail/io/msh_decoder.hpp"
 

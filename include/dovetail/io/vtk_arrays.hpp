@@ -1,12 +1,12 @@
 /// @file
-/// Decodes the data arrays of VTK's XML files: text, base64 and raw, inline and appended, plain and
-/// compressed by zlib, either byte order.
+/// Decodes the data arrays of VTK's XML files: text, base64 and raw, inline and appended, plain and, with
+/// somebody's help, compressed by zlib, either byte order.
 #pragma once
 
-#include "dovetail/io/inflate.hpp"
-#include "dovetail/io/input_file.hpp"
-#include "dovetail/io/xml_tree.hpp"
+#include "dovetail/core/input_file.hpp"
+#include "dovetail/core/xml_tree.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -88,19 +88,25 @@ private:
   std::size_t decoded_ = 0;
 };
 
+/// Expands a zlib stream to exactly as many bytes as there is room for, or throws `input_error`.
+/// `zlib_expand` is one, in the adapter `io/zlib.hpp`; null: compressed arrays are refused.
+using vtk_expander = void (*)(std::span<const std::uint8_t> data, std::span<std::uint8_t> out);
+
 /// How the arrays of one file are stored.
 struct vtk_encoding {
   bool swapped = false;           ///< the byte order is not this machine's
   bool wide_header = false;       ///< block headers are 64-bit numbers, not 32-bit ones
   bool compressed = false;        ///< by zlib
+  vtk_expander expand = nullptr;  ///< what expands it
   std::string_view appended = {}; ///< the appended section, from behind its underscore
   bool appended_base64 = false;
 };
 
 /// Reads the encoding from the root element of a file. Throws `input_error` (without a file name) for what is
 /// not understood.
-inline vtk_encoding read_vtk_encoding(const xml_element& root) {
+inline vtk_encoding read_vtk_encoding(const xml_element& root, vtk_expander expand) {
   vtk_encoding encoding;
+  encoding.expand = expand;
   const bool big = root.attribute("byte_order") == "BigEndian";
   encoding.swapped = big != (std::endian::native == std::endian::big);
   encoding.wide_header = root.attribute("header_type") == "UInt64";
@@ -134,8 +140,15 @@ inline std::uint64_t header_number(vtk_byte_source& source, const vtk_encoding& 
   return encoding.swapped ? byte_swapped(value) : value;
 }
 
-/// The bytes of an array that is stored in blocks, each of which is a zlib stream.
-inline std::vector<std::uint8_t> take_compressed(vtk_byte_source& source, const vtk_encoding& encoding) {
+/// The bytes of an array that is stored in blocks, each of which is a zlib stream. Nothing is allocated for
+/// sizes that the data cannot have: more than `most` bytes in all, or than a stream can expand to.
+inline std::vector<std::uint8_t> take_compressed(vtk_byte_source& source, const vtk_encoding& encoding,
+                                                 std::uint64_t most) {
+  constexpr std::uint64_t largest_expansion = 1032;
+  if (encoding.expand == nullptr)
+    throw input_error(
+        "it is compressed; give the reader the function io::zlib_expand of the component zlib, or "
+        "write the file without compression");
   const auto blocks = header_number(source, encoding);
   const auto block_size = header_number(source, encoding);
   const auto last_size = header_number(source, encoding);
@@ -146,14 +159,21 @@ inline std::vector<std::uint8_t> take_compressed(vtk_byte_source& source, const 
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const auto compressed = source.take(compressed_sizes[static_cast<std::size_t>(b)]);
     const bool partial = b + 1 == blocks && last_size != 0;
-    const auto bytes = inflate_zlib(compressed, static_cast<std::size_t>(partial ? last_size : block_size));
-    all.insert(all.end(), bytes.begin(), bytes.end());
+    const auto size = partial ? last_size : block_size;
+    if (size > most - all.size())
+      throw input_error("its compressed data announce more than its values");
+    if (size / largest_expansion > compressed.size())
+      throw input_error("its compressed data end early");
+    const auto begin = all.size();
+    all.resize(begin + static_cast<std::size_t>(size));
+    encoding.expand(compressed, std::span(all).subspan(begin));
   }
   return all;
 }
 
-/// The bytes of a binary array, which its header counts.
-inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk_encoding& encoding) {
+/// The bytes of a binary array, which its header counts; compressed ones may be `most`.
+inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk_encoding& encoding,
+                                             std::uint64_t most) {
   std::string_view data = array.text;
   bool base64 = true;
   if (array.attribute("format") == "appended") {
@@ -165,7 +185,7 @@ inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk
   }
   vtk_byte_source source(data, base64);
   if (encoding.compressed)
-    return take_compressed(source, encoding);
+    return take_compressed(source, encoding, most);
   return source.take(header_number(source, encoding));
 }
 
@@ -184,14 +204,17 @@ Out converted(In value) {
 }
 
 template <class In, class Out>
-std::vector<Out> converted_bytes(const std::vector<std::uint8_t>& bytes, bool swapped) {
+std::vector<Out> binary_values(const xml_element& array, const vtk_encoding& encoding,
+                               std::uint64_t expected) {
+  const auto most = std::min(expected, std::numeric_limits<std::uint64_t>::max() / sizeof(In)) * sizeof(In);
+  const auto bytes = array_bytes(array, encoding, most);
   if (bytes.size() % sizeof(In) != 0)
     throw input_error("its size is no multiple of the size of its values");
   std::vector<Out> values(bytes.size() / sizeof(In));
   for (std::size_t i = 0; i < values.size(); ++i) {
     In value;
     std::memcpy(&value, bytes.data() + i * sizeof(In), sizeof(In));
-    values[i] = converted<Out>(swapped ? byte_swapped(value) : value);
+    values[i] = converted<Out>(encoding.swapped ? byte_swapped(value) : value);
   }
   return values;
 }
@@ -206,7 +229,8 @@ std::vector<Out> text_values(std::string_view text) {
 }
 
 template <class Out>
-std::vector<Out> decode_vtk_array(const xml_element& array, const vtk_encoding& encoding) {
+std::vector<Out> decode_vtk_array(const xml_element& array, const vtk_encoding& encoding,
+                                  std::uint64_t expected) {
   const auto type = array.attribute("type");
   const auto format = array.attribute("format");
   const bool real = type.starts_with("Float");
@@ -214,28 +238,26 @@ std::vector<Out> decode_vtk_array(const xml_element& array, const vtk_encoding& 
     return real ? text_values<double, Out>(array.text) : text_values<std::int64_t, Out>(array.text);
   if (format != "binary" && format != "appended")
     throw input_error("its format \"" + std::string(format) + "\" is unknown");
-  const auto bytes = array_bytes(array, encoding);
-  const bool swapped = encoding.swapped;
   if (type == "Float64")
-    return converted_bytes<double, Out>(bytes, swapped);
+    return binary_values<double, Out>(array, encoding, expected);
   if (type == "Float32")
-    return converted_bytes<float, Out>(bytes, swapped);
+    return binary_values<float, Out>(array, encoding, expected);
   if (type == "Int64")
-    return converted_bytes<std::int64_t, Out>(bytes, swapped);
+    return binary_values<std::int64_t, Out>(array, encoding, expected);
   if (type == "UInt64")
-    return converted_bytes<std::uint64_t, Out>(bytes, swapped);
+    return binary_values<std::uint64_t, Out>(array, encoding, expected);
   if (type == "Int32")
-    return converted_bytes<std::int32_t, Out>(bytes, swapped);
+    return binary_values<std::int32_t, Out>(array, encoding, expected);
   if (type == "UInt32")
-    return converted_bytes<std::uint32_t, Out>(bytes, swapped);
+    return binary_values<std::uint32_t, Out>(array, encoding, expected);
   if (type == "Int16")
-    return converted_bytes<std::int16_t, Out>(bytes, swapped);
+    return binary_values<std::int16_t, Out>(array, encoding, expected);
   if (type == "UInt16")
-    return converted_bytes<std::uint16_t, Out>(bytes, swapped);
+    return binary_values<std::uint16_t, Out>(array, encoding, expected);
   if (type == "Int8")
-    return converted_bytes<std::int8_t, Out>(bytes, swapped);
+    return binary_values<std::int8_t, Out>(array, encoding, expected);
   if (type == "UInt8")
-    return converted_bytes<std::uint8_t, Out>(bytes, swapped);
+    return binary_values<std::uint8_t, Out>(array, encoding, expected);
   throw input_error("its type \"" + std::string(type) + "\" is unknown");
 }
 
@@ -248,7 +270,7 @@ std::vector<Out> read_vtk_array(const xml_element& array, const vtk_encoding& en
                                 std::uint64_t expected) {
   const auto name = "array \"" + xml_unescaped(array.attribute("Name")) + "\": ";
   try {
-    auto values = detail::decode_vtk_array<Out>(array, encoding);
+    auto values = detail::decode_vtk_array<Out>(array, encoding, expected);
     if (values.size() != expected)
       throw input_error(std::to_string(expected) + " values are expected, but there are " +
                         std::to_string(values.size()));

@@ -3,7 +3,7 @@
 /// appended data, and string arrays in the field data.
 #pragma once
 
-#include "dovetail/io/output_file.hpp"
+#include "dovetail/core/output_file.hpp"
 
 #include <cstdint>
 #include <span>

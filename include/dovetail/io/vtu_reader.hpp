@@ -2,11 +2,11 @@
 /// Reads VTU files, and PVTU files with all their pieces.
 #pragma once
 
-#include "dovetail/io/input_file.hpp"
+#include "dovetail/core/input_file.hpp"
+#include "dovetail/core/xml_tree.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
 #include "dovetail/io/merge_points.hpp"
 #include "dovetail/io/vtk_arrays.hpp"
-#include "dovetail/io/xml_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -233,9 +233,10 @@ inline std::vector<std::string> field_strings(const xml_element& grid, std::stri
 }
 
 /// Appends the pieces of one VTU file to a mesh.
-inline void append_vtu(const std::filesystem::path& file, const xml_element& root, loaded_mesh& mesh) {
+inline void append_vtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
+                       loaded_mesh& mesh) {
   try {
-    const auto encoding = read_vtk_encoding(root);
+    const auto encoding = read_vtk_encoding(root, expand);
     const auto& grid = required_child(root, "UnstructuredGrid");
     bool found = false;
     for (const auto& piece : grid.children)
@@ -253,7 +254,8 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
   }
 }
 
-inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, loaded_mesh& mesh) {
+inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
+                        loaded_mesh& mesh) {
   const auto* grid = root.child("PUnstructuredGrid");
   if (grid == nullptr)
     throw input_error(file.string() + ": there is no <PUnstructuredGrid>");
@@ -265,7 +267,7 @@ inline void append_pvtu(const std::filesystem::path& file, const xml_element& ro
     const auto path = file.parent_path() / xml_unescaped(piece.attribute("Source"));
     const auto content = read_file(path);
     const auto piece_root = xml_parser(content, path.string()).parse();
-    append_vtu(path, piece_root, mesh);
+    append_vtu(path, piece_root, expand, mesh);
   }
   if (!found)
     throw input_error(file.string() + ": there is no <Piece>");
@@ -277,6 +279,8 @@ inline void append_pvtu(const std::filesystem::path& file, const xml_element& ro
 /// `material`, `gmsh:physical`, `CellEntityIds`) and `subdomain`. Vertices and lines are passed over, and so
 /// are cells that are ghosts. Points of different pieces are merged.
 struct vtu_reader {
+  vtk_expander expand = nullptr; ///< of compressed arrays: `zlib_expand`, or null when there are none
+
   loaded_mesh operator()(const std::filesystem::path& file) const {
     const auto content = read_file(file);
     const auto root = xml_parser(content, file.string()).parse();
@@ -285,9 +289,9 @@ struct vtu_reader {
     if (root.name != "VTKFile")
       throw input_error(file.string() + ": this is not a VTK XML file");
     if (type == "UnstructuredGrid")
-      detail::append_vtu(file, root, mesh);
+      detail::append_vtu(file, root, expand, mesh);
     else if (type == "PUnstructuredGrid")
-      detail::append_pvtu(file, root, mesh);
+      detail::append_pvtu(file, root, expand, mesh);
     else
       throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
                         "; an UnstructuredGrid or PUnstructuredGrid is needed");

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/output_file.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
 #include "dovetail/io/msh_encoder.hpp"
-#include "dovetail/io/output_file.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 

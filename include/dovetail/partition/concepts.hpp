@@ -18,8 +18,7 @@ namespace dovetail {
 /// at most `imbalance` times the average, or the heaviest node allows no better; deterministic for the
 /// model's seed.
 ///
-/// Complexity: at most n log n in the nodes and edges, times log(parts) by bisection; the spectral model is
-/// dearer by the steps of its eigenvector.
+/// Complexity: at most n log n in the nodes and edges, times log(parts) by bisection.
 ///
 /// Failure: throws `partition_error`.
 ///

@@ -1,38 +1,113 @@
 /// @file
-/// Adapter: recursive spectral bisection, with Eigen's eigensolver at the bottom.
+/// Adapter: multilevel recursive spectral bisection, with Spectra's eigensolver and Eigen's sparse Cholesky
+/// decomposition.
 #pragma once
 
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/multilevel.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
-#include "dovetail/partition/spectral_fiedler.hpp"
 
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <Spectra/SymEigsSolver.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <numeric>
 #include <vector>
 
-namespace dovetail::partition {
+namespace dovetail {
 
-/// Cuts at the weighted median of the Fiedler vector, again and again (A. Pothen, H. D. Simon and K.-P. Liou,
-/// "Partitioning sparse matrices with eigenvectors of graphs", 1990), and refines by single moves: each
-/// bisection and, at the end, all parts together. Edge weights count as conductances.
+namespace detail {
+
+/// The inverse of the Laplacian L of a connected graph, as M^1/2 (L + epsilon M)^-1 M^1/2, for Spectra.
+/// Masses M are the node weights, but none is zero, so that light nodes go with their neighbours.
+class inverse_laplacian {
+public:
+  using Scalar = double; // NOLINT: the name is Spectra's
+
+  explicit inverse_laplacian(const csr_graph& graph) : scale_(graph.node_count()) {
+    constexpr double epsilon = 1e-9; // of the largest entry: L itself has the eigenvalue 0
+    const auto n = static_cast<Eigen::Index>(graph.node_count());
+    const double total = std::accumulate(graph.node_weights.begin(), graph.node_weights.end(), 0.0);
+    const double least = total > 0 ? 1e-3 * total / static_cast<double>(n) : 1.0;
+    for (Eigen::Index v = 0; v < n; ++v)
+      scale_[v] = 1 / std::sqrt(std::max(least, graph.node_weights[static_cast<std::size_t>(v)]));
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index v = 0; v < n; ++v)
+      for (std::int64_t k = graph.offsets[static_cast<std::size_t>(v)];
+           k < graph.offsets[static_cast<std::size_t>(v) + 1]; ++k) {
+        const Eigen::Index w = graph.neighbours[static_cast<std::size_t>(k)];
+        const double weight = graph.edge_weights[static_cast<std::size_t>(k)] * scale_[v];
+        diagonal[v] += weight * scale_[v];
+        entries.emplace_back(v, w, -weight * scale_[w]);
+      }
+    for (Eigen::Index v = 0; v < n; ++v)
+      entries.emplace_back(v, v, diagonal[v] + epsilon * diagonal.maxCoeff());
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    factors_.compute(matrix);
+  }
+
+  Eigen::Index rows() const { return scale_.size(); }
+  Eigen::Index cols() const { return scale_.size(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd>(out, rows()) = factors_.solve(Eigen::Map<const Eigen::VectorXd>(in, rows()));
+  }
+  const Eigen::VectorXd& scale() const { return scale_; }
+
+private:
+  Eigen::VectorXd scale_; ///< M^-1/2
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+};
+
+/// The Fiedler vector of a connected graph of three nodes or more: the eigenvector of the second smallest
+/// eigenvalue of L x = lambda M x, which varies as little as possible along the edges (M. Fiedler, 1973).
+/// Throws `partition_error` when the eigensolver does not converge.
+inline std::vector<double> fiedler_vector(const csr_graph& graph) {
+  constexpr int pairs = 2; // the constant vector has the smallest eigenvalue
+  inverse_laplacian inverse(graph);
+  Spectra::SymEigsSolver<inverse_laplacian> solver(inverse, pairs, std::min(graph.node_count(), 20));
+  solver.init();
+  if (solver.compute(Spectra::SortRule::LargestAlge, 1000, 1e-6) < pairs)
+    throw partition_error("spectral: the eigenvectors of a graph of " + std::to_string(graph.node_count()) +
+                          " nodes do not converge; take another partitioner");
+  const Eigen::VectorXd x = inverse.scale().cwiseProduct(solver.eigenvectors().col(1));
+  return {x.data(), x.data() + x.size()};
+}
+
+} // namespace detail
+
+namespace partition {
+
+/// Contracts the graph along heavy edges, cuts the small one at the weighted median of its Fiedler vector,
+/// again and again (A. Pothen, H. D. Simon and K.-P. Liou, "Partitioning sparse matrices with eigenvectors of
+/// graphs", 1990), and refines by single moves on the way back. Edge weights count as conductances.
 struct spectral {
-  double imbalance = 1.03;   ///< heaviest part over average part
-  int refinement_passes = 8; ///< of single moves that shrink the cut; 0: the eigenvector alone decides
-  std::uint64_t seed = 1;    ///< of the order in which nodes are matched
-  double tolerance = 3e-3;   ///< relative residual of the eigenvector
+  double imbalance = 1.03; ///< heaviest part over average part
+  /// On each level; 0: the eigenvectors of the whole graph alone decide, which takes minutes for large ones.
+  int refinement_passes = 8;
+  std::uint64_t seed = 1; ///< of the order in which nodes are matched
+  int coarse_nodes_per_part =
+      100; ///< coarsening stops there; eigenvectors are those of the graph that is left
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts.
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
     detail::require_partitionable(graph, parts);
     detail::require_imbalance(imbalance);
-    const auto by_fiedler_vector = [this](const csr_graph& piece, int left, int right) {
-      return bisect(piece, left, right);
-    };
-    std::vector<local_id> part = recursive_bisection(graph, parts, by_fiedler_vector);
-    detail::finish_partition(graph, part, parts, imbalance, refinement_passes);
-    return part;
+    const multilevel_options options{.imbalance = imbalance,
+                                     .seed = seed,
+                                     .coarse_nodes_per_part =
+                                         refinement_passes > 0 ? coarse_nodes_per_part : graph.node_count(),
+                                     .refinement_passes = refinement_passes};
+    return partition_by_levels(graph, parts, options, [this](const csr_graph& small, int all) {
+      return recursive_bisection(small, all, [this](const csr_graph& piece, int left, int right) {
+        return bisect(piece, left, right);
+      });
+    });
   }
 
 private:
@@ -60,12 +135,8 @@ private:
     std::vector<double> keys(components.of_node.begin(), components.of_node.end());
     const subgraph piece = induced_subgraph(graph, components.of_node, static_cast<local_id>(cut_one));
     if (piece.nodes.size() > 2)
-      spread_over_unit(fiedler_of(piece.graph), piece.nodes, keys);
+      spread_over_unit(detail::fiedler_vector(piece.graph), piece.nodes, keys);
     return order_by(keys);
-  }
-
-  std::vector<double> fiedler_of(const csr_graph& graph) const {
-    return detail::fiedler_solver({.seed = seed, .tolerance = tolerance})(graph);
   }
 
   /// Adds values in (-1/2, 1/2), in the same order as the given ones, to the keys of the nodes.
@@ -80,4 +151,5 @@ private:
 
 static_assert(graph_partitioner<spectral>);
 
-} // namespace dovetail::partition
+} // namespace partition
+} // namespace dovetail

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "dovetail/core/vector.hpp"
-#include "dovetail/io/raster_image.hpp"
+#include "raster_image.hpp"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-namespace dovetail::io {
+namespace dovetail::app {
 
 /// A triangle seen from both sides; its brightness follows its inclination to the light.
 struct raster_triangle {
@@ -84,4 +84,4 @@ inline raster_view fitted(raster_view view, const raster_scene& scene, int width
   return view;
 }
 
-} // namespace dovetail::io
+} // namespace dovetail::app

@@ -3,7 +3,7 @@
 /// several samples per pixel.
 #pragma once
 
-#include "dovetail/io/raster_scene.hpp"
+#include "raster_scene.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace dovetail::io {
+namespace dovetail::app {
 
 namespace detail {
 
@@ -120,4 +120,4 @@ inline raster_image render(const raster_scene& scene, const raster_view& view, i
   return samples == 1 ? canvas.image() : reduced(canvas.image(), samples);
 }
 
-} // namespace dovetail::io
+} // namespace dovetail::app

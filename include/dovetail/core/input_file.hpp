@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace dovetail::io {
+namespace dovetail {
 
 /// The bytes of a file, or its first `most`. Throws `input_error` naming it when it is missing, no file,
 /// unreadable or empty.
@@ -136,4 +136,4 @@ private:
   std::size_t at_ = 0;
 };
 
-} // namespace dovetail::io
+} // namespace dovetail

@@ -1,16 +1,16 @@
 /// @file
-/// As much XML as VTK's files use: elements, attributes, text. Views into the file's content; nothing is
-/// copied.
+/// As much XML as VTK's and SVG's files use: elements, attributes, text. Views into the file's content;
+/// nothing is copied.
 #pragma once
 
-#include "dovetail/io/input_file.hpp"
+#include "dovetail/core/input_file.hpp"
 
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace dovetail::io {
+namespace dovetail {
 
 struct xml_element {
   std::string_view name;
@@ -75,19 +75,29 @@ private:
       at_.fail("the file ends early: \"" + std::string(end) + "\" is missing");
     at_.skip(found + end.size());
   }
-  /// Passes a comment or an instruction, if one stands here.
+  /// Passes a comment, an instruction or the like, if one stands here.
   bool skip_aside() {
     if (at_.rest().starts_with("<!--"))
       skip_past("-->");
     else if (at_.rest().starts_with("<?"))
       skip_past("?>");
+    else if (at_.rest().starts_with("<![CDATA["))
+      skip_past("]]>");
     else if (at_.rest().starts_with("<!"))
-      skip_past(">");
+      skip_declaration();
     else
       return false;
     return true;
   }
+  /// A document type, which may have declarations of its own between brackets.
+  void skip_declaration() {
+    if (const auto found = at_.rest().find_first_of("[>"); found < at_.left() && at_.rest()[found] == '[')
+      skip_past("]");
+    skip_past(">");
+  }
   void skip_prologue() {
+    if (at_.rest().starts_with("\xef\xbb\xbf")) // a byte order mark
+      at_.skip(3);
     do
       at_.skip_space();
     while (skip_aside());
@@ -173,4 +183,4 @@ private:
   file_cursor at_;
 };
 
-} // namespace dovetail::io
+} // namespace dovetail

@@ -1,8 +1,8 @@
-#include "dovetail/io/raster_render.hpp"
+#include "raster_render.hpp"
 
 #include <doctest/doctest.h>
 
-namespace dovetail::io {
+namespace dovetail::app {
 namespace {
 
 constexpr rgb red{200, 0, 0};
@@ -118,4 +118,4 @@ TEST_CASE("impossible pictures are refused") {
 }
 
 } // namespace
-} // namespace dovetail::io
+} // namespace dovetail::app

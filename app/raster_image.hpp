@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace dovetail::io {
+namespace dovetail::app {
 
 /// A colour, as a screen shows it (sRGB).
 struct rgb {
@@ -46,6 +46,7 @@ public:
   int height() const { return height_; }
   rgb& at(int x, int y) { return pixels_[index(x, y)]; }
   rgb at(int x, int y) const { return pixels_[index(x, y)]; }
+  const rgb* data() const { return pixels_.data(); }
 
 private:
   std::size_t index(int x, int y) const {
@@ -81,4 +82,4 @@ inline raster_image reduced(const raster_image& image, int factor) {
   return small;
 }
 
-} // namespace dovetail::io
+} // namespace dovetail::app
