@@ -1,5 +1,6 @@
 #!/bin/bash
-# Compiles each header of one folder of the library alone.
+# Compiles each header of one folder of the library alone: as it is with the compiled library and, where that leaves
+# out its definitions (x.ipp), header-only too.
 #   check_headers.sh <include directory> <folder under dovetail/> <file with flags> <compiler> <more flags...>
 # The compiler may have a launcher in front (ccache: then a header that has not changed costs nothing). Works in the
 # current folder.
@@ -17,7 +18,8 @@ for path in "$include_directory/dovetail/$folder"/*.hpp; do
   [[ -f $path ]] || continue
   header=${path#"$include_directory"/}
   printf '#include "%s"\n#include "%s"\n' "$header" "$header" >"$unit.cpp"
-  messages=$("$@" "${flags[@]}" -c "$unit.cpp" -o "$unit.o" 2>&1) && continue
+  messages=$("$@" "${flags[@]}" -DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT -c "$unit.cpp" -o "$unit.o" 2>&1 &&
+    { [[ ! -f ${path%.hpp}.ipp ]] || "$@" "${flags[@]}" -c "$unit.cpp" -o "$unit.o" 2>&1; }) && continue
   if [[ -n ${DOVETAIL_ALLOW_MISSING_LIBRARIES:-} ]] &&
     grep -E "fatal error: .*([Nn]o such file|file not found)" <<<"$messages" | grep -qv "fatal error: '\?dovetail/"; then
     echo "$header: passed over, a library is missing"

@@ -1,15 +1,16 @@
 #!/bin/bash
-# The folders of include/dovetail are layers. A file includes its own folder, lower layers and any role's concepts; a
-# stage never includes another stage; third parties are included by adapters only. Within tier 2 executors come first:
-# meshers run on them, and remeshers, since a mesher of surfaces is one.
+# The folders of include/dovetail are layers. A file includes its own folder, lower layers, and of the folders of its own
+# layer what says what a role is: its concepts, and the models of them behind one type (any_*). Data (layer 1) and tools
+# (layer 2) may build on each other within their layer; stages (3) do not include each other, the pipeline (4) joins them.
+# Third parties are included by adapters only.
 set -euo pipefail
 cd include/dovetail
 
-declare -A tier=(
-  [core]=10 [mesh]=10 [graph]=10 [geometry]=10 [sizing]=10
-  [parallel]=20 [partition]=21 [remesh]=21 [mesher]=22 [improver]=21 [io]=21
-  [background]=30 [simplification]=30 [decomposition]=30 [skeleton]=30 [intersection]=30
-  [pipeline]=40
+declare -A layer=(
+  [core]=1 [mesh]=1 [graph]=1 [geometry]=1 [sizing]=1
+  [partition]=2 [remesh]=2 [mesher]=2 [improver]=2 [parallel]=2 [meshing]=2 [io]=2
+  [background]=3 [simplification]=3 [decomposition]=3 [skeleton]=3 [intersection]=3
+  [pipeline]=4
 )
 
 problems=0
@@ -18,18 +19,21 @@ complain() {
   problems=1
 }
 
+for folder in "${!layer[@]}"; do
+  [[ -d $folder ]] || complain "there is no folder $folder"
+done
 while IFS=: read -r file include; do
   folder=${file%%/*}
   target=${include#*\"dovetail/}
   target=${target%%\"*}
   target_folder=${target%%/*}
   [[ $folder == "$target_folder" ]] && continue
-  own=${tier[$folder]:?has no tier}
-  other=${tier[$target_folder]:?has no tier}
-  [[ $target == */concepts.hpp ]] && continue
+  own=${layer[$folder]:?has no layer}
+  other=${layer[$target_folder]:?has no layer}
+  [[ $target == */concepts.hpp || $target == */any_*.hpp ]] && continue
   ((other > own)) && complain "$file includes $target of a higher layer"
-  ((own == other && own > 10)) && complain "$file includes $target of its own layer"
-done < <(grep -H '#include "dovetail/' */*.hpp)
+  ((own == other && own > 2)) && complain "$file includes $target of another stage"
+done < <(find . -mindepth 2 \( -name '*.hpp' -o -name '*.ipp' \) -printf '%P\n' | sort | xargs grep -H '#include "dovetail/')
 
 # Headers of the standard library have no slash and no dot; POSIX ones are listed. graph/ models Boost.Graph's concepts.
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
@@ -39,6 +43,6 @@ while IFS=: read -r file include; do
   header=${header%%>*}
   [[ $header =~ ^[a-z_0-9]+$ || $header =~ $posix ]] && continue
   [[ $file =~ $adapters ]] || complain "$file includes the third-party header <$header> and is no adapter"
-done < <(grep -H '#include <' */*.hpp)
+done < <(find . -mindepth 2 -name '*.?pp' -printf '%P\n' | sort | xargs grep -H '#include <')
 
 exit $problems

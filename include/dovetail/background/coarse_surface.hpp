@@ -10,7 +10,6 @@
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/pipeline/parameters.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"

@@ -2,8 +2,8 @@
 /// Finds the skeleton of a decomposition of a background mesh.
 ///
 /// `extract_skeleton(surface, pieces)` serves D = 2, where pieces are parts of a surface; with a volume
-/// decomposition the same code runs with the pieces that the subdomains induce on the surface (`DESIGN`: one
-/// idea for every dimension), and the interface faces and the lines inside the domain are added.
+/// decomposition the same code runs with the pieces that the subdomains induce on the surface: one
+/// idea for every dimension. The interface faces and the lines inside the domain are added.
 #pragma once
 
 #include "dovetail/mesh/adjacency.hpp"
@@ -18,34 +18,6 @@ namespace dovetail {
 
 /// Per surface triangle: the subdomain behind it and the one in front of it, or no_id.
 using triangle_subdomains = std::vector<std::array<local_id, 2>>;
-
-namespace detail {
-
-/// The side with these vertices in any order, or no_id. Sides are sorted by sorted vertices.
-template <int D>
-local_id find_side(const side_table<D>& sides, const simplex<D - 1>& vertices) {
-  const auto key = sorted_vertices(vertices);
-  const auto found =
-      std::lower_bound(sides.vertices.begin(), sides.vertices.end(), key,
-                       [](const auto& side, const auto& wanted) { return sorted_vertices(side) < wanted; });
-  return found != sides.vertices.end() && sorted_vertices(*found) == key
-             ? static_cast<local_id>(found - sides.vertices.begin())
-             : no_id;
-}
-
-/// Whether two orders of the same three vertices turn the same way.
-inline bool same_turn(const simplex<2>& a, const simplex<2>& b) {
-  const auto at = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
-  return b[(at + 1) % 3] == a[1];
-}
-
-/// The same oriented triangle, told from its smallest vertex.
-inline simplex<2> from_smallest(simplex<2> t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-} // namespace detail
 
 /// The interface faces of a volume decomposition: sides inside one material between two subdomains.
 std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,

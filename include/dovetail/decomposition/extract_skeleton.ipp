@@ -16,6 +16,12 @@ namespace dovetail {
 
 namespace detail {
 
+/// The same oriented triangle, told from its smallest vertex.
+inline simplex<2> from_smallest(simplex<2> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
 /// Surface edges with, for each, the triangles around it and its place on a curve if it has one.
 class surface_edges {
 public:
@@ -170,7 +176,7 @@ DOVETAIL_INLINE triangle_subdomains induced_pieces(const background_mesh& mesh, 
   triangle_subdomains pieces;
   pieces.reserve(mesh.surface.mesh.elements.size());
   for (const simplex<2>& triangle : mesh.surface.mesh.elements) {
-    const local_id side = detail::find_side<3>(sides, triangle);
+    const local_id side = find_side<3>(sides, triangle);
     if (side == no_id)
       throw mesh_error("surface triangle " + std::to_string(pieces.size()) +
                        " is not a side of the coarse volume mesh");
@@ -178,7 +184,7 @@ DOVETAIL_INLINE triangle_subdomains induced_pieces(const background_mesh& mesh, 
     const auto subdomain = [&](local_id e) {
       return e == no_id ? no_id : subdomain_of_element[static_cast<std::size_t>(e)];
     };
-    const bool first_is_behind = detail::same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
+    const bool first_is_behind = same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
     const std::array both{subdomain(elements[0]), subdomain(elements[1])};
     pieces.push_back(first_is_behind ? both : std::array{both[1], both[0]});
   }

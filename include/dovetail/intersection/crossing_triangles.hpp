@@ -8,7 +8,6 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplex.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/pipeline/parameters.hpp"
 
 #include <cstddef>
 #include <functional>

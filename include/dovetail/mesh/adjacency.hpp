@@ -317,4 +317,16 @@ adjacency<D> build_adjacency(const simplicial_mesh<D>& mesh) {
   return result;
 }
 
+/// The side with these vertices in any order, or no_id. O(log sides).
+template <int D>
+local_id find_side(const side_table<D>& sides, const simplex<D - 1>& vertices) {
+  const auto key = sorted_vertices(vertices);
+  const auto found =
+      std::lower_bound(sides.vertices.begin(), sides.vertices.end(), key,
+                       [](const auto& side, const auto& wanted) { return sorted_vertices(side) < wanted; });
+  return found != sides.vertices.end() && sorted_vertices(*found) == key
+             ? static_cast<local_id>(found - sides.vertices.begin())
+             : no_id;
+}
+
 } // namespace dovetail

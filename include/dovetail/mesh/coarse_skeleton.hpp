@@ -53,4 +53,10 @@ inline local_id find_line(const std::vector<skeleton_line>& lines, local_id a, l
                                                         : no_id;
 }
 
+/// Whether two orders of the same three vertices turn the same way.
+inline bool same_turn(const simplex<2>& a, const simplex<2>& b) {
+  const auto at = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+  return b[(at + 1) % 3] == a[1];
+}
+
 } // namespace dovetail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/decomposition/interface_contract.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
@@ -146,7 +147,7 @@ private:
   std::vector<triangle_origin> origins_of(const std::vector<local_id>& patch_of_triangle) const {
     std::vector<triangle_origin> of_patch(result_.coarse.regions.size(), triangle_origin::cad);
     for (const skeleton_face& face : result_.coarse.faces) {
-      const auto side = static_cast<std::size_t>(detail::find_side<3>(sides_, face.vertices));
+      const auto side = static_cast<std::size_t>(find_side<3>(sides_, face.vertices));
       of_patch.push_back(side_states_[side] == side_state::refused ? triangle_origin::refused
                                                                    : triangle_origin::kept);
     }

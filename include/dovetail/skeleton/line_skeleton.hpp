@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
@@ -39,7 +38,7 @@ inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, con
   const auto part = [&](local_id triangle) { return part_of_triangle[static_cast<std::size_t>(triangle)]; };
   for (std::size_t l = 0; l < lines.keys.size(); ++l) {
     const auto line = static_cast<local_id>(l);
-    const local_id side = detail::find_side<2>(sides, lines.keys[l].vertices);
+    const local_id side = find_side<2>(sides, lines.keys[l].vertices);
     const auto at_side = sides.all_elements(side);
     const auto passage = [&](std::size_t k) {
       return side_of_element(surface.mesh, sides, side, at_side[k]);

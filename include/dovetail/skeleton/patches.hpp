@@ -3,7 +3,7 @@
 /// remeshed.
 #pragma once
 
-#include "dovetail/decomposition/extract_skeleton.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
