@@ -1,3 +1,4 @@
+#include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -90,6 +91,10 @@ struct scratch_folder {
   ~scratch_folder() { fs::remove_all(path); }
 };
 
+std::shared_ptr<entity_store> in_spool(spool disk) {
+  return std::make_shared<entity_store>(std::move(disk));
+}
+
 byte_buffer all_bytes(const meshing_result& result) {
   byte_writer bytes;
   for (local_id s = 0; s < static_cast<local_id>(result.pieces.size()); ++s)
@@ -139,7 +144,7 @@ TEST_CASE("The result does not depend on the executor, its workers or the store"
   for (const int workers : {1, 2, 4}) {
     CHECK(run(parallel::processes{workers}, {}) == expected);
     meshing_options spooled;
-    spooled.store = spool::start(scratch.path, {});
+    spooled.store = in_spool(spool::start(scratch.path, {}));
     CHECK(run(parallel::processes{workers}, spooled) == expected);
   }
 }
@@ -174,7 +179,7 @@ TEST_CASE("A failed subdomain climbs the ladder, the others do not") {
 TEST_CASE("What no rung can mesh comes back as data, with a file of its facets") {
   const scratch_folder scratch;
   meshing_options options;
-  options.failure_folder = scratch.path;
+  options.on_failure = write_facets_of_failures(scratch.path);
   const auto result = run_fan({3, fan_mesher::misbehaviour::aborts}, options);
   REQUIRE(result.failures.size() == 1);
   const piece_failure& failure = result.failures[0];
@@ -238,7 +243,7 @@ TEST_CASE("An unusable field and a mesher in threads are typed errors") {
 TEST_CASE("A store that cannot be written is an io_error") {
   const scratch_folder scratch;
   meshing_options options;
-  options.store = spool::start(scratch.path, {});
+  options.store = in_spool(spool::start(scratch.path, {}));
   fs::remove_all(scratch.path);
   CHECK_THROWS_AS(run_fan({}, options), io_error);
 }
@@ -250,7 +255,7 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   const pid_t child = ::fork();
   if (child == 0) { // is killed while cube 4 is being made
     meshing_options options;
-    options.store = spool::start(scratch.path, {});
+    options.store = in_spool(spool::start(scratch.path, {}));
     mesh_subdomains(
         piece_count,
         [](local_id s) {
@@ -265,24 +270,46 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   ::waitpid(child, &status, 0);
   REQUIRE(WIFSIGNALED(status));
 
+  const spool disk = spool::resume(scratch.path, {});
+  const auto name_of = [](local_id cube) { return "piece_" + to_string(key_of(cube_number(cube), {})); };
+  REQUIRE(disk.read(name_of(3)));
+  REQUIRE_FALSE(disk.read(name_of(5)));
+  fs::resize_file(disk.path_of(name_of(1)), 100); // and one is damaged
   meshing_options options;
-  options.store = spool::resume(scratch.path, {});
-  REQUIRE(options.store->read("piece_3"));
-  REQUIRE_FALSE(options.store->read("piece_5"));
-  fs::resize_file(options.store->path_of("piece_1"), 100); // and one is damaged
-  std::vector<local_id> made;
-  const auto result = mesh_subdomains(
-      piece_count,
-      [&](local_id s) {
-        made.push_back(s);
-        return cube_number(s);
-      },
-      fan_mesher{}, counting_improver{}, unit_size, parallel::serial{}, options);
-  CHECK(std::find(made.begin(), made.end(), 0) == made.end());
-  CHECK(std::find(made.begin(), made.end(), 1) != made.end());
-  CHECK(std::find(made.begin(), made.end(), 5) != made.end());
+  options.store = in_spool(disk);
+  const auto result = mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
+                                      parallel::serial{}, options);
+  CHECK(result.summary.get("reused") == 3); // 0, 2 and 3
   CHECK(all_bytes(result) == expected);
   CHECK(result.summary.get("elements") > 0);
-  fs::remove(options.store->path_of("piece_0"));
+  fs::remove(disk.path_of(name_of(0)));
   CHECK_THROWS_AS(result.load(0), io_error);
+}
+
+TEST_CASE("What a store has is not made again, under whatever number") {
+  const auto shifted = [](local_id s) { return cube_number((s + 2) % static_cast<local_id>(piece_count)); };
+  const auto changed = [](local_id s) {
+    auto input = cube_number(s);
+    if (s == 4)
+      input.boundary.boundary.points.front().x -= 1e-9;
+    return input;
+  };
+  meshing_options options;
+  options.store = std::make_shared<entity_store>();
+  const auto run = [&](const auto& source) {
+    return mesh_subdomains(piece_count, source, fan_mesher{}, counting_improver{}, unit_size,
+                           parallel::processes{2}, options);
+  };
+  CHECK(run(cube_number).summary.get("reused") == 0);
+  const auto result = run(shifted);
+  CHECK(result.summary.get("reused") == piece_count);
+  for (local_id s = 0; s < static_cast<local_id>(piece_count); ++s) {
+    const auto piece = result.load(s);
+    CHECK(piece.subdomain == s);
+    CHECK(piece.skeleton_points == shifted(s).skeleton_points);
+    CHECK_NOTHROW(check_mesher_result(shifted(s).boundary, piece.mesh));
+  }
+  CHECK(run(changed).summary.get("reused") == piece_count - 1);
+  options.field = {1};
+  CHECK(run(cube_number).summary.get("reused") == 0);
 }

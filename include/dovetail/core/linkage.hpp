@@ -1,9 +1,9 @@
 /// @file
 /// How functions that no policy touches are linked.
 ///
-/// `x.hpp` declares them and `x.ipp` beside it defines them. Header-only, the default, x.hpp includes x.ipp. With
-/// DOVETAIL_COMPILED, which the CMake target dovetail::compiled defines, x.hpp ends with its declarations, and the
-/// definitions are compiled once, into that target's library.
+/// `x.hpp` declares them and `x.ipp` beside it defines them. Header-only, the default, x.hpp includes x.ipp.
+/// With DOVETAIL_COMPILED, which the CMake target dovetail::compiled defines, x.hpp ends with its
+/// declarations, and the definitions are compiled once, into that target's library.
 #pragma once
 
 #ifdef DOVETAIL_COMPILED

@@ -3,6 +3,7 @@
 /// finished pieces.
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/intersection/suppression.hpp"
@@ -43,6 +44,9 @@ public:
       balls_.push_back({crossing.center, 2 * crossing.size, 0.5 * crossing.size});
     return within_bounds(plain_, balls_, 0.3);
   }
+
+  /// The key of the present field, given that of the plain one.
+  content_key key(content_key plain) const { return balls_.empty() ? plain : key_maker(plain)(balls_).key(); }
 
 private:
   any_sizing plain_;

@@ -6,12 +6,12 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/spool.hpp"
+#include "dovetail/parallel/entity_store.hpp"
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -36,11 +36,12 @@ struct piece_failure {
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
-  /// Finished pieces go here as "<store_prefix>piece_<subdomain>"; those that are there already are not made
-  /// again. Without a spool they are kept in memory.
-  std::optional<spool> store = std::nullopt;
-  /// Tells decompositions apart that share a spool, since the same number means another subdomain in each.
-  std::string store_prefix = {};
+  /// Finished pieces go here under their keys; those that are there already are not made again. Without a
+  /// store the result has one of its own, in memory.
+  std::shared_ptr<entity_store> store = {};
+  /// What else all pieces are a function of: the key of a size field that was changed. Mesher and improver
+  /// must be the same as long as the store is.
+  content_key field = {};
   /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
   /// keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
@@ -55,14 +56,15 @@ struct meshed_pieces {
   quality_statistics quality;          ///< of all pieces together
   /// A finished piece; `io_error` when its file is damaged.
   std::function<simplicial_piece<D>(local_id)> load;
-  report summary; ///< "elements", "inner_points", "retried", "failed", "peak_rss_bytes", and the sums over
-                  ///< workers "mesher_seconds" and "improver_seconds"
+  report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
+                  ///< "peak_rss_bytes", and the sums over workers "mesher_seconds" and "improver_seconds"
 };
 
 using meshing_result = meshed_pieces<3>;
 
 /// Meshes subdomains 0 .. count-1. In the worker, right after meshing: improvement, the checks of
-/// `check_mesher_result` on the final mesh, quality, and the write to the spool. A round ends before the next
+/// `check_mesher_result` on the final mesh, quality, and the write to the store, under a key of the piece's
+/// boundary: what the store has is not made again, whatever its number was then. A round ends before the next
 /// begins, and what it tries depends on its number only, so the result does not depend on the number of
 /// workers, nor on whether the run was interrupted and resumed.
 ///

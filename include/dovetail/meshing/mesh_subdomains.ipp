@@ -10,7 +10,7 @@
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/spool.hpp"
+#include "dovetail/parallel/entity_store.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,51 +29,57 @@ namespace dovetail {
 
 namespace detail {
 
-/// Finished pieces, in the spool or in memory.
+/// What a worker sends of a piece: where it is, and what the parent needs of it without loading it.
+struct piece_receipt {
+  content_key key = {};
+  std::vector<local_id> skeleton_points = {};
+  piece_summary summary = {};
+  bool reused = false; ///< the store had it
+
+  byte_buffer encoded() const {
+    byte_writer bytes;
+    bytes.value(key);
+    bytes.array(skeleton_points);
+    encode(bytes, summary);
+    bytes.value<std::uint8_t>(reused);
+    return bytes.take();
+  }
+  static piece_receipt decoded(const byte_buffer& buffer) {
+    byte_reader bytes(buffer);
+    piece_receipt receipt;
+    receipt.key = bytes.value<content_key>();
+    receipt.skeleton_points = bytes.array<local_id>();
+    receipt.summary = decode_summary(bytes);
+    receipt.reused = bytes.value<std::uint8_t>() != 0;
+    return receipt;
+  }
+};
+
+/// Finished pieces by the numbers of the present decomposition.
 template <int D>
 class piece_shelf {
 public:
-  piece_shelf(std::size_t count, const meshing_options& options)
-      : in_memory_(options.store ? 0 : count), store_(options.store), prefix_(options.store_prefix) {}
+  piece_shelf(std::size_t count, std::shared_ptr<entity_store> store)
+      : store_(std::move(store)), keys_(count), skeleton_points_(count) {}
 
-  /// Worker side: what is left to send back after storing. Empty `found` means that nothing is stored yet.
-  std::optional<byte_buffer> find(local_id subdomain) const {
-    return store_ ? store_->read(name_of(subdomain)) : std::nullopt;
-  }
-  byte_buffer store(local_id subdomain, byte_buffer finished) const {
-    if (!store_)
-      return finished;
-    store_->write(name_of(subdomain), finished);
-    return receipt(finished);
-  }
-  /// In place of a piece that is in the spool, only its summary travels to the parent.
-  static byte_buffer receipt(const byte_buffer& finished) {
-    byte_writer bytes;
-    encode(bytes, summary_of(finished));
-    return bytes.take();
-  }
-
-  /// Parent side: takes what a worker sent.
-  void keep(local_id subdomain, byte_buffer sent) {
-    if (!store_)
-      in_memory_[static_cast<std::size_t>(subdomain)] = std::move(sent);
+  entity_store& store() const { return *store_; }
+  void place(local_id subdomain, piece_receipt receipt) {
+    const auto s = static_cast<std::size_t>(subdomain);
+    keys_[s] = receipt.key;
+    skeleton_points_[s] = std::move(receipt.skeleton_points);
   }
   simplicial_piece<D> load(local_id subdomain) const {
-    if (!store_)
-      return piece_of<D>(in_memory_.at(static_cast<std::size_t>(subdomain)));
-    const auto finished = store_->read(name_of(subdomain));
-    if (!finished)
-      throw io_error(store_->path_of(name_of(subdomain)).string() +
-                     " is missing or damaged; resume the run to make it again");
-    return piece_of<D>(*finished);
+    const auto s = static_cast<std::size_t>(subdomain);
+    simplicial_piece<D> piece = piece_of<D>(store_->get(keys_.at(s)));
+    piece.subdomain = subdomain;
+    piece.skeleton_points = skeleton_points_[s];
+    return piece;
   }
 
 private:
-  std::string name_of(local_id subdomain) const { return prefix_ + piece_name(subdomain); }
-
-  std::vector<byte_buffer> in_memory_;
-  std::optional<spool> store_;
-  std::string prefix_;
+  std::shared_ptr<entity_store> store_;
+  std::vector<content_key> keys_;
+  std::vector<std::vector<local_id>> skeleton_points_;
 };
 
 /// Errors that no other rung can mend travel beside the result, and are thrown again by the parent.
@@ -87,7 +93,9 @@ public:
                    const any_improver<D>& improve, const any_sizing& size, const any_executor& run_tasks,
                    const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
-        ladder_(ladder_of(mesh_it)), shelf_(std::make_shared<piece_shelf<D>>(count, options)) {
+        ladder_(ladder_of(mesh_it)),
+        shelf_(std::make_shared<piece_shelf<D>>(count, options.store ? options.store
+                                                                     : std::make_shared<entity_store>())) {
     result_.pieces.resize(count);
     pending_.resize(count);
     for (std::size_t s = 0; s < count; ++s)
@@ -108,8 +116,7 @@ public:
 private:
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
   std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
-  byte_buffer attempt(local_id subdomain, std::size_t rung) const {
-    const piece_input<D> input = source_(subdomain);
+  byte_buffer attempt(local_id subdomain, const piece_input<D>& input, std::size_t rung) const {
     if (rung < ladder_.size())
       return make_piece<D>(subdomain, input, ladder_[rung], &improve_, size_, rung);
     return make_piece<D>(subdomain, input, ladder_[0], nullptr, size_, rung);
@@ -147,24 +154,57 @@ private:
   /// Runs in the worker.
   byte_buffer reply(local_id subdomain, std::size_t rung) const {
     try {
-      if (const auto finished = shelf_->find(subdomain))
-        return tagged(reply_kind::finished, piece_shelf<D>::receipt(*finished));
-      return tagged(reply_kind::finished, shelf_->store(subdomain, attempt(subdomain, rung)));
+      piece_input<D> input = source_(subdomain);
+      entity_store& store = shelf_->store();
+      piece_receipt receipt{.key = key_of(input, options_.field)};
+      auto finished = store.find(receipt.key);
+      receipt.reused = finished.has_value();
+      if (!finished)
+        finished = attempt(subdomain, input, rung);
+      receipt.summary = summary_of(*finished);
+      receipt.skeleton_points = std::move(input.skeleton_points);
+      if (!receipt.reused && !store.is_shared())
+        return tagged(reply_kind::finished, *std::move(finished), receipt.encoded());
+      if (!receipt.reused)
+        store.keep(receipt.key, *std::move(finished));
+      return tagged(reply_kind::finished, {}, receipt.encoded());
     } catch (const io_error& e) {
-      return tagged(reply_kind::cannot_store, as_bytes(e.what()));
+      return tagged(reply_kind::cannot_store, {}, as_bytes(e.what()));
     } catch (const sizing_error& e) {
-      return tagged(reply_kind::bad_size, as_bytes(e.what()));
+      return tagged(reply_kind::bad_size, {}, as_bytes(e.what()));
     }
   }
 
-  /// The kind goes last, so that neither end moves the bytes of a piece.
-  static byte_buffer tagged(reply_kind kind, byte_buffer bytes) {
-    bytes.push_back(static_cast<std::byte>(kind));
-    return bytes;
+  /// A piece (or nothing), and behind it what is said of it, so that neither end moves the bytes of a piece.
+  static byte_buffer tagged(reply_kind kind, byte_buffer piece, const byte_buffer& said) {
+    byte_writer tail;
+    tail.value<std::uint64_t>(said.size());
+    tail.value(kind);
+    append(piece, said);
+    append(piece, tail.take());
+    return piece;
   }
   static byte_buffer as_bytes(const std::string& text) {
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
     return {first, first + text.size()};
+  }
+
+  struct parts_of_reply {
+    reply_kind kind;
+    byte_buffer said;
+    byte_buffer piece;
+  };
+  static parts_of_reply parts_of(byte_buffer reply) {
+    constexpr std::size_t tail_size = sizeof(std::uint64_t) + sizeof(reply_kind);
+    const byte_buffer tail(reply.end() - tail_size, reply.end());
+    byte_reader numbers(tail);
+    const auto said = static_cast<std::ptrdiff_t>(numbers.value<std::uint64_t>());
+    const auto kind = numbers.value<reply_kind>();
+    reply.resize(reply.size() - tail_size);
+    parts_of_reply parts{kind, byte_buffer(reply.end() - said, reply.end()), {}};
+    reply.resize(reply.size() - static_cast<std::size_t>(said));
+    parts.piece = std::move(reply);
+    return parts;
   }
 
   /// Takes one outcome; false when the subdomain failed.
@@ -177,17 +217,21 @@ private:
       piece.timed_out = piece.timed_out || outcome.timed_out;
       return false;
     }
-    const auto kind = static_cast<reply_kind>(outcome.result.back());
-    outcome.result.pop_back();
-    const auto text = [&] {
-      return std::string(reinterpret_cast<const char*>(outcome.result.data()), outcome.result.size());
+    auto [kind, said, bytes] = parts_of(std::move(outcome.result));
+    const auto text = [&said = said] {
+      return std::string(reinterpret_cast<const char*>(said.data()), said.size());
     };
     if (kind == reply_kind::cannot_store)
       throw io_error(text());
     if (kind == reply_kind::bad_size)
       throw sizing_error(text());
-    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = summary_of(outcome.result);
-    shelf_->keep(piece.subdomain, std::move(outcome.result));
+    piece_receipt receipt = piece_receipt::decoded(said);
+    if (!bytes.empty())
+      shelf_->store().keep(receipt.key, std::move(bytes));
+    summary.add("reused", receipt.reused ? 1 : 0);
+    receipt.summary.summary.name = piece_name(piece.subdomain);
+    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = receipt.summary;
+    shelf_->place(piece.subdomain, std::move(receipt));
     if (piece.timed_out)
       summary.warnings.push_back(
           "subdomain " + std::to_string(piece.subdomain) +

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -24,6 +25,7 @@ template <int D>
 struct piece_input {
   mesher_input<D> boundary;
   std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
+  content_key context = {}; ///< of what else the piece is a function of: the lines around it (D = 2)
 };
 
 using subdomain_input = piece_input<3>;
@@ -34,6 +36,22 @@ struct piece_summary {
   quality_statistics quality;
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
 };
+
+/// The key of a piece: its boundary as the mesher gets it. The numbers of its points in the skeleton are no
+/// part of it, since a merge elsewhere changes these.
+template <int D>
+content_key key_of(const piece_input<D>& input, content_key field) {
+  key_maker make(field, input.context);
+  make(std::int64_t{D})(std::int64_t{input.boundary.material})(input.boundary.boundary.points)(
+      input.boundary.boundary.elements);
+  if constexpr (D == 2)
+    for (const surface_region& region : input.boundary.regions) {
+      const patch_boundary& b = region.boundary;
+      make(std::int64_t{region.face})(std::int64_t{region.reversed})(b.uv)(b.points)(b.labels)(b.segments)(
+          b.forbidden_edges);
+    }
+  return make.key();
+}
 
 namespace detail {
 
@@ -54,7 +72,8 @@ inline piece_summary decode_summary(byte_reader& from) {
   return s;
 }
 
-/// A finished piece as bytes: its summary, and the mesh behind it.
+/// A finished piece as bytes: its summary, and the mesh behind it, without numbers that only the present
+/// skeleton gives it.
 template <int D>
 byte_buffer finished_bytes(const piece_summary& summary, const simplicial_piece<D>& piece) {
   byte_writer bytes;
@@ -109,8 +128,7 @@ byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const an
       static_cast<global_id>(made.mesh.points.size() - input.boundary.boundary.points.size());
   summary.quality = measure_quality(made.mesh);
   summary.summary.seconds = clock.seconds();
-  return finished_bytes<D>(summary,
-                           {subdomain, input.boundary.material, std::move(made.mesh), input.skeleton_points});
+  return finished_bytes<D>(summary, {no_id, input.boundary.material, std::move(made.mesh), {}});
 }
 
 } // namespace detail

@@ -10,6 +10,7 @@
 #include "dovetail/pipeline/piece_crossings.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace dovetail {
@@ -17,9 +18,9 @@ namespace dovetail {
 namespace detail {
 
 /// Realizes a decomposition and meshes its subdomains. What no rung of the mesher's ladder can mesh is merged
-/// with a neighbour and all is done again, until nothing fails or nothing can be merged. So it is, with a
-/// smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when that does not
-/// help.
+/// with a neighbour, and what that changes is done again, until nothing fails or nothing can be merged. So it
+/// is, with a smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when that
+/// does not help.
 template <int D>
 std::pair<realized<D>, meshed_pieces<D>>
 realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh, const side_table<D>& sides,
@@ -27,10 +28,13 @@ realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh
                  std::span<const double> weights, const any_sizing& size, const any_parameters<D>& given) {
   std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
   piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
-  for (int attempt = 0;; ++attempt) {
-    auto skeleton = realize(model, mesh, sides, side_states, pieces.part_of_element,
-                            static_cast<local_id>(sizes.size()), crossing_rounds.size(), given);
-    auto meshed = mesh_all_pieces(model, mesh, skeleton, weights, attempt, given);
+  patch_cache patches;
+  const auto store = std::make_shared<entity_store>(given.options.store);
+  for (;;) {
+    auto skeleton =
+        realize(model, mesh, sides, side_states, pieces.part_of_element, static_cast<local_id>(sizes.size()),
+                crossing_rounds.size(), crossing_rounds.field(), patches, given);
+    auto meshed = mesh_all_pieces(model, mesh, skeleton, weights, store, given);
     std::vector<local_id> failed;
     for (const piece_failure& failure : meshed.failures)
       failed.push_back(failure.subdomain);

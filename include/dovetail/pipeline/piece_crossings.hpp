@@ -104,6 +104,8 @@ public:
 
   /// The field for the pieces to be made next.
   const any_sizing& size() const { return size_; }
+  /// Its key.
+  content_key field() const { return refinement_.key({}); }
 
   /// Whether the pieces are fit to be kept; otherwise `size` is smaller afterwards. Pieces that failed are
   /// left to whoever deals with failures. Throws `intersection_error` naming two CAD faces that cross when

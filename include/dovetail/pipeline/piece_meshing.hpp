@@ -37,7 +37,8 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
       std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
   auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
-  return [&model, &mesh, &skeleton, sorted, rule, own_model](local_id s) {
+  const content_key context = key_maker(rule->key())(skeleton.lines.points).key();
+  return [&model, &mesh, &skeleton, sorted, rule, own_model, context](local_id s) {
     auto lines = boundary_of_subdomain(skeleton.fine, *sorted, s);
     const std::shared_ptr<const any_geometry> evaluated =
         own_model ? std::make_shared<const any_geometry>(model)
@@ -65,6 +66,7 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
     }
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
+    input.context = key_maker(context)(skeleton.regions[static_cast<std::size_t>(s)]).key();
     return input;
   };
 }
@@ -78,15 +80,15 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
   return sums;
 }
 
-/// Meshes all pieces of a realized decomposition. Pieces of different attempts do not share files.
+/// Meshes all pieces of a realized decomposition that the store does not have.
 template <int D>
 meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
-                                 const realized<D>& skeleton, std::span<const double> weights, int attempt,
-                                 const any_parameters<D>& given) {
+                                 const realized<D>& skeleton, std::span<const double> weights,
+                                 const std::shared_ptr<entity_store>& store, const any_parameters<D>& given) {
   meshing_options options;
   options.predicted_cost = weights_of_subdomains(skeleton, weights);
-  options.store = given.options.store;
-  options.store_prefix = attempt == 0 ? "" : "merged_" + std::to_string(attempt) + "_";
+  options.store = store;
+  options.field = skeleton.field;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;

@@ -7,6 +7,7 @@
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
+#include "dovetail/skeleton/remesh_skeleton.hpp"
 
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ struct realized<3> {
   std::vector<local_id> material_of_subdomain; ///< after merges
   std::vector<triangle_origin> origins;        ///< per fine triangle, for the interface contract
   any_sizing size;                             ///< the field given, smaller where CAD regions came too close
+  content_key field;                           ///< of `size`
   report skeleton_summary;
   report
       intersection_summary; ///< "crossings", "merges", "largest_merged" (original subdomains in the largest)
@@ -40,6 +42,7 @@ struct realized<2> {
   std::vector<local_id> subdomain_of_element;
   std::vector<local_id> material_of_subdomain; ///< all 0
   any_sizing size;
+  content_key field; ///< of `size`
   report skeleton_summary;
   report intersection_summary; ///< of the finished pieces: lines of one region that cross fail as its piece
 };
@@ -51,14 +54,16 @@ using realized_skeleton = realized<3>;
 realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                     const side_table<2>& sides, std::span<const side_state>,
                     std::vector<local_id> subdomain_of_element, local_id subdomains, const any_sizing& size,
-                    const any_parameters<2>& given);
+                    content_key field, patch_cache& cache, const any_parameters<2>& given);
 
 /// Remeshes the skeleton of a decomposition until nothing crosses. `side_states` are what the simplification
 /// decided about the sides of the coarse volume. Throws `intersection_error` when too many subdomains would
-/// have to be merged or two CAD faces cross, `mesher_error` when a region cannot be remeshed.
+/// have to be merged or two CAD faces cross, `mesher_error` when a region cannot be remeshed. `field` is the
+/// key of `size`; `cache` carries patches from one call to the next, as in `remesh_skeleton`.
 realized_skeleton realize(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
                           std::span<const side_state> side_states, std::vector<local_id> subdomain_of_element,
-                          local_id subdomains, const any_sizing& size, const any_parameters<3>& given);
+                          local_id subdomains, const any_sizing& size, content_key field, patch_cache& cache,
+                          const any_parameters<3>& given);
 
 } // namespace dovetail
 

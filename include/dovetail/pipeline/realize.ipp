@@ -23,13 +23,15 @@ namespace detail {
 class skeleton_rounds {
 public:
   skeleton_rounds(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
-                  std::span<const side_state> side_states, const any_sizing& size,
-                  const any_parameters<3>& given)
-      : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), given_(given) {}
+                  std::span<const side_state> side_states, const any_sizing& size, content_key field,
+                  patch_cache& cache, const any_parameters<3>& given)
+      : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), field_(field),
+        cache_(cache), given_(given) {}
 
   realized_skeleton run(std::vector<local_id> subdomain_of_element, local_id subdomains) {
     result_.subdomain_of_element = std::move(subdomain_of_element);
     result_.size = size_;
+    result_.field = cache_.field = field_;
     sizes_.assign(static_cast<std::size_t>(subdomains), 1);
     result_.skeleton_summary.name = "skeleton";
     result_.intersection_summary.name = "intersection";
@@ -116,7 +118,7 @@ private:
   void refine(const std::vector<surface_crossing>& crossings) {
     result_.size = refinement_.refine(crossings, model_.topology());
     ++refinements_;
-    cache_.clear();
+    result_.field = cache_.field = refinement_.key(field_);
   }
 
   realized_skeleton finish(remeshed_skeleton remeshed) {
@@ -163,10 +165,11 @@ private:
   const side_table<3>& sides_;
   std::span<const side_state> side_states_;
   any_sizing size_;
+  content_key field_;
+  patch_cache& cache_;
   const any_parameters<3>& given_;
   crossing_refinement refinement_{size_, given_.options.refinement_rounds};
   int refinements_ = 0;
-  patch_cache cache_;
   std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of
   local_id merged_ = 0;
   realized_skeleton result_;
@@ -177,7 +180,8 @@ private:
 DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                                     const side_table<2>& sides, std::span<const side_state>,
                                     std::vector<local_id> subdomain_of_element, local_id subdomains,
-                                    const any_sizing& size, const any_parameters<2>& given) {
+                                    const any_sizing& size, content_key field, patch_cache& /*cache*/,
+                                    const any_parameters<2>& given) {
   const stopwatch clock;
   realized<2> result;
   result.coarse = extract_skeleton(mesh.surface, own_pieces(subdomain_of_element));
@@ -188,6 +192,7 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
   result.subdomain_of_element = std::move(subdomain_of_element);
   result.material_of_subdomain.assign(static_cast<std::size_t>(subdomains), 0);
   result.size = size;
+  result.field = field;
   result.intersection_summary.name = "intersection";
   report& summary = result.skeleton_summary;
   summary.name = "skeleton";
@@ -202,8 +207,9 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
 DOVETAIL_INLINE realized_skeleton realize(const any_geometry& model, const background_mesh& mesh,
                                           const side_table<3>& sides, std::span<const side_state> side_states,
                                           std::vector<local_id> subdomain_of_element, local_id subdomains,
-                                          const any_sizing& size, const any_parameters<3>& given) {
-  return detail::skeleton_rounds(model, mesh, sides, side_states, size, given)
+                                          const any_sizing& size, content_key field, patch_cache& cache,
+                                          const any_parameters<3>& given) {
+  return detail::skeleton_rounds(model, mesh, sides, side_states, size, field, cache, given)
       .run(std::move(subdomain_of_element), subdomains);
 }
 

@@ -2,6 +2,7 @@
 /// The fine skeleton of D = 2: the edges of the remeshed lines, with the subsurfaces beside them.
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
@@ -82,6 +83,15 @@ public:
     });
     return an_earlier_region ||
            std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
+  }
+
+  /// Of all that the answers depend on.
+  content_key key() const {
+    key_maker make;
+    make(edges_);
+    for (const auto& regions : regions_at_)
+      make(regions);
+    return make.key();
   }
 
 private:

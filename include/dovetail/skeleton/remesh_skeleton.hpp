@@ -3,6 +3,7 @@
 /// (paper, section 3.5); then puts the pieces together.
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
@@ -14,9 +15,12 @@
 
 namespace dovetail {
 
-/// Patches already remeshed, by what their mesh depends on. After a merge of subdomains most patches are as
+/// Patches already remeshed, by the keys of their boundaries. After a merge of subdomains most patches are as
 /// before.
-using patch_cache = std::map<std::vector<local_id>, patch_mesh>;
+struct patch_cache {
+  content_key field; ///< what else all patches are a function of: the key of a size field that was changed
+  std::map<content_key, patch_mesh> patches;
+};
 
 /// A region or face that could not be remeshed, and lines on CAD faces at the fault that a merge would
 /// remove.
@@ -35,9 +39,9 @@ struct remeshed_skeleton {
 };
 
 /// Remeshes the skeleton to the sizing field. `cache` carries patches from one call to the next as long as
-/// the model, the coarse mesh and the field are the same; start with an empty one. About linear in the
-/// triangles made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at
-/// all.
+/// the model and the remesher are the same; start with an empty one. "patches_made" in the summary are those
+/// that were not in it. About linear in the triangles made. Faults come back as `failures`; throws
+/// `mesher_error` when a patch cannot be evaluated at all.
 remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
                                   const any_sizing& size, const remesh::patch_remesher& remesher,

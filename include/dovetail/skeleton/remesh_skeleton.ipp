@@ -41,6 +41,7 @@ public:
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
     result.summary.set("triangles", static_cast<double>(result.fine.triangles.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
+    result.summary.set("patches_made", static_cast<double>(made_));
     result.summary.set("line_seconds", line_seconds);
     result.summary.seconds = clock.seconds();
     return result;
@@ -65,31 +66,39 @@ private:
       keys_[p] = key_of(p);
   }
 
-  /// What a patch's mesh depends on, by coarse numbers, which merges do not change.
-  std::vector<local_id> key_of(std::size_t p) const {
-    std::vector<local_id> key;
-    if (is_region(p)) {
-      const skeleton_region& region = skeleton_.regions[p];
-      key = {region.cad_face, static_cast<local_id>(region.triangles.size())};
-      append(key, region.triangles);
-      std::set<local_id> lines(patches_[p].line_of_segment.begin(), patches_[p].line_of_segment.end());
-      lines.erase(no_id);
-      for (const local_id line : lines)
-        append(key, lines_.keys[at(line)].vertices);
-      key.push_back(no_id);
-      append(key, region.fixed_points);
-    } else {
-      const simplex<2> corners = key_order(face_of(p));
-      key = {no_id, corners[0], corners[1], corners[2]};
-    }
-    return key;
+  /// The key of a patch: its boundary as the remesher gets it. Labels are numbers of the present skeleton;
+  /// what counts of them is which points have the same one (poles), and which edges are forbidden.
+  content_key key_of(std::size_t p) const {
+    const patch_boundary& b = patches_[p].boundary;
+    std::map<local_id, local_id> first_with_label;
+    std::vector<local_id> same_label;
+    for (std::size_t v = 0; v < b.labels.size(); ++v)
+      same_label.push_back(first_with_label.try_emplace(b.labels[v], static_cast<local_id>(v)).first->second);
+    std::vector<std::array<local_id, 2>> forbidden;
+    for (const auto& [x, y] : b.forbidden_edges)
+      if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
+          at_x != first_with_label.end() && at_y != first_with_label.end())
+        forbidden.push_back({at_x->second, at_y->second});
+    key_maker make(cache_.field);
+    make(std::int64_t{is_region(p) ? skeleton_.regions[p].cad_face : no_id});
+    make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
+    if (!is_region(p))
+      make(corners_of(p));
+    return make.key();
+  }
+  std::vector<vec3> corners_of(std::size_t p) const {
+    std::vector<vec3> corners;
+    for (const local_id v : key_order(face_of(p)))
+      corners.push_back(coarse_points_[at(v)]);
+    return corners;
   }
 
   void remesh_patches() {
     std::vector<std::size_t> missing;
     for (std::size_t p = 0; p < patch_count(); ++p)
-      if (!cache_.contains(keys_[p]))
+      if (!cache_.patches.contains(keys_[p]))
         missing.push_back(p);
+    made_ += missing.size();
     run_options options{.on_progress = on_progress_, .stage = "skeleton"};
     options.order.resize(missing.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
@@ -106,7 +115,7 @@ private:
     for (std::size_t i = 0; i < missing.size(); ++i) {
       if (!outcomes[i].ok)
         throw mesher_error("remeshing of " + name_of(missing[i]) + " failed: " + outcomes[i].failure);
-      cache_[keys_[missing[i]]] = decode_patch_mesh(outcomes[i].result);
+      cache_.patches[keys_[missing[i]]] = decode_patch_mesh(outcomes[i].result);
     }
   }
 
@@ -153,11 +162,8 @@ private:
           changed.insert(p);
         }
       }
-    for (const std::size_t p : changed) {
-      keys_[p].push_back(no_id - 1); // a different mesh than without them
-      for (const auto& edge : patches_[p].boundary.forbidden_edges)
-        append(keys_[p], edge);
-    }
+    for (const std::size_t p : changed)
+      keys_[p] = key_of(p); // a different mesh than without them
     return !changed.empty();
   }
 
@@ -168,7 +174,7 @@ private:
     std::set<std::array<local_id, 2>> own;
     for (const auto& [a, b] : boundary.segments)
       own.insert(sorted_vertices(std::array{boundary.labels[at(a)], boundary.labels[at(b)]}));
-    for (const simplex<2>& t : cache_.at(keys_[p]).triangles)
+    for (const simplex<2>& t : cache_.patches.at(keys_[p]).triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const local_id a = t[i], b = t[(i + 1) % 3];
         if (a >= frozen || b >= frozen)
@@ -186,7 +192,7 @@ private:
     fine.point_hosts = lines_.hosts;
     double folded = 0;
     for (std::size_t p = 0; p < patch_count(); ++p) {
-      const patch_mesh& mesh = cache_.at(keys_[p]);
+      const patch_mesh& mesh = cache_.patches.at(keys_[p]);
       if (!mesh.crossings.empty() || !mesh.misplaced.empty())
         result.failures.push_back(failure_of(p, mesh));
       if (!mesh.folded.empty()) {
@@ -267,7 +273,8 @@ private:
   const progress& on_progress_;
   numbered_lines lines_;
   std::vector<skeleton_patch> patches_;
-  std::vector<std::vector<local_id>> keys_;
+  std::vector<content_key> keys_;
+  std::size_t made_ = 0;
 };
 
 } // namespace detail

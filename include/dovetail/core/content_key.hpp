@@ -1,0 +1,63 @@
+/// @file
+/// The name of a result: a hash of all that it is a function of.
+#pragma once
+
+#include "dovetail/core/hash.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace dovetail {
+
+/// Same key, same bytes: results are kept under their keys, and what has not changed is not made again. Two
+/// different results among a million share one of the 2^64 keys with a probability of 3e-8.
+struct content_key {
+  std::uint64_t value = 0;
+
+  friend auto operator<=>(const content_key&, const content_key&) = default;
+};
+
+/// As 16 hexadecimal digits.
+inline std::string to_string(content_key key) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t k = text.size(); k-- > 0; key.value >>= 4)
+    text[k] = digits[key.value & 15];
+  return text;
+}
+
+/// Hashes plain data into a key, one call after the other.
+class key_maker {
+public:
+  /// Seeded with the keys of what else the result is a function of.
+  template <class... Keys>
+  explicit key_maker(Keys... on) {
+    (hash_.word(on.value), ...);
+  }
+
+  template <class T>
+  requires std::is_trivially_copyable_v<T> key_maker& operator()(const std::vector<T>& items) {
+    hash_.word(items.size());
+    hash_.bytes(std::as_bytes(std::span(items.data(), items.size())));
+    return *this;
+  }
+  key_maker& operator()(std::int64_t number) {
+    hash_.word(static_cast<std::uint64_t>(number));
+    return *this;
+  }
+  key_maker& operator()(double number) {
+    hash_.number(number);
+    return *this;
+  }
+  content_key key() const { return {hash_.value()}; }
+
+private:
+  content_hash hash_;
+};
+
+} // namespace dovetail

@@ -1,0 +1,63 @@
+/// @file
+/// Where finished entities lie under their content keys.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/spool.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dovetail {
+
+/// Holds the bytes of finished entities: in a spool, where workers put them themselves and a later run finds
+/// them, or in the memory of the process that started the workers. A forked worker sees what was there at its
+/// fork; one that shares the process must not look while another one keeps. Same key, same bytes.
+class entity_store {
+public:
+  entity_store() = default;
+  explicit entity_store(std::optional<spool> disk) : disk_(std::move(disk)) {}
+
+  /// Whether a worker can keep what it makes; otherwise it sends the bytes to the process that started it.
+  bool is_shared() const { return disk_.has_value(); }
+
+  /// Nothing when the entity is not there, or its file is damaged.
+  std::optional<byte_buffer> find(content_key key) const {
+    if (disk_)
+      return disk_->read(name_of(key));
+    const auto found = memory_.find(key);
+    return found != memory_.end() ? std::optional(found->second) : std::nullopt;
+  }
+  /// Throws `io_error` when the entity is missing or damaged.
+  byte_buffer get(content_key key) const {
+    if (auto found = find(key))
+      return *std::move(found);
+    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the piece " + to_string(key)) +
+                   " is missing or damaged; resume the run to make it again");
+  }
+  /// Throws `io_error` when it cannot be written.
+  void keep(content_key key, byte_buffer bytes) {
+    if (disk_)
+      disk_->write(name_of(key), bytes);
+    else
+      memory_.insert_or_assign(key, std::move(bytes));
+  }
+  void release(content_key key) {
+    if (disk_)
+      disk_->remove(name_of(key));
+    else
+      memory_.erase(key);
+  }
+
+private:
+  static std::string name_of(content_key key) { return "piece_" + to_string(key); }
+
+  std::optional<spool> disk_;
+  std::map<content_key, byte_buffer> memory_;
+};
+
+} // namespace dovetail
