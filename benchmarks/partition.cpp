@@ -69,7 +69,7 @@ public:
   template <graph_partitioner P>
   void print_rows(const char* name, const P& policy) const {
     for (const bool simplify : {true, false}) {
-      const simplification<3>& simplified = simplified_[simplify ? 0 : 1];
+      const simplification& simplified = simplified_[simplify ? 0 : 1];
       double seconds = 0;
       const auto pieces =
           decompose<3>(coarse_.mesh.volume, coarse_.sides, simplified.super_of_element, simplified.graph,
@@ -87,7 +87,7 @@ public:
 private:
   const coarse_model& coarse_;
   int subdomains_;
-  std::vector<simplification<3>> simplified_; ///< with, without
+  std::vector<simplification> simplified_; ///< with, without
 };
 
 template <geometry_model G, sizing_field H>
