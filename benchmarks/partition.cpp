@@ -13,6 +13,7 @@
 #include "dovetail/partition/space_filling_curve.hpp"
 #include "dovetail/partition/spectral.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
@@ -51,11 +52,11 @@ class comparison {
 public:
   comparison(const coarse_model& coarse, int subdomains) : coarse_(coarse), subdomains_(subdomains) {
     for (const bool simplify : {true, false}) {
-      generate_options options;
-      options.simplify = simplify;
+      const any_simplification_rule rule = simplify ? any_simplification_rule(simplifier::paper{})
+                                                    : any_simplification_rule(simplifier::none{});
       report ignored;
-      simplified_.push_back(detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains,
-                                                        options, ignored));
+      simplified_.push_back(
+          detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains, rule, ignored));
     }
   }
 

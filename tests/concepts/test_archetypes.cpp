@@ -140,6 +140,9 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
   SUBCASE("a rule that bisects") {
     check(archetype::sizing(0), given.with_partitioner(rule_partitioner{}));
   }
+  SUBCASE("a rule that simplifies") {
+    check(archetype::sizing(0), given.with_simplifier(archetype::simplification_rule(0)));
+  }
   SUBCASE("a measure of shape") {
     check(archetype::sizing(0), given.with_improver(measure_improver{}));
   }

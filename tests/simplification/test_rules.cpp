@@ -42,7 +42,7 @@ TEST_CASE("every rule keeps the contract") {
                                         .surface_deg = 60});
   }
   SUBCASE("a rule that hides another") {
-    check_rule(any_simplification_rule("wedges", simplifier::wedges_only{}));
+    check_rule(any_simplification_rule(simplifier::wedges_only{}));
   }
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("the price of a refused side grows with what is missing") {
 
 TEST_CASE("a rule that hides another gives the same") {
   const simplifier::flow_aligned rule{.surface_deg = 70, .price_of_refusal = {1, 2}};
-  const any_simplification_rule hidden("flow", rule);
+  const any_simplification_rule hidden(rule, "flow");
   CHECK(hidden.name() == "flow");
   const auto cubes = squeezed_cubes(4, 1);
   const auto squares = squeezed_squares(12, 1);

@@ -7,7 +7,7 @@
 #include "dovetail/decomposition/corner_contract.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
-#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
 
 namespace dovetail::detail {
@@ -27,20 +27,13 @@ inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
   return edges;
 }
 
-/// Both interface angles are the rule's.
-inline simplifier::paper paper_rule(const generate_options& options) {
-  if (!options.simplify) // every element stays by itself
-    return {0, 0, 0, 0};
-  return {options.surface_angle_deg, options.interface_angle_deg, 0, options.interface_angle_deg};
-}
-
 template <int D>
   requires(D == 2)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
                                    std::span<const double> weights, int subdomains,
-                                   const generate_options& options, report& summary) {
+                                   const any_simplification_rule& rule, report& summary) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto simplified = simplify<D>(mesh.surface.mesh, sides, paper_rule(options),
+  auto simplified = simplify<D>(mesh.surface.mesh, sides, rule,
                                 {.fixed_sides = span_of(on_curves), .element_weights = weights},
                                 {.subdomains = static_cast<double>(subdomains)});
   summary = simplified.summary;
@@ -51,9 +44,9 @@ template <int D>
   requires(D == 3)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
                                    std::span<const double> weights, int subdomains,
-                                   const generate_options& options, report& summary) {
+                                   const any_simplification_rule& rule, report& summary) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides, paper_rule(options),
+  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
                                   {.curve_edges = span_of(on_curves), .element_weights = weights},
                                   {.subdomains = static_cast<double>(subdomains)});
   summary = std::move(coupled.summary);

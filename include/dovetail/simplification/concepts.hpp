@@ -24,7 +24,8 @@ struct shortfall {
 
 /// What a rule says about the sides and wedges of one mesh.
 struct side_judgement {
-  std::vector<double> quality; ///< of each side as an interface, not negative, in a unit of the rule's own
+  std::vector<double> quality =
+      {};                      ///< of each side as an interface, not negative, in a unit of the rule's own
   double wanted_quality = 0;   ///< sides below it are candidates; 0: none are
   double wanted_angle_deg = 0; ///< wedges below it are too small; 0: none are
 };
