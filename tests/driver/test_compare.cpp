@@ -193,6 +193,18 @@ TEST_CASE("the claim is answered with the measured figures, for each partitioner
   CHECK(elements_called(*plots[3], "polyline").size() == 2); // one for each mesher and improver
 }
 
+TEST_CASE("each rule of simplification is held against none") {
+  if (!has_node())
+    return;
+  comparison compared = example();
+  compared.rows.push_back(row_of("metis", "none", true));
+  compared.rows.back().policies.simplifier = "shape";
+  const drawn_page page(page_html(compared, {}));
+  CHECK(contains(answers_on(page)[0], "larger with it in 2 of 2 decompositions"));
+  CHECK(contains(page.text, ">metis + tetgen, shape<"));
+  CHECK(contains(page.text, "metis + tetgen + none, simplifier none:"));
+}
+
 TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
   comparison_pictures pictures;
   const auto png = encode_png(raster_image(3, 2));
