@@ -27,7 +27,7 @@ public:
   template <int D>
   void add(const comparison_row& row, const generated<D>& result) {
     const combination& by = row.policies;
-    const std::string decomposition = by.partitioner + ", " + simplification_of(by) + " simplification";
+    const std::string decomposition = by.partitioner + ", simplifier " + by.simplifier;
     if (is_new(pictures_.decompositions, decomposition)) {
       pictures_.decompositions.push_back({decomposition, encode_png(picture_of_decomposition(result))});
       pictures_.interfaces.push_back({decomposition, encode_png(picture_of_interfaces(result))});
@@ -94,8 +94,8 @@ private:
     background_store<D> backgrounds;
     for (std::size_t k = 0; k < combinations_.size(); ++k) {
       const combination& each = combinations_[k];
-      const std::string label = std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " +
-                                name_of(each) + (each.simplified ? "" : ", plain");
+      const std::string label =
+          std::to_string(k + 1) + "/" + std::to_string(combinations_.size()) + " " + full_name_of(each);
       parameters_.on_progress = progress_of(label);
       compared_.rows.push_back(run_combination<D>(
           source, each, policies_[k], parameters_, backgrounds,

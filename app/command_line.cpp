@@ -52,6 +52,8 @@ void add_run_options(CLI::App& command, mesh_options& options) {
                      "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
   command.add_option("--partitioner", options.partitioner,
                      "Graph partitioner: " + joined(partitioner_names()));
+  command.add_option("--simplifier", options.simplifier,
+                     "Rule for sides that may not become interfaces: " + joined(simplifier_names()));
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
   command.add_option("--executor", options.executor, "Where pieces are meshed: " + joined(executor_names()));
 }

@@ -175,6 +175,7 @@ private:
     figures_.model = source.name;
     figures_.mesher = policies_.mesher.name();
     figures_.partitioner = policies_.partitioner.name();
+    figures_.simplifier = policies_.simplifier.name();
     figures_.improver = policies_.improver.name();
     figures_.executor = policies_.executor.name();
     figures_.background_mesher = policies_.background_mesher.name();

@@ -8,11 +8,15 @@
 namespace dovetail::app {
 namespace {
 
-std::string choice_of(const std::vector<std::string>& known) {
-  std::string text = "(default: " + known.front() + "). There are: ";
+std::string listed(const std::vector<std::string>& known) {
+  std::string text;
   for (const auto& name : known)
-    text += (name == known.front() ? "" : ", ") + name;
+    text += (text.empty() ? "" : ", ") + name;
   return text;
+}
+
+std::string choice_of(const std::vector<std::string>& known) {
+  return "(default: " + known.front() + "). There are: " + listed(known);
 }
 
 void add_names(CLI::App& command, const std::string& option, std::vector<std::string>& chosen,
@@ -29,6 +33,8 @@ void add_compare_options(CLI::App& command, compare_options& options) {
   add_names(command, "--meshers", options.meshers, "Meshers",
             choice_of(mesher_names<3>()) + "; of --dimension 2 " + choice_of(mesher_names<2>()));
   add_names(command, "--improvers", options.improvers, "Mesh improvers", choice_of(improver_names()));
+  add_names(command, "--simplifiers", options.simplifiers, "Rules of simplification",
+            "(default: paper,none). There are: " + listed(simplifier_names()));
   command
       .add_option("--elements", options.elements,
                   "About how many elements: scales the sizes to predict so many")

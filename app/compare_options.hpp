@@ -14,14 +14,15 @@ class App;
 
 namespace dovetail::app {
 
-/// Every combination of the three lists is run, with and without simplification. An empty list stands for the
-/// default policy.
+/// Every combination of the four lists is run. An empty list stands for the default policy, of simplifiers
+/// for the paper's and none.
 struct compare_options {
   model_options model;
   int dimension = 3; ///< of the elements
   std::vector<std::string> partitioners;
   std::vector<std::string> meshers;
   std::vector<std::string> improvers;
+  std::vector<std::string> simplifiers;
   std::optional<double> elements; ///< scales the sizes until the prediction is this number
   std::optional<int> subdomains;
   std::optional<double> coarsening;

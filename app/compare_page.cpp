@@ -49,7 +49,7 @@ json json_of(const comparison_row& row, const element_words& words) {
   return {{"partitioner", row.policies.partitioner},
           {"mesher", row.policies.mesher},
           {"improver", row.policies.improver},
-          {"simplified", row.policies.simplified},
+          {"simplifier", row.policies.simplifier},
           {"error", row.error},
           {"reused", row.background_reused},
           {"elements", row.elements},

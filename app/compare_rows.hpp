@@ -19,8 +19,10 @@ struct combination {
   std::string partitioner;
   std::string mesher;
   std::string improver;
-  bool simplified = true; ///< false: a plain partition of the background mesh
+  std::string simplifier = "paper";
 
+  /// Or a plain partition of the background mesh.
+  bool is_simplified() const { return simplifier != "none"; }
   friend bool operator==(const combination&, const combination&) = default;
 };
 
@@ -78,9 +80,9 @@ inline std::string name_of(const combination& policies) {
   return policies.partitioner + " + " + policies.mesher + " + " + policies.improver;
 }
 
-/// "with" or "without", of simplification.
-inline const char* simplification_of(const combination& policies) {
-  return policies.simplified ? "with" : "without";
+/// The same with the simplifier, where it is another than the paper's.
+inline std::string full_name_of(const combination& policies) {
+  return name_of(policies) + (policies.simplifier == "paper" ? "" : ", simplifier " + policies.simplifier);
 }
 
 } // namespace dovetail::app

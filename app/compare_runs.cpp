@@ -14,14 +14,20 @@
 namespace dovetail::app {
 namespace {
 
-/// The names once each, in their order; the default one when there are none.
-std::vector<std::string> distinct_or_default(const std::vector<std::string>& names,
-                                             const std::vector<std::string>& known) {
+/// The names once each, in their order; `otherwise` when there are none.
+std::vector<std::string> distinct_or(const std::vector<std::string>& names,
+                                     const std::vector<std::string>& otherwise) {
   std::vector<std::string> distinct;
   for (const auto& name : names)
     if (std::find(distinct.begin(), distinct.end(), name) == distinct.end())
       distinct.push_back(name);
-  return distinct.empty() ? std::vector<std::string>{known.front()} : distinct;
+  return distinct.empty() ? otherwise : distinct;
+}
+
+/// The default one when there are none.
+std::vector<std::string> distinct_or_default(const std::vector<std::string>& names,
+                                             const std::vector<std::string>& known) {
+  return distinct_or(names, {known.front()});
 }
 
 template <class Error>
@@ -81,8 +87,8 @@ std::vector<combination> combinations_of(const compare_options& options) {
   for (const auto& partitioner : distinct_or_default(options.partitioners, partitioner_names()))
     for (const auto& mesher : distinct_or_default(options.meshers, known_meshers))
       for (const auto& improver : distinct_or_default(options.improvers, improver_names()))
-        for (const bool simplified : {true, false})
-          all.push_back({partitioner, mesher, improver, simplified});
+        for (const auto& simplifier : distinct_or(options.simplifiers, {"paper", "none"}))
+          all.push_back({partitioner, mesher, improver, simplifier});
   return all;
 }
 
@@ -97,6 +103,7 @@ mesh_options options_of_run(const compare_options& options, const combination& p
   run.partitioner = policies.partitioner;
   run.mesher = policies.mesher;
   run.improver = policies.improver;
+  run.simplifier = policies.simplifier;
   return run;
 }
 
@@ -128,12 +135,9 @@ comparison_row run_combination(const model_source& source, const combination& po
   comparison_row row;
   row.policies = policies;
   try {
-    generate_options plain_or_not = options;
-    plain_or_not.simplify = policies.simplified;
     const auto [background, reused] = backgrounds.get(source, chosen, options);
     row.background_reused = reused;
-    const auto result =
-        generate_from_background<D>(source.geometry, background, composed(chosen, plain_or_not));
+    const auto result = generate_from_background<D>(source.geometry, background, composed(chosen, options));
     if (!result.failures.empty()) {
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +

@@ -17,7 +17,7 @@
 
 namespace dovetail::app {
 
-/// All combinations that the options ask for, without repetition: partitioner varies slowest, simplification
+/// All combinations that the options ask for, without repetition: partitioner varies slowest, simplifier
 /// fastest.
 std::vector<combination> combinations_of(const compare_options& options);
 

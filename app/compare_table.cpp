@@ -52,12 +52,12 @@ std::string aligned(const std::vector<text_row>& lines) {
 }
 
 std::string aligned_table(const comparison& compared, const std::vector<table_column>& columns) {
-  std::vector<text_row> lines{{"partitioner", "mesher", "improver", "simplification"}};
+  std::vector<text_row> lines{{"partitioner", "mesher", "improver", "simplifier"}};
   for (const auto& column : columns)
     lines.front().push_back(column.heading);
   for (const auto& row : compared.rows) {
     const combination& by = row.policies;
-    lines.push_back({by.partitioner, by.mesher, by.improver, simplification_of(by)});
+    lines.push_back({by.partitioner, by.mesher, by.improver, by.simplifier});
     for (const auto& column : columns)
       lines.back().push_back(row.failed() ? "-" : column.text(row));
   }
@@ -202,8 +202,7 @@ std::string terminal_text(const comparison& compared) {
     text += "The background mesh was made once for each mesher; its time is repeated and in every total.\n";
   for (const auto& row : compared.rows)
     if (row.failed())
-      text += name_of(row.policies) + ", " + simplification_of(row.policies) +
-              " simplification, failed: " + row.error + '\n';
+      text += full_name_of(row.policies) + ", failed: " + row.error + '\n';
   return text;
 }
 
@@ -211,14 +210,14 @@ std::string csv_text(const comparison& compared) {
   std::vector<table_column> columns = result_columns(compared.dimension);
   const auto times = time_columns();
   columns.insert(columns.end(), times.begin(), times.end());
-  text_row head{"partitioner", "mesher", "improver", "simplification", "error", "background_reused"};
+  text_row head{"partitioner", "mesher", "improver", "simplifier", "error", "background_reused"};
   for (const auto& column : columns)
     head.push_back(column.key);
   std::string text = csv_line(head);
   for (const auto& row : compared.rows) {
     const combination& by = row.policies;
-    text_row fields{by.partitioner,        by.mesher, by.improver,
-                    simplification_of(by), row.error, row.background_reused ? "yes" : "no"};
+    text_row fields{by.partitioner, by.mesher, by.improver,
+                    by.simplifier,  row.error, row.background_reused ? "yes" : "no"};
     for (const auto& column : columns)
       fields.push_back(column.text(row));
     text += csv_line(fields);

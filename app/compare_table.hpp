@@ -31,7 +31,7 @@ std::vector<table_column> time_columns();
 /// Two tables of aligned columns, and a line for each row that failed.
 std::string terminal_text(const comparison& compared);
 
-/// One line of keys, then one per row (RFC 4180). Columns: partitioner, mesher, improver, simplification,
+/// One line of keys, then one per row (RFC 4180). Columns: partitioner, mesher, improver, simplifier,
 /// error, background_reused, then all of the above.
 std::string csv_text(const comparison& compared);
 

@@ -25,6 +25,7 @@ struct mesh_options {
   int workers = 0;                  ///< 0: as many as the machine has
   std::string mesher;
   std::string partitioner;
+  std::string simplifier;
   std::string improver;
   std::string executor;
   std::string background_mesher;

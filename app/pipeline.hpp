@@ -16,12 +16,14 @@ struct policies_of {
   any_improver<D> improver;
   any_executor executor;
   any_line_keeping_mesher background_mesher = {}; ///< of D = 3
+  any_simplification_rule simplifier = simplifier::paper{};
 };
 
 /// The library's parameters with these policies.
 template <int D>
 any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
-  return {policies.mesher, policies.partitioner, policies.improver, policies.executor, options};
+  return {policies.mesher, policies.partitioner, policies.improver, policies.executor,
+          options,         policies.simplifier};
 }
 
 /// The background mesh, which depends on neither partitioner nor improver nor simplification.

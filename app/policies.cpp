@@ -14,6 +14,12 @@
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
 #include "dovetail/partition/space_filling_curve.hpp"
+#include "dovetail/simplification/aspect_ratio.hpp"
+#include "dovetail/simplification/flow_aligned.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/shape_only.hpp"
+#include "dovetail/simplification/wedges_only.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
 #include "background_cgal.hpp"
@@ -55,6 +61,12 @@ std::vector<any_partitioner> partitioners() {
   known.emplace_back(partition::spectral{}, "spectral");
 #endif
   return known;
+}
+
+std::vector<any_simplification_rule> simplifiers() {
+  return {{simplifier::paper{}, "paper"},         {simplifier::none{}, "none"},
+          {simplifier::shape_only{}, "shape"},    {simplifier::wedges_only{}, "wedges"},
+          {simplifier::aspect_ratio{}, "aspect"}, {simplifier::flow_aligned{}, "flow-x"}};
 }
 
 std::vector<any_mesher<3>> meshers() {
@@ -107,6 +119,9 @@ std::vector<any_line_keeping_mesher> background_meshers() {
 std::vector<std::string> partitioner_names() {
   return names_of(partitioners());
 }
+std::vector<std::string> simplifier_names() {
+  return names_of(simplifiers());
+}
 template <>
 std::vector<std::string> mesher_names<3>() {
   return names_of(meshers());
@@ -129,6 +144,9 @@ std::vector<std::string> builtin_model_names() {
 
 any_partitioner make_partitioner(const std::string& name) {
   return chosen(partitioners(), name, "--partitioner");
+}
+any_simplification_rule make_simplifier(const std::string& name) {
+  return chosen(simplifiers(), name, "--simplifier");
 }
 template <>
 any_mesher<3> make_mesher<3>(const std::string& name) {

@@ -7,6 +7,7 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
 
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 namespace dovetail::app {
 
 std::vector<std::string> partitioner_names();
+std::vector<std::string> simplifier_names();
 /// Of meshers of elements of dimension D.
 template <int D>
 std::vector<std::string> mesher_names();
@@ -25,6 +27,7 @@ std::vector<std::string> builtin_model_names();
 /// Each throws `command_line_error` listing the names when there is none such. An empty name means the
 /// default.
 any_partitioner make_partitioner(const std::string& name);
+any_simplification_rule make_simplifier(const std::string& name);
 /// These two are named alike in both dimensions; also thrown for an improver that does not take elements of
 /// D.
 template <int D>

@@ -87,6 +87,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"model", figures.model},
               {"mesher", figures.mesher},
               {"partitioner", figures.partitioner},
+              {"simplifier", figures.simplifier},
               {"improver", figures.improver},
               {"executor", figures.executor},
               {"background_mesher", figures.background_mesher},

@@ -17,8 +17,8 @@ policies_of<D> make_policies_of(const mesh_options& options) {
         "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
   auto mesher = make_mesher<D>(options.mesher);
   auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
-  return {std::move(mesher), make_partitioner(options.partitioner), make_improver<D>(options.improver),
-          std::move(executor), std::move(background_mesher)};
+  return {std::move(mesher),   make_partitioner(options.partitioner), make_improver<D>(options.improver),
+          std::move(executor), std::move(background_mesher),          make_simplifier(options.simplifier)};
 }
 
 template policies_of<2> make_policies_of<2>(const mesh_options&);

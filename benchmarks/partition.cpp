@@ -13,6 +13,7 @@
 #include "dovetail/partition/space_filling_curve.hpp"
 #include "dovetail/partition/spectral.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
@@ -51,11 +52,11 @@ class comparison {
 public:
   comparison(const coarse_model& coarse, int subdomains) : coarse_(coarse), subdomains_(subdomains) {
     for (const bool simplify : {true, false}) {
-      generate_options options;
-      options.simplify = simplify;
+      const any_simplification_rule rule = simplify ? any_simplification_rule(simplifier::paper{})
+                                                    : any_simplification_rule(simplifier::none{});
       report ignored;
-      simplified_.push_back(detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains,
-                                                        options, ignored));
+      simplified_.push_back(
+          detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains, rule, ignored));
     }
   }
 
@@ -69,7 +70,7 @@ public:
   template <graph_partitioner P>
   void print_rows(const char* name, const P& policy) const {
     for (const bool simplify : {true, false}) {
-      const simplification<3>& simplified = simplified_[simplify ? 0 : 1];
+      const simplification& simplified = simplified_[simplify ? 0 : 1];
       double seconds = 0;
       const auto pieces =
           decompose<3>(coarse_.mesh.volume, coarse_.sides, simplified.super_of_element, simplified.graph,
@@ -87,7 +88,7 @@ public:
 private:
   const coarse_model& coarse_;
   int subdomains_;
-  std::vector<simplification<3>> simplified_; ///< with, without
+  std::vector<simplification> simplified_; ///< with, without
 };
 
 template <geometry_model G, sizing_field H>

@@ -1,5 +1,6 @@
 /// Coarse elements per second of the simplification alone (adjacency given), D = 3 and D = 2.
 /// Usage: simplification [cells per axis (default 40: 384,000 tetrahedra)]
+#include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -11,9 +12,7 @@ namespace {
 template <int D>
 void measure(const dovetail::simplicial_mesh<D>& mesh) {
   const auto sides = dovetail::build_sides(mesh);
-  dovetail::simplify_parameters<D> parameters;
-  parameters.subdomains = 32;
-  const auto result = dovetail::simplify(mesh, sides, {}, parameters);
+  const auto result = dovetail::simplify(mesh, sides, dovetail::simplifier::paper{}, {}, {.subdomains = 32});
   const auto n = static_cast<double>(mesh.elements.size());
   std::printf("D = %d: %.0f elements -> %d super-elements, %.3f s, %.0f elements/s\n", D, n,
               result.super_count, result.summary.seconds, n / result.summary.seconds);

@@ -2,7 +2,6 @@
 # the third party is found. Each adapter's dependencies are written once more, for users, in dovetailConfig.cmake.in.
 
 find_package(Threads REQUIRED)
-find_package(Boost 1.71 REQUIRED CONFIG) # headers of Boost.Graph
 
 add_library(dovetail INTERFACE)
 add_library(dovetail::dovetail ALIAS dovetail)
@@ -14,7 +13,7 @@ target_include_directories(dovetail INTERFACE
 # be the same on machines with and without fused operations. (By default g++ fuses where -march offers it.)
 target_compile_options(dovetail INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>")
-target_link_libraries(dovetail INTERFACE Threads::Threads Boost::headers)
+target_link_libraries(dovetail INTERFACE Threads::Threads)
 
 set(dovetail_components "")
 set(dovetail_missing_components "")
@@ -60,6 +59,9 @@ dovetail_adapter(netgen FOUND "${Netgen_FOUND}" LIBRARIES Netgen::nglib)
 
 find_package(Spectra QUIET)
 dovetail_adapter(spectra FOUND "${Spectra_FOUND}" LIBRARIES Spectra::Spectra)
+
+find_package(Boost 1.71 QUIET CONFIG) # headers of Boost.Graph
+dovetail_adapter(boost_graph FOUND "${Boost_FOUND}" LIBRARIES Boost::headers)
 
 find_package(nlohmann_json 3.7 QUIET CONFIG)
 dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)

@@ -1,8 +1,7 @@
 /// A partitioner of one's own, used by the whole pipeline.
 /// Usage: c01_custom_partitioner FILE [SUBDOMAINS (default 8)]
 #include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/graph/csr_boost.hpp"
-#include "dovetail/graph/traversal.hpp"
+#include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"

@@ -18,7 +18,13 @@
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/interface_contract.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/simplification/aspect_ratio.hpp"
+#include "dovetail/simplification/flow_aligned.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/shape_only.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
+#include "dovetail/simplification/wedges_only.hpp"
 
 // The skeleton, remeshed, without crossings.
 #include "dovetail/intersection/suppression.hpp"

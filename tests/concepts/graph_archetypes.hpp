@@ -1,146 +1,122 @@
 /// @file
-/// One archetype per graph concept, each a view of a `csr_graph` with the functions that its concept asks for
-/// and no others.
+/// One archetype per concept of graphs and of what contracts them.
 #pragma once
 
-#include "dovetail/graph/csr_boost.hpp"
+#include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/simplification/concepts.hpp"
+#include "dovetail/simplification/dual_graphs.hpp"
 
-#include <cstddef>
-#include <utility>
+#include <array>
+#include <optional>
+#include <vector>
 
 namespace dovetail::archetype {
 
 // for graph
-/// A graph that can be asked nothing: the base of the others.
-struct named_graph {
-  using vertex_descriptor = local_id;
-  using edge_descriptor = graph_edge;
-  using directed_category = boost::undirected_tag;
-  using edge_parallel_category = boost::disallow_parallel_edge_tag;
-  using traversal_category = boost::no_traversal_tag;
+/// A path of nodes. Neither copyable nor movable: a graph is passed by reference.
+struct path {
+  explicit path(short count) : nodes(count) {}
+  path(const path&) = delete;
+  path& operator=(const path&) = delete;
 
-  explicit named_graph(const csr_graph& viewed) : csr(viewed) {}
-  named_graph(const named_graph&) = delete;
-  named_graph& operator=(const named_graph&) = delete;
+  short node_count() const { return nodes; }
+  template <class Visit>
+  void for_each_neighbour(local_id v, const Visit& visit) const {
+    if (v > 0)
+      visit(v - 1);
+    if (v + 1 < nodes)
+      visit(v + 1);
+  }
 
-  const csr_graph& csr;
+  short nodes;
 };
 // end
 
-using csr_traits = boost::graph_traits<csr_graph>;
-
-// for incidence_graph
-struct incidence_graph : named_graph {
-  using named_graph::named_graph;
-  using traversal_category = boost::incidence_graph_tag;
-  using out_edge_iterator = csr_traits::out_edge_iterator;
-  using degree_size_type = unsigned;
-
-  friend local_id source(graph_edge e, const incidence_graph&) { return e.source; }
-  friend local_id target(graph_edge e, const incidence_graph&) { return e.target; }
-  friend auto out_edges(local_id v, const incidence_graph& g) { return out_edges(v, g.csr); }
-  friend unsigned out_degree(local_id v, const incidence_graph& g) {
-    return static_cast<unsigned>(g.csr.row(v).size());
+// for weighted_graph
+/// A path whose edges weigh 2, its nodes 1.
+struct weighted_path : path {
+  using path::path;
+  short node_weight(local_id) const { return 1; }
+  template <class Visit>
+  void for_each_edge(local_id v, const Visit& visit) const {
+    for_each_neighbour(v, [&](local_id w) { visit(w, 2.0f); });
   }
 };
 // end
 
-// for vertex_list_graph
-struct vertex_list_graph : named_graph {
-  using named_graph::named_graph;
-  using traversal_category = boost::vertex_list_graph_tag;
-  using vertex_iterator = csr_traits::vertex_iterator;
-  using vertices_size_type = unsigned;
+// for element_dual_graph
+/// Elements in a row, with a side between each two and one at either end.
+struct row_of_elements {
+  explicit row_of_elements(short count) : elements_(count) {}
+  row_of_elements(const row_of_elements&) = delete;
+  row_of_elements& operator=(const row_of_elements&) = delete;
 
-  friend auto vertices(const vertex_list_graph& g) { return vertices(g.csr); }
-  friend unsigned num_vertices(const vertex_list_graph& g) {
-    return static_cast<unsigned>(g.csr.offsets.size() - 1);
+  short element_count() const { return elements_; }
+  int side_count() const { return elements_ + 1; }
+  float weight(local_id) const { return 1; }
+  std::array<local_id, 2> elements(local_id side) const {
+    return is_fixed(side) ? std::array<local_id, 2>{side == 0 ? 0 : side - 1, no_id}
+                          : std::array<local_id, 2>{side - 1, side};
   }
-};
-// end
-
-// for adjacency_graph
-struct adjacency_graph : named_graph {
-  using named_graph::named_graph;
-  using traversal_category = boost::adjacency_graph_tag;
-  using adjacency_iterator = csr_traits::adjacency_iterator;
-
-  friend auto adjacent_vertices(local_id v, const adjacency_graph& g) { return adjacent_vertices(v, g.csr); }
-};
-// end
-
-// for edge_list_graph
-struct edge_list_graph : named_graph {
-  using named_graph::named_graph;
-  using traversal_category = boost::edge_list_graph_tag;
-  using edge_iterator = csr_traits::edge_iterator;
-  using edges_size_type = unsigned;
-
-  friend auto edges(const edge_list_graph& g) { return edges(g.csr); }
-  friend unsigned num_edges(const edge_list_graph& g) {
-    return static_cast<unsigned>(g.csr.neighbours.size() / 2);
-  }
-};
-// end
-
-/// Two concepts at once: what a breadth-first walk asks for.
-struct walkable_graph : vertex_list_graph {
-  using vertex_list_graph::vertex_list_graph;
-  struct traversal_category : boost::vertex_list_graph_tag, boost::adjacency_graph_tag {};
-  using adjacency_iterator = csr_traits::adjacency_iterator;
-
-  friend auto adjacent_vertices(local_id v, const walkable_graph& g) { return adjacent_vertices(v, g.csr); }
-};
-
-// for accessible_graph
-/// A graph that is read by the specialisation of `graph_access` below, and by nothing else.
-class accessible_graph : graph_functions {
-public:
-  explicit accessible_graph(const csr_graph& viewed) : csr_(viewed) {}
-  accessible_graph(const accessible_graph&) = delete;
-  accessible_graph& operator=(const accessible_graph&) = delete;
+  int is_fixed(local_id side) const { return side == 0 || side == elements_ ? 1 : 0; }
 
 private:
-  friend graph_access<accessible_graph>;
-  const csr_graph& csr_;
+  short elements_;
+};
+// end
+
+// for side_dual_graph
+/// The sides of that row, all through one point: element k is the wedge of 10 degrees between the sides k and
+/// k + 1.
+struct fan_of_sides {
+  explicit fan_of_sides(short wedges) : wedges_(wedges) {}
+  fan_of_sides(const fan_of_sides&) = delete;
+  fan_of_sides& operator=(const fan_of_sides&) = delete;
+
+  int side_count() const { return wedges_ + 1; }
+  std::vector<double> angles() const { return std::vector<double>(static_cast<std::size_t>(wedges_), 10.0); }
+  std::array<local_id, 2> sides(wedge_id w) const {
+    return {static_cast<local_id>(w), static_cast<local_id>(w) + 1};
+  }
+  template <class Visit>
+  void for_each_joint(local_id side, const Visit& visit) const {
+    visit(static_cast<wedge_id>(side - 1), static_cast<wedge_id>(side));
+  }
+
+private:
+  short wedges_;
+};
+// end
+
+// for contraction_rule, simplification_rule
+/// The side of the larger number goes; a refused one costs 5. Not copyable: the contraction takes it by
+/// reference.
+struct contraction_rule {
+  contraction_rule() = default;
+  contraction_rule(const contraction_rule&) = delete;
+  contraction_rule& operator=(const contraction_rule&) = delete;
+
+  bool first_goes(const wedge_side& a, const wedge_side& b) const { return a.side > b.side; }
+  float price(const shortfall&) const { return 5; }
+};
+// end
+
+// for simplification_rule
+/// Wedges under 20 degrees are too small. Copyable, and neither default constructible nor assignable.
+class simplification_rule {
+public:
+  explicit simplification_rule(int) {}
+  simplification_rule(const simplification_rule&) = default;
+  simplification_rule& operator=(const simplification_rule&) = delete;
+
+  template <int D>
+  side_judgement operator()(const simplicial_mesh<D>&, const side_table<D>& sides) const {
+    return {std::vector<double>(sides.size(), 1.0), 0, 20};
+  }
+  std::optional<ridge_decision> couples(const side_below&) const { return ridge_decision{{1, 2}}; }
+  bool first_goes(const wedge_side& a, const wedge_side& b) const { return a.side > b.side; }
+  float price(const shortfall&) const { return 5; }
 };
 // end
 
 } // namespace dovetail::archetype
-
-namespace dovetail {
-
-// for accessible_graph
-template <>
-struct graph_access<archetype::accessible_graph> {
-  using edge_parallel_category = boost::disallow_parallel_edge_tag;
-  using csr = graph_access<csr_graph>;
-
-  static std::size_t vertex_count(const archetype::accessible_graph& g) { return csr::vertex_count(g.csr_); }
-  static std::size_t row_slots(const archetype::accessible_graph& g, local_id v) {
-    return csr::row_slots(g.csr_, v);
-  }
-  static bool row_edge(const archetype::accessible_graph& g, local_id v, std::size_t slot, graph_edge& e) {
-    return csr::row_edge(g.csr_, v, slot, e);
-  }
-  static std::size_t edge_slots(const archetype::accessible_graph& g) { return csr::edge_slots(g.csr_); }
-  static bool list_edge(const archetype::accessible_graph& g, std::size_t slot, graph_edge& e) {
-    return csr::list_edge(g.csr_, slot, e);
-  }
-};
-// end
-
-template <>
-inline constexpr bool enable_graph<archetype::named_graph> = true;
-template <>
-inline constexpr bool enable_graph<archetype::incidence_graph> = true;
-template <>
-inline constexpr bool enable_graph<archetype::vertex_list_graph> = true;
-template <>
-inline constexpr bool enable_graph<archetype::adjacency_graph> = true;
-template <>
-inline constexpr bool enable_graph<archetype::edge_list_graph> = true;
-template <>
-inline constexpr bool enable_graph<archetype::walkable_graph> = true;
-
-} // namespace dovetail

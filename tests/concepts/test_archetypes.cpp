@@ -2,18 +2,19 @@
 #include "graph_archetypes.hpp"
 
 #include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/graph/traversal.hpp"
+#include "dovetail/graph/breadth_first.hpp"
+#include "dovetail/graph/contraction.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
+#include "dovetail/simplification/simplify.hpp"
 
 #include <doctest/doctest.h>
 
 #include <functional>
-#include <iterator>
 #include <utility>
 
 // What each concept rejects is in compile_fail/.
@@ -43,32 +44,14 @@ static_assert(geometry_model<archetype::geometry>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
-/// How many of the graph concepts G models.
-template <class G>
-constexpr int graph_concepts =
-    incidence_graph<G> + adjacency_graph<G> + vertex_list_graph<G> + edge_list_graph<G>;
-static_assert(graph<archetype::named_graph> && graph_concepts<archetype::named_graph> == 0);
-static_assert(incidence_graph<archetype::incidence_graph> && graph_concepts<archetype::incidence_graph> == 1);
-static_assert(adjacency_graph<archetype::adjacency_graph> && graph_concepts<archetype::adjacency_graph> == 1);
-static_assert(vertex_list_graph<archetype::vertex_list_graph> &&
-              graph_concepts<archetype::vertex_list_graph> == 1);
-static_assert(edge_list_graph<archetype::edge_list_graph> && graph_concepts<archetype::edge_list_graph> == 1);
-static_assert(accessible_graph<archetype::accessible_graph> &&
-              graph_concepts<archetype::accessible_graph> == 4);
-
-/// Cuts an order of the nodes that a walk over a graph archetype gives into parts of nearly equal count.
-template <class Graph>
-struct walk_partitioner {
-  std::vector<local_id> operator()(const csr_graph& csr, int parts) const {
-    const Graph viewed(csr);
-    std::vector<local_id> part(num_vertices(viewed), 0);
-    local_id rank = 0;
-    const auto nodes = static_cast<local_id>(part.size());
-    for (const local_id v : breadth_first_order(viewed, local_id{0})) // the cube's graph is connected
-      part[static_cast<std::size_t>(v)] = rank++ * parts / nodes;
-    return part;
-  }
-};
+static_assert(graph<archetype::path> && !weighted_graph<archetype::path>);
+static_assert(weighted_graph<archetype::weighted_path>);
+static_assert(element_dual_graph<archetype::row_of_elements> && !side_dual_graph<archetype::row_of_elements>);
+static_assert(side_dual_graph<archetype::fan_of_sides> && !element_dual_graph<archetype::fan_of_sides>);
+static_assert(contraction_rule<archetype::contraction_rule>);
+static_assert(!simplification_rule<archetype::contraction_rule, 3>);
+static_assert(simplification_rule<archetype::simplification_rule, 2> &&
+              simplification_rule<archetype::simplification_rule, 3>);
 
 /// A partitioner by the archetype of a rule.
 struct rule_partitioner {
@@ -157,11 +140,8 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
   SUBCASE("a rule that bisects") {
     check(archetype::sizing(0), given.with_partitioner(rule_partitioner{}));
   }
-  SUBCASE("a graph to walk over") {
-    check(archetype::sizing(0), given.with_partitioner(walk_partitioner<archetype::walkable_graph>{}));
-  }
-  SUBCASE("a graph to read") {
-    check(archetype::sizing(0), given.with_partitioner(walk_partitioner<archetype::accessible_graph>{}));
+  SUBCASE("a rule that simplifies") {
+    check(archetype::sizing(0), given.with_simplifier(archetype::simplification_rule(0)));
   }
   SUBCASE("a measure of shape") {
     check(archetype::sizing(0), given.with_improver(measure_improver{}));
@@ -184,31 +164,30 @@ TEST_CASE("a background needs no more of a mesher of whole domains than its conc
   CHECK(io::check_distributed(result.mesh).valid());
 }
 
-TEST_CASE("graph archetypes tell the same graph") {
-  csr_graph csr; // a triangle and an edge that hangs on it
-  csr.offsets = {0, 2, 4, 7, 8};
-  csr.neighbours = {1, 2, 0, 2, 0, 1, 3, 2};
-  const archetype::vertex_list_graph listed(csr);
-  const archetype::incidence_graph incident(csr);
-  const archetype::adjacency_graph adjacent(csr);
-  const archetype::edge_list_graph edged(csr);
-  const archetype::accessible_graph read(csr);
-  std::size_t met = 0;
-  for (auto [v, end] = vertices(listed); v != end; ++v) {
-    auto [w, last] = adjacent_vertices(*v, adjacent);
-    for (auto [e, stop] = out_edges(*v, incident); e != stop; ++e, ++w, ++met) {
-      CHECK(source(*e, incident) == *v);
-      CHECK(target(*e, incident) == *w);
-    }
-    CHECK(out_degree(*v, read) == out_degree(*v, incident));
-  }
-  CHECK(met == 2 * num_edges(edged));
-  const auto [first, last] = edges(edged);
-  CHECK(std::distance(first, last) == 4);
-  CHECK(num_edges(read) == 4);
-  CHECK(breadth_first_order(read, local_id{3}) == std::vector<local_id>{3, 2, 0, 1});
-  CHECK(breadth_first_order(archetype::walkable_graph(csr), local_id{3}) ==
-        std::vector<local_id>{3, 2, 0, 1});
+TEST_CASE("graph algorithms need no more of a graph than its concept says") {
+  const archetype::path path(5);
+  CHECK(breadth_first_order(path, 3) == std::vector<local_id>{3, 2, 4, 1, 0});
+  const std::vector<local_id> label{0, 0, 1, 1, 0};
+  CHECK(components_within(path, label).of_node == std::vector<local_id>{0, 0, 1, 1, 2});
+  const archetype::weighted_path weighted(5);
+  CHECK(contract(weighted, label, 2).edge_weights == std::vector<double>{4, 4});
+  CHECK(induced_subgraph(weighted, label, 0).nodes == std::vector<local_id>{0, 1, 4});
+  CHECK(make_csr_graph(weighted).offsets == std::vector<std::int64_t>{0, 1, 3, 5, 7, 8});
+}
+
+TEST_CASE("the contraction needs no more of dual graphs and of a rule than their concepts say") {
+  const archetype::row_of_elements row(5);
+  const archetype::fan_of_sides fan(5);
+  const archetype::contraction_rule rule;
+  const auto result = contract_bounded(row, fan, {std::vector<double>(6, 1.0), 0, 20}, rule);
+  // The sides 1, 3 and 5 are left: of the first wedge side 1 goes, of the third side 3.
+  CHECK(result.super_of_element == std::vector<local_id>{0, 0, 1, 1, 1});
+  CHECK(result.forced.empty());
+
+  simplicial_mesh<2> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}, {0, 0.1, 0}};
+  mesh.elements = {{0, 1, 2}, {0, 2, 3}};
+  CHECK(simplify<2>(mesh, build_sides(mesh), archetype::simplification_rule(0)).super_count == 1);
 }
 
 TEST_CASE("pieces of triangles need no more of a surface mesher than its concept says") {

@@ -2,6 +2,7 @@
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -209,7 +210,8 @@ TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, i
     point.z *= 0.8;
   const auto sides = build_sides(mesh);
   for (const int parts : {2, 8, 13}) {
-    const auto simplified = simplify<3>(mesh, sides, {}, {.subdomains = static_cast<double>(parts)});
+    const auto simplified =
+        simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = static_cast<double>(parts)});
     const auto d = decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, {},
                                 partition::greedy{}, parts);
     CAPTURE(parts);
@@ -232,7 +234,7 @@ TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, i
 TEST_CASE("D = 2 goes through the same code") {
   const auto mesh = shuffled(jittered_squares(24, 0.2, 3), 4);
   const auto sides = build_sides(mesh);
-  const auto simplified = simplify<2>(mesh, sides, {}, {.subdomains = 7});
+  const auto simplified = simplify<2>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 7});
   const auto d =
       decompose<2>(mesh, sides, simplified.super_of_element, simplified.graph, {}, partition::greedy{}, 7);
   CHECK(d.parts == 7);
@@ -247,7 +249,7 @@ TEST_CASE("materials are never mixed, and every component gets its share") {
     mesh.tags.push_back(layer == 2 ? 1 : 0);
   }
   const auto sides = build_sides(mesh);
-  const auto simplified = simplify<3>(mesh, sides, {}, {.subdomains = 12});
+  const auto simplified = simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 12});
   const auto d = decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, mesh.tags,
                               partition::greedy{}, 12);
   check_parts(mesh, sides, d);

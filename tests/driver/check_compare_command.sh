@@ -30,15 +30,15 @@ for key in elements bad_per_million low_per_million min_dihedral_deg coarse_min_
   fine_min_face_deg fine_min_wedge_deg fine_under_30 cut imbalance seconds_background seconds_meshing seconds_total; do
   (($(column "$key" | grep -cE '^[0-9]+(\.[0-9]+)?$') == 8)) || fault "no figures in the column $key"
 done
-[[ $(column simplification | sort | uniq -c | tr -s ' \n' ' ') == " 4 with 4 without " ]] ||
+[[ $(column simplifier | sort | uniq -c | tr -s ' \n' ' ') == " 4 none 4 paper " ]] ||
   fault "not half of the rows without simplification"
 [[ $(column background_reused | sort | uniq -c | tr -s ' \n' ' ') == " 1 no 7 yes " ]] ||
   fault "the background mesh is not shared"
 [[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subdomains"
-# The coarse interfaces depend on partitioner and simplification only.
+# The coarse interfaces depend on partitioner and simplifier only.
 awk -F, 'NR > 1 { print $1 "," $4 }' "$table" | paste -d, - <(column cut) | sort -u >"$sandbox/cuts"
 (($(wc -l <"$sandbox/cuts") == 4)) || fault "the improver changes the cut"
-grep -q "^metis  *tetgen  *native  *without" "$sandbox/stdout" || fault "no table on the terminal"
+grep -q "^metis  *tetgen  *native  *none" "$sandbox/stdout" || fault "no table on the terminal"
 
 # One page with nothing from outside; what its script draws is well-formed.
 [[ $(head -n 1 "$page") == "<!DOCTYPE html>" ]] || fault "the page has no doctype"
@@ -64,6 +64,14 @@ elements=$(column elements | sed -n 3p)
 expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --format none --report report.json
 grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
 
+# Other rules, and what mesh makes by one of them.
+compare --size 0.1 --subdomains 4 --simplifiers none,wedges,shape --quiet
+[[ $(column simplifier | tr '\n' ' ') == "none wedges shape " ]] || fault "other simplifiers than asked for"
+elements=$(column elements | sed -n 2p)
+expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --simplifier wedges --format none --report report.json
+grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
+grep -q '"simplifier": "wedges"' "$sandbox/work/report.json" || fault "the report does not name the simplifier"
+
 # Without names the defaults are run; quiet is quiet; sizes follow the number of elements asked for.
 compare --elements 3000 --subdomains 2 --quiet
 [[ ! -s $sandbox/stdout && ! -s $sandbox/stderr ]] || fault "not quiet"
@@ -84,7 +92,7 @@ done
 ! head -n 1 "$table" | grep -qE 'dihedral|face' || fault "columns of tetrahedra in the table of triangles"
 [[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subsurfaces"
 awk -F, 'NR > 1 { print $4 }' "$table" | paste -d, - <(column coarse_under_50) >"$sandbox/corners"
-! grep -qE '^with,[1-9]' "$sandbox/corners" || fault "small corners with simplification"
+! grep -qE '^paper,[1-9]' "$sandbox/corners" || fault "small corners with simplification"
 check_drawn_page triangles
 ! grep -q 'dihedral\|tetrahedra' "$page" || fault "words about tetrahedra on the page of triangles"
 elements=$(column elements | sed -n 3p)

@@ -46,9 +46,9 @@ generate_result generate_mesh_from(const background_result<3>& background, const
     result.failures.back().reasons = {"too thin", "still too thin"};
   }
   result.quality.elements = 300;
-  result.coarse_contract.interface_faces = options.simplify ? 12 : 10;
+  result.coarse_contract.interface_faces = policies.simplifier.name() == "none" ? 10 : 12;
   result.coarse_contract.face_angle.angle_deg = 31;
-  result.coarse_contract.violations.resize(options.simplify ? 0 : 4);
+  result.coarse_contract.violations.resize(policies.simplifier.name() == "none" ? 4 : 0);
   report meshing;
   meshing.name = "meshing";
   meshing.seconds = 3;
@@ -136,27 +136,31 @@ comparison_row run(const combination& names, background_store<3>& backgrounds, i
                             });
 }
 
-TEST_CASE("every combination is run once, with and without simplification; no names are the defaults") {
+TEST_CASE("every combination is run once; no names are the defaults") {
   compare_options options;
   options.partitioners = {"a", "b", "a"};
   options.improvers = {"x", "y"};
   const auto all = combinations_of(options);
   REQUIRE(all.size() == 8);
-  CHECK(all[0] == combination{"a", "only", "x", true});
-  CHECK(all[1] == combination{"a", "only", "x", false});
-  CHECK(all[7] == combination{"b", "only", "y", false});
+  CHECK(all[0] == combination{"a", "only", "x", "paper"});
+  CHECK(all[1] == combination{"a", "only", "x", "none"});
+  CHECK(all[7] == combination{"b", "only", "y", "none"});
+  options.simplifiers = {"shape", "none", "shape"};
+  REQUIRE(combinations_of(options).size() == 8);
+  CHECK(combinations_of(options)[0] == combination{"a", "only", "x", "shape"});
+  options.simplifiers.clear();
   const auto defaults = combinations_of({});
   REQUIRE(defaults.size() == 2);
-  CHECK(defaults[0] == combination{"first", "only", "good", true});
+  CHECK(defaults[0] == combination{"first", "only", "good", "paper"});
   options.dimension = 2;
-  CHECK(combinations_of(options).front() == combination{"a", "flat", "x", true});
+  CHECK(combinations_of(options).front() == combination{"a", "flat", "x", "paper"});
 }
 
 TEST_CASE("a row has the figures of its run") {
   background_store<3> backgrounds;
   int observed = 0;
-  const auto with = run({"first", "only", "good", true}, backgrounds, &observed);
-  const auto without = run({"first", "only", "good", false}, backgrounds, &observed);
+  const auto with = run({"first", "only", "good", "paper"}, backgrounds, &observed);
+  const auto without = run({"first", "only", "good", "none"}, backgrounds, &observed);
   CHECK(observed == 2);
   CHECK_FALSE(with.failed());
   CHECK(with.elements == 300);
@@ -174,49 +178,50 @@ TEST_CASE("a row has the figures of its run") {
 TEST_CASE("a combination that fails is a row that names the kind of error, and the next one is run") {
   background_store<3> backgrounds;
   int observed = 0;
-  CHECK(run({"failing", "only", "good", true}, backgrounds, &observed).error ==
+  CHECK(run({"failing", "only", "good", "paper"}, backgrounds, &observed).error ==
         "partition_error: part 2 is empty");
-  const auto incomplete = run({"incomplete", "only", "good", true}, backgrounds, &observed);
+  const auto incomplete = run({"incomplete", "only", "good", "paper"}, backgrounds, &observed);
   CHECK(incomplete.error == "mesher_error: 1 subdomains could not be meshed; subdomain 1: still too thin");
   CHECK(observed == 0);
-  CHECK_FALSE(run({"first", "only", "good", true}, backgrounds, &observed).failed());
+  CHECK_FALSE(run({"first", "only", "good", "paper"}, backgrounds, &observed).failed());
 }
 
 TEST_CASE("a request to stop is no failure of a combination") {
   background_store<3> backgrounds;
-  CHECK_THROWS_AS(run({"stopped", "only", "good", true}, backgrounds), cancelled);
+  CHECK_THROWS_AS(run({"stopped", "only", "good", "paper"}, backgrounds), cancelled);
 }
 
 TEST_CASE("the background mesh is made once for each mesher, also when that fails") {
   background_store<3> backgrounds;
   backgrounds_made = 0;
-  CHECK_FALSE(run({"first", "only", "good", true}, backgrounds).background_reused);
-  CHECK(run({"second", "only", "none", false}, backgrounds).background_reused);
+  CHECK_FALSE(run({"first", "only", "good", "paper"}, backgrounds).background_reused);
+  CHECK(run({"second", "only", "none", "none"}, backgrounds).background_reused);
   CHECK(backgrounds_made == 1);
-  CHECK_FALSE(run({"first", "other", "good", true}, backgrounds).background_reused);
+  CHECK_FALSE(run({"first", "other", "good", "paper"}, backgrounds).background_reused);
   CHECK(backgrounds_made == 2);
   for (int k = 0; k < 2; ++k)
-    CHECK(run({"first", "without background", "good", true}, backgrounds).error ==
+    CHECK(run({"first", "without background", "good", "paper"}, backgrounds).error ==
           "geometry_error: no surface");
   CHECK(backgrounds_made == 3);
 }
 
 TEST_CASE("sizes are scaled to the number of elements asked for") {
-  const auto size = size_for_elements(model(), 32'000, policies_named({"first", "only", "good", true}), {});
+  const auto size =
+      size_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
-  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_named({"first", "only", "good", true}), {}),
+  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_named({"first", "only", "good", "paper"}), {}),
                   command_line_error);
 }
 
 chosen_surface_policies surface_policies() {
-  const auto solid = policies_named({"first", "only", "good", true});
+  const auto solid = policies_named({"first", "only", "good", "paper"});
   return {any_surface_mesher("flat", mesher::native_surface{}), solid.partitioner, solid.improver,
           solid.executor};
 }
 
 TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements go with the size's square") {
   background_store<2> backgrounds;
-  const auto row = run_combination<2>(model(), {"first", "flat", "good", true}, surface_policies(), {},
+  const auto row = run_combination<2>(model(), {"first", "flat", "good", "paper"}, surface_policies(), {},
                                       backgrounds, [](const comparison_row&, const generated<2>&) {});
   CHECK_FALSE(row.failed());
   CHECK(row.coarse.faces == 7);

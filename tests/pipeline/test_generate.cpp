@@ -5,6 +5,7 @@
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -191,9 +192,16 @@ TEST_CASE("sizes that make no sense are refused") {
   CHECK_THROWS_AS(mesh_shape(drilled_block(), 50, in_parts(2)), sizing_error);
 }
 
-TEST_CASE("without simplification the same model is meshed, for comparison") {
-  generate_options options = in_parts(5);
-  options.simplify = false;
-  const auto result = mesh_shape(drilled_block(), 0.15, options);
-  require_valid(result);
+TEST_CASE("the simplification is by the rule chosen; by none a mesh is made too, for comparison") {
+  const auto removed_sides = [](const auto& rule) {
+    const auto result = generate<3>(
+        occt_shape_from(drilled_block()).model, uniform_size(0.15),
+        parameters<>{}.with_mesher(mesher::tetgen{}).with_simplifier(rule).with_options(in_parts(5)));
+    require_valid(result);
+    const report& simplification = result.summary.children[1];
+    REQUIRE(simplification.name == "simplification");
+    return simplification.children[0].get("removed_sides") + simplification.children[1].get("removed_sides");
+  };
+  CHECK(removed_sides(simplifier::none{}) == 0);
+  CHECK(removed_sides(simplifier::paper{}) > 0);
 }

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/simplification/simplify.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/side_state.hpp"
+#include "dovetail/simplification/side_shape.hpp"
 
 #include <map>
 #include <set>

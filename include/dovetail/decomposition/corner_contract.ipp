@@ -5,9 +5,15 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/corner_contract.hpp"
 #include "dovetail/decomposition/interface_contract.hpp"
-#include "dovetail/mesh/wedge_runs.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/quality.hpp"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <utility>
 
 namespace dovetail {
 
@@ -17,17 +23,15 @@ namespace detail {
 class corner_checker {
 public:
   corner_checker(const corner_contract_input& input, double threshold_deg)
-      : in_(input), threshold_(threshold_deg - rounding_deg), runs_(input.mesh, input.sides) {}
+      : in_(input), threshold_(threshold_deg - rounding_deg) {}
 
   interface_contract run() {
-    for (std::size_t s = 0; s < in_.sides.size(); ++s) {
+    for (std::size_t s = 0; s < in_.sides.size(); ++s)
       found_.interface_faces += is_cut(static_cast<local_id>(s)) ? 1 : 0;
-      if (!is_line(static_cast<local_id>(s)))
-        runs_.remove(static_cast<local_id>(s), [](std::uint32_t) {});
-    }
-    for (std::uint32_t w = 0; w < runs_.wedge_count(); ++w)
-      if (runs_.is_name(w))
-        measure(w);
+    const ridge_table<2> vertices = build_ridges(in_.mesh, in_.sides);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      for (std::size_t fan = vertices.fan_begins[v]; fan < vertices.fan_begins[v + 1]; ++fan)
+        measure_between_lines(vertices.vertices[v][0], vertices.fan(fan), vertices.closed[fan]);
     sort_by_angle(found_.violations);
     return std::move(found_);
   }
@@ -46,29 +50,66 @@ private:
   }
   bool is_line(local_id side) const { return is_fixed(side) || is_cut(side); }
 
-  void measure(std::uint32_t wedge) {
-    const auto [a, b] = runs_.bounding_sides(wedge);
-    if (a == b || (is_fixed(a) && is_fixed(b)))
+  /// Adds up the corners of one fan from line to line.
+  void measure_between_lines(local_id vertex, std::span<const std::uint32_t> codes, bool is_closed) {
+    std::size_t start = 0; // behind a line: an open fan begins at one
+    while (is_closed && start < codes.size() && !is_line(passed(codes[start])[0]))
+      ++start;
+    if (start == codes.size())
       return;
-    const std::size_t element = wedge / wedge_runs<2>::per_element;
-    const local_id vertex = in_.mesh.elements[element][static_cast<std::size_t>(
-        numbering::ridges<2>[wedge % wedge_runs<2>::per_element][0])];
-    const double angle = angle_of(wedge, a, b, vertex);
-    const contract_minimum here{angle, {a, b}, {vertex, no_id}};
-    contract_minimum& minimum = is_fixed(a) || is_fixed(b) ? found_.surface_wedge : found_.interface_wedge;
+    corner run;
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      const std::uint32_t code = codes[(start + k) % codes.size()];
+      const wedge at = ridge_table<2>::decode(code);
+      const auto [from, to] = passed(code);
+      if (run.from == no_id)
+        run = {from, at.element, 0};
+      const auto e = static_cast<std::size_t>(at.element);
+      run.angle += wedge_angles(
+          corners(span_of(in_.mesh.points), in_.mesh.elements[e]))[static_cast<std::size_t>(at.ridge)];
+      if (is_line(to)) {
+        measure(run, to, vertex);
+        run = {};
+      }
+    }
+  }
+
+  /// What lies between two lines at a vertex.
+  struct corner {
+    local_id from = no_id;
+    local_id element = no_id; ///< one of its elements
+    double angle = 0;
+  };
+
+  /// The two sides of a wedge, in the order of its fan.
+  std::array<local_id, 2> passed(std::uint32_t code) const {
+    const wedge at = ridge_table<2>::decode(code);
+    const auto& of_element = in_.sides.of_element[static_cast<std::size_t>(at.element)];
+    return {of_element[static_cast<std::size_t>(at.sides[0])],
+            of_element[static_cast<std::size_t>(at.sides[1])]};
+  }
+
+  void measure(const corner& run, local_id to, local_id vertex) {
+    const local_id from = run.from;
+    if (is_fixed(from) && is_fixed(to)) // also the end of a line inside a part; a cut does not end there
+      return;
+    const double angle = angle_of(run, to, vertex);
+    const contract_minimum here{angle, {from, to}, {vertex, no_id}};
+    contract_minimum& minimum =
+        is_fixed(from) || is_fixed(to) ? found_.surface_wedge : found_.interface_wedge;
     if (angle < minimum.angle_deg)
       minimum = here;
     if (angle < threshold_)
-      found_.violations.push_back(
-          {angle, cause_of(a, b), here.triangles, here.edge, in_.part_of_element[element]});
+      found_.violations.push_back({angle, cause_of(from, to), here.triangles, here.edge,
+                                   in_.part_of_element[static_cast<std::size_t>(run.element)]});
   }
 
-  double angle_of(std::uint32_t wedge, local_id a, local_id b, local_id vertex) const {
-    const double through_triangles = runs_.angle(wedge);
+  double angle_of(const corner& run, local_id to, local_id vertex) const {
     if (!in_.leaves)
-      return through_triangles;
-    const double between = degrees_per_radian * angle_between(in_.leaves(a, vertex), in_.leaves(b, vertex));
-    return through_triangles > 180 ? 360 - between : between;
+      return run.angle;
+    const double between =
+        degrees_per_radian * angle_between(in_.leaves(run.from, vertex), in_.leaves(to, vertex));
+    return run.angle > 180 ? 360 - between : between;
   }
 
   contract_cause cause_of(local_id a, local_id b) const {
@@ -78,7 +119,6 @@ private:
 
   const corner_contract_input& in_;
   double threshold_;
-  wedge_runs<2> runs_;
   interface_contract found_;
 };
 

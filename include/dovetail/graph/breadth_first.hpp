@@ -1,32 +1,27 @@
 /// @file
-/// Breadth-first order over any adjacency, without Boost.Graph (whose headers cost as much to parse as a
-/// tenth of this library).
+/// Breadth-first order over any graph.
 #pragma once
 
-#include "dovetail/core/ids.hpp"
+#include "dovetail/graph/concepts.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace dovetail {
 
-/// The nodes reached from `start`, nearest first. `visit_neighbours(node, visit)` calls `visit(neighbour)`
-/// for each neighbour of a node, in the order that ties are to be broken by. Linear.
-template <class Node, class VisitNeighbours>
-std::vector<Node> breadth_first_order(std::size_t node_count, Node start,
-                                      const VisitNeighbours& visit_neighbours) {
-  std::vector<bool> seen(node_count, false);
-  std::vector<Node> order{start};
+/// The nodes reached from `start`, nearest first, in the order of neighbours. Linear.
+template <graph G>
+std::vector<local_id> breadth_first_order(const G& graph, local_id start) {
+  std::vector<bool> seen(static_cast<std::size_t>(graph.node_count()), false);
+  std::vector<local_id> order{start};
   seen[static_cast<std::size_t>(start)] = true;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Node node = order[k]; // `order` grows below
-    visit_neighbours(node, [&](Node next) {
+  for (std::size_t k = 0; k < order.size(); ++k)
+    graph.for_each_neighbour(order[k], [&](local_id next) {
       if (seen[static_cast<std::size_t>(next)])
         return;
       seen[static_cast<std::size_t>(next)] = true;
       order.push_back(next);
     });
-  }
   return order;
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Building and contracting csr graphs.
+/// Building and contracting graphs.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -65,14 +67,14 @@ inline csr_graph make_csr_graph(std::vector<double> node_weights, const std::vec
 }
 
 /// The mean position of the nodes of each label; empty when the graph has no positions.
-inline std::vector<vec3> mean_positions(const csr_graph& graph, std::span<const local_id> label,
+inline std::vector<vec3> mean_positions(std::span<const vec3> positions, std::span<const local_id> label,
                                         local_id labels) {
-  if (graph.positions.empty())
+  if (positions.empty())
     return {};
   std::vector<vec3> sums(static_cast<std::size_t>(labels));
   std::vector<double> counts(static_cast<std::size_t>(labels), 0.0);
   for (std::size_t v = 0; v < label.size(); ++v) {
-    sums[static_cast<std::size_t>(label[v])] += graph.positions[v];
+    sums[static_cast<std::size_t>(label[v])] += positions[v];
     counts[static_cast<std::size_t>(label[v])] += 1;
   }
   for (std::size_t k = 0; k < sums.size(); ++k)
@@ -80,23 +82,40 @@ inline std::vector<vec3> mean_positions(const csr_graph& graph, std::span<const 
   return sums;
 }
 
+/// The positions of a graph's nodes, where it has any.
+template <graph G>
+std::span<const vec3> positions_of(const G& graph) {
+  if constexpr (requires { graph.positions; })
+    return span_of(graph.positions);
+  else
+    return {};
+}
+
 /// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
 /// parallel add up, edges inside a label vanish, positions are averaged.
-inline csr_graph contract(const csr_graph& graph, std::span<const local_id> label, local_id labels) {
+template <weighted_graph G>
+csr_graph contract(const G& graph, std::span<const local_id> label, local_id labels) {
   std::vector<double> weights(static_cast<std::size_t>(labels), 0.0);
   std::vector<weighted_edge> edges;
-  for (local_id v = 0; v < graph.node_count(); ++v) {
+  for (local_id v = 0; v < static_cast<local_id>(graph.node_count()); ++v) {
     const local_id a = label[static_cast<std::size_t>(v)];
-    weights[static_cast<std::size_t>(a)] += graph.node_weights[static_cast<std::size_t>(v)];
-    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
-    const auto row = graph.row(v);
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (v < row[k])
-        edges.push_back({a, label[static_cast<std::size_t>(row[k])], graph.edge_weights[begin + k]});
+    weights[static_cast<std::size_t>(a)] += graph.node_weight(v);
+    graph.for_each_edge(v, [&](local_id w, double weight) {
+      if (v < w)
+        edges.push_back({a, label[static_cast<std::size_t>(w)], weight});
+    });
   }
   csr_graph contracted = make_csr_graph(std::move(weights), edges);
-  contracted.positions = mean_positions(graph, label, labels);
+  contracted.positions = mean_positions(positions_of(graph), label, labels);
   return contracted;
+}
+
+/// Any graph in compressed rows, as partitioners take it.
+template <weighted_graph G>
+csr_graph make_csr_graph(const G& graph) {
+  std::vector<local_id> itself(static_cast<std::size_t>(graph.node_count()));
+  std::iota(itself.begin(), itself.end(), 0);
+  return contract(graph, itself, static_cast<local_id>(itself.size()));
 }
 
 /// A piece of a graph with the numbers its nodes have in the whole.
@@ -106,7 +125,8 @@ struct subgraph {
 };
 
 /// The graph induced by the nodes whose `label` equals `wanted`. Linear in the size of the whole graph.
-inline subgraph induced_subgraph(const csr_graph& graph, std::span<const local_id> label, local_id wanted) {
+template <weighted_graph G>
+subgraph induced_subgraph(const G& graph, std::span<const local_id> label, local_id wanted) {
   subgraph piece;
   std::vector<local_id> number(label.size(), no_id);
   for (std::size_t v = 0; v < label.size(); ++v)
@@ -114,17 +134,17 @@ inline subgraph induced_subgraph(const csr_graph& graph, std::span<const local_i
       number[v] = static_cast<local_id>(piece.nodes.size());
       piece.nodes.push_back(static_cast<local_id>(v));
     }
+  const std::span<const vec3> positions = positions_of(graph);
   for (const local_id v : piece.nodes) {
-    piece.graph.node_weights.push_back(graph.node_weights[static_cast<std::size_t>(v)]);
-    if (!graph.positions.empty())
-      piece.graph.positions.push_back(graph.positions[static_cast<std::size_t>(v)]);
-    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
-    const auto row = graph.row(v);
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (const local_id other = number[static_cast<std::size_t>(row[k])]; other != no_id) {
+    piece.graph.node_weights.push_back(graph.node_weight(v));
+    if (!positions.empty())
+      piece.graph.positions.push_back(positions[static_cast<std::size_t>(v)]);
+    graph.for_each_edge(v, [&](local_id w, double weight) {
+      if (const local_id other = number[static_cast<std::size_t>(w)]; other != no_id) {
         piece.graph.neighbours.push_back(other);
-        piece.graph.edge_weights.push_back(graph.edge_weights[begin + k]);
+        piece.graph.edge_weights.push_back(weight);
       }
+    });
     piece.graph.offsets.push_back(static_cast<std::int64_t>(piece.graph.neighbours.size()));
   }
   return piece;
@@ -137,25 +157,27 @@ struct labelled_components {
 };
 
 /// Components of the graph when only edges between nodes of the same label count. Linear.
-inline labelled_components components_within(const csr_graph& graph, std::span<const local_id> label) {
+template <graph G>
+labelled_components components_within(const G& graph, std::span<const local_id> label) {
   labelled_components found;
   found.of_node.assign(label.size(), no_id);
   std::vector<local_id> stack;
-  for (local_id seed = 0; seed < graph.node_count(); ++seed) {
-    if (found.of_node[static_cast<std::size_t>(seed)] != no_id)
+  for (std::size_t seed = 0; seed < label.size(); ++seed) {
+    if (found.of_node[seed] != no_id)
       continue;
     const local_id component = found.count++;
-    found.of_node[static_cast<std::size_t>(seed)] = component;
-    stack.push_back(seed);
+    found.of_node[seed] = component;
+    stack.push_back(static_cast<local_id>(seed));
     while (!stack.empty()) {
       const local_id v = stack.back();
       stack.pop_back();
-      for (const local_id w : graph.row(v))
-        if (found.of_node[static_cast<std::size_t>(w)] == no_id &&
-            label[static_cast<std::size_t>(w)] == label[static_cast<std::size_t>(v)]) {
-          found.of_node[static_cast<std::size_t>(w)] = component;
-          stack.push_back(w);
-        }
+      graph.for_each_neighbour(v, [&](local_id w) {
+        if (found.of_node[static_cast<std::size_t>(w)] != no_id ||
+            label[static_cast<std::size_t>(w)] != label[static_cast<std::size_t>(v)])
+          return;
+        found.of_node[static_cast<std::size_t>(w)] = component;
+        stack.push_back(w);
+      });
     }
   }
   return found;

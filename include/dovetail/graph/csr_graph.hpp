@@ -5,6 +5,7 @@
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
+#include "dovetail/graph/concepts.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,20 @@ struct csr_graph {
     const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node) + 1]);
     return span_of(neighbours).subspan(begin, end - begin);
   }
+
+  template <class Visit>
+  void for_each_neighbour(local_id node, const Visit& visit) const {
+    for (const local_id other : row(node))
+      visit(other);
+  }
+  double node_weight(local_id node) const { return node_weights[static_cast<std::size_t>(node)]; }
+  template <class Visit>
+  void for_each_edge(local_id node, const Visit& visit) const {
+    const auto end = offsets[static_cast<std::size_t>(node) + 1];
+    for (auto k = offsets[static_cast<std::size_t>(node)]; k < end; ++k)
+      visit(neighbours[static_cast<std::size_t>(k)], edge_weights[static_cast<std::size_t>(k)]);
+  }
 };
+static_assert(weighted_graph<csr_graph>);
 
 } // namespace dovetail

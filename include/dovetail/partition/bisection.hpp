@@ -19,12 +19,7 @@ namespace detail {
 
 /// The node that a breadth-first search from `start` reaches last.
 inline local_id farthest_node(const csr_graph& graph, local_id start) {
-  return breadth_first_order(graph.node_weights.size(), start,
-                             [&graph](local_id node, const auto& visit) {
-                               for (const local_id next : graph.row(node))
-                                 visit(next);
-                             })
-      .back();
+  return breadth_first_order(graph, start).back();
 }
 
 /// Grows part 0 from `start`, always by the node whose move costs the cut least, to the weight `target`; all

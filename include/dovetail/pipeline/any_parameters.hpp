@@ -24,16 +24,17 @@ struct any_parameters {
   any_improver<D> improve_it;
   any_executor run_tasks;
   generate_options options;
+  any_simplification_rule simplify_by;
 
   any_parameters(any_mesher<D> mesher, any_partitioner partitioner, any_improver<D> improver,
-                 any_executor executor, generate_options given)
+                 any_executor executor, generate_options given, any_simplification_rule rule)
       : mesh_it(std::move(mesher)), partition_it(std::move(partitioner)), improve_it(std::move(improver)),
-        run_tasks(std::move(executor)), options(std::move(given)) {}
+        run_tasks(std::move(executor)), options(std::move(given)), simplify_by(std::move(rule)) {}
 
   template <class M, class P, class I, class E>
   any_parameters(const parameters<M, P, I, E>& given) // NOLINT: converts
       : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
-                       given.options) {}
+                       given.options, given.simplify_by) {}
 
 private:
   template <class M, class P, class I, class E>

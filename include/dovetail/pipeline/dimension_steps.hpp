@@ -7,6 +7,7 @@
 #include "dovetail/decomposition/corner_contract.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
 
 namespace dovetail::detail {
@@ -26,49 +27,28 @@ inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
   return edges;
 }
 
-/// The rule for the surface, in either dimension; without simplification every element stays by itself.
-inline simplify_parameters<2> surface_rule(const generate_options& options, int subdomains) {
-  simplify_parameters<2> rule;
-  rule.wedge_threshold_deg = options.simplify ? options.surface_angle_deg : 0;
-  rule.subdomains = subdomains;
-  return rule;
-}
-
-inline simplify_parameters<3> volume_rule(const generate_options& options, int subdomains) {
-  simplify_parameters<3> rule;
-  rule.wedge_threshold_deg = rule.shape_threshold_deg = options.simplify ? options.interface_angle_deg : 0;
-  rule.subdomains = subdomains;
-  return rule;
-}
-
 template <int D>
   requires(D == 2)
-simplification<D> simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
-                                      std::span<const double> weights, int subdomains,
-                                      const generate_options& options, report& summary) {
+simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                   std::span<const double> weights, int subdomains,
+                                   const any_simplification_rule& rule, report& summary) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto simplified =
-      simplify<D>(mesh.surface.mesh, sides, {.fixed_sides = span_of(on_curves), .element_weights = weights},
-                  surface_rule(options, subdomains));
+  auto simplified = simplify<D>(mesh.surface.mesh, sides, rule,
+                                {.fixed_sides = span_of(on_curves), .element_weights = weights},
+                                {.subdomains = static_cast<double>(subdomains)});
   summary = simplified.summary;
   return simplified;
 }
 
 template <int D>
   requires(D == 3)
-simplification<D> simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
-                                      std::span<const double> weights, int subdomains,
-                                      const generate_options& options, report& summary) {
-  if (!options.simplify) {
-    auto plain =
-        simplify<D>(mesh.volume, sides, {.element_weights = weights}, volume_rule(options, subdomains));
-    summary = plain.summary;
-    return plain;
-  }
+simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                   std::span<const double> weights, int subdomains,
+                                   const any_simplification_rule& rule, report& summary) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides,
+  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
                                   {.curve_edges = span_of(on_curves), .element_weights = weights},
-                                  surface_rule(options, subdomains), volume_rule(options, subdomains));
+                                  {.subdomains = static_cast<double>(subdomains)});
   summary = std::move(coupled.summary);
   return std::move(coupled.volume);
 }

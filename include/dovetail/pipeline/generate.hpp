@@ -34,8 +34,8 @@ struct generated {
 using generate_result = generated<3>;
 
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
-/// for the same model, field, mesher and options but `simplify`. For runs that differ in the partitioner or
-/// the improver alone.
+/// for the same model, field, mesher and options. For runs that differ in the simplification, the partitioner
+/// or the improver alone.
 template <int D>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
                                       const any_parameters<D>& given);

@@ -88,8 +88,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   const side_table<D> sides = build_sides(coarse.elements());
   const auto weights = predict_elements<D>(coarse.elements(), background.size).per_element;
   report simplification_summary;
-  const auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains, options,
-                                                      simplification_summary);
+  const auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains,
+                                                      given.simplify_by, simplification_summary);
   simplification_summary.seconds = simplification_clock.seconds();
 
   options.on_progress("partition", 0, 0);

@@ -9,6 +9,8 @@
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
+#include "dovetail/simplification/paper.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
 #include <filesystem>
@@ -31,11 +33,12 @@ struct generate_options {
   /// anything.
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
-  double coarse_scale = 0;         ///< factor between coarse and final size; 0: from the above
-  double interface_angle_deg = 30; ///< threshold of faces and wedges (paper: 30)
-  double surface_angle_deg = 50;   ///< threshold on the surface (paper: 50)
-  double largest_prediction = 0;   ///< more predicted elements are refused (`too_many_elements`); 0: no limit
-  bool simplify = true;            ///< false: plain partition of the background mesh, for comparison
+  double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
+  /// Angles of interfaces and between them under these are counted as violations of the interface contract
+  /// (in D = 3 and D = 2); what keeps such interfaces from being chosen is the simplification's rule.
+  double interface_angle_deg = 30;
+  double surface_angle_deg = 50;
+  double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
   double largest_merged_fraction =
       0.05;                   ///< more subdomains merged than this is a failure (at least 2 are allowed)
   int refinement_rounds = 6;  ///< rounds of local refinement where two CAD regions cross
@@ -59,34 +62,40 @@ struct parameters {
   Improver improve_it{};
   Executor run_tasks{};
   generate_options options{};
+  any_simplification_rule simplify_by{simplifier::paper{}, "paper"};
 
   // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
   template <boundary_keeping_mesher<3> M>
   parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
-    return {std::move(mesher), partition_it, improve_it, run_tasks, options};
+    return {std::move(mesher), partition_it, improve_it, run_tasks, options, simplify_by};
   }
   template <boundary_keeping_mesher<2> M>
     requires(!boundary_keeping_mesher<M, 3>)
   parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher)
-  const { return {std::move(mesher), partition_it, improve_it, run_tasks, options}; }
+  const { return {std::move(mesher), partition_it, improve_it, run_tasks, options, simplify_by}; }
   template <graph_partitioner P>
   parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
-    return {mesh_it, std::move(partitioner), improve_it, run_tasks, options};
+    return {mesh_it, std::move(partitioner), improve_it, run_tasks, options, simplify_by};
   }
   template <improver<3> I>
   parameters<Mesher, Partitioner, I, Executor> with_improver(I improver) const {
-    return {mesh_it, partition_it, std::move(improver), run_tasks, options};
+    return {mesh_it, partition_it, std::move(improver), run_tasks, options, simplify_by};
   }
   template <improver<2> I>
     requires(!improver<I, 3>)
   parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
-  const { return {mesh_it, partition_it, std::move(improver), run_tasks, options}; }
+  const { return {mesh_it, partition_it, std::move(improver), run_tasks, options, simplify_by}; }
   template <executor E>
   parameters<Mesher, Partitioner, Improver, E> with_executor(E executor) const {
-    return {mesh_it, partition_it, improve_it, std::move(executor), options};
+    return {mesh_it, partition_it, improve_it, std::move(executor), options, simplify_by};
   }
+  /// A rule for the surface (2) and the volume (3).
+  template <simplification_rule<2> R>
+    requires(simplification_rule<R, 3>)
+  parameters with_simplifier(R rule)
+  const { return {mesh_it, partition_it, improve_it, run_tasks, options, std::move(rule)}; }
   parameters with_options(generate_options changed) const {
-    return {mesh_it, partition_it, improve_it, run_tasks, std::move(changed)};
+    return {mesh_it, partition_it, improve_it, run_tasks, std::move(changed), simplify_by};
   }
 };
 

@@ -5,7 +5,8 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/mesh/side_state.hpp"
-#include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/simplification/concepts.hpp"
 
 #include <array>
 #include <span>
@@ -13,29 +14,27 @@
 
 namespace dovetail {
 
-/// Thresholds and bound; the defaults are those of the paper.
-template <int D>
-struct simplify_parameters {
-  double wedge_threshold_deg = D == 2 ? 50 : 30; ///< smaller wedges are removed
-  double shape_threshold_deg = D == 2 ? 0 : 30;  ///< sides with a smaller own angle are removed; 0: none
-  double subdomains = 1;                         ///< how many parts the partition will have
+/// How heavy a super-element may become. Without a bound the rules can percolate: on a strongly graded mesh
+/// two thirds of all elements may end in one super-element.
+struct contraction_bound {
+  double subdomains = 1; ///< how many parts the partition will have
   /// A super-element weighs at most this fraction of the average subdomain ...
-  double bound_fraction = 0.1;
-  /// ... but so many average elements are always allowed. Infinity switches the bound off.
+  double fraction = 0.1;
+  /// ... but so many average elements are always allowed. Infinity in either switches the bound off.
   double always_allowed_elements = 8;
-  /// Graph edge weight of a refused side: 1 + refusal_price at its threshold, growing linearly with the
-  /// missing angle by up to refusal_penalty.
-  double refusal_price = 10;
-  double refusal_penalty = 200;
+};
+
+/// A side that must go, or is to be avoided, whatever its own quality.
+struct coupled_side {
+  local_id side = no_id;
+  ridge_decision decision;
 };
 
 /// A ridge whose sides must go, or are to be avoided, because of what was decided one dimension below.
 template <int D>
 struct coupled_ridge {
   simplex<D - 2> vertices{};
-  double angle_deg = 0;     ///< the angle that made it so; the smallest are treated first
-  double threshold_deg = 0; ///< the angle that would have been good enough
-  bool refused = false;     ///< true: it stayed below, so its sides are only penalised
+  ridge_decision decision;
 };
 
 /// What is given beside the mesh. All may be empty.
@@ -46,11 +45,10 @@ struct simplify_constraints {
   std::span<const double> element_weights = {};          ///< predicted final elements; empty: 1 each
 };
 
-/// A side that the bound refused.
+/// A side that the bound refused, and what it falls short of: of its own quality, or a wedge it bounds.
 struct refused_side {
   local_id side = no_id;
-  double angle_deg = 0;     ///< the angle under the threshold: its own, or that of a wedge it bounds
-  double threshold_deg = 0; ///< the threshold it missed
+  shortfall missed;
 };
 
 /// A wedge under the threshold between two fixed sides: nothing can be done about it.
@@ -59,12 +57,11 @@ struct forced_wedge {
   double angle_deg = 0;
 };
 
-template <int D>
 struct simplification {
   std::vector<side_state> side_states;
   std::vector<local_id> super_of_element;
   local_id super_count = 0;
-  csr_graph graph; ///< contracted element-dual graph: node = super-element, weights as in the parameters
+  csr_graph graph; ///< the EDG contracted: node = super-element; a side weighs 1, a refused one its price
   std::vector<refused_side> refused; ///< sides in state `refused`, growing
   std::vector<forced_wedge> forced;  ///< by growing angle; boundary against boundary included
   report summary;

@@ -1,37 +1,27 @@
-// near miss 1: the type has not opted in by enable_graph
-// error 1: enable_graph
-// near miss 2: edges have no type
-// error 2: edge_descriptor
-// near miss 3: it does not say which walks it allows
-// error 3: traversal_category
+// near miss 1: it does not say how many nodes it has
+// error 1: g\.node_count\(\)
+// near miss 2: it returns the neighbours of a node where it should visit them
+// error 2: g\.for_each_neighbour\(v, visit\)
+// near miss 3: its walk changes it
+// error 3: g\.for_each_neighbour\(v, visit\)
 #include "dovetail/graph/concepts.hpp"
 
-#include <cstddef>
+#include <vector>
 
-struct my_graph {};
-
-struct my_edge {
-  int from = 0, to = 0;
-  bool operator==(const my_edge&) const = default;
-};
-
-template <>
-struct boost::graph_traits<my_graph> {
-  using vertex_descriptor = int;
-#if NEAR_MISS != 2
-  using edge_descriptor = my_edge;
-#endif
-  using directed_category = boost::undirected_tag;
-  using edge_parallel_category = boost::disallow_parallel_edge_tag;
-#if NEAR_MISS != 3
-  using traversal_category = boost::incidence_graph_tag;
-#endif
-};
-
+struct my_graph {
 #if NEAR_MISS != 1
-template <>
-inline constexpr bool dovetail::enable_graph<my_graph> = true;
+  int node_count() const;
 #endif
+#if NEAR_MISS == 2
+  std::vector<dovetail::local_id> for_each_neighbour(dovetail::local_id v) const;
+#elif NEAR_MISS == 3
+  template <class Visit>
+  void for_each_neighbour(dovetail::local_id v, const Visit& visit);
+#else
+  template <class Visit>
+  void for_each_neighbour(dovetail::local_id v, const Visit& visit) const;
+#endif
+};
 
 template <dovetail::graph G>
 void use(const G&) {}

@@ -1,0 +1,68 @@
+/// @file
+/// Any simplification rule behind one type, so that the pipeline is compiled once and not once per rule.
+#pragma once
+
+#include "dovetail/simplification/concepts.hpp"
+
+#include <concepts>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dovetail {
+
+/// Holds any simplification rule for D = 2 and 3; a rule converts to it. Copies share it.
+class any_simplification_rule {
+public:
+  template <class R>
+    requires(!std::same_as<R, any_simplification_rule> && simplification_rule<R, 2> &&
+             simplification_rule<R, 3>)
+  any_simplification_rule(R rule, std::string name = {}) // NOLINT: converts, as any_partitioner does
+      : name_(std::move(name)), held_(std::make_shared<const holder<R>>(std::move(rule))) {}
+
+  /// The name it was given, for reports; may be empty.
+  const std::string& name() const { return name_; }
+  side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const {
+    return held_->judge(mesh, sides);
+  }
+  side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
+    return held_->judge(mesh, sides);
+  }
+  bool first_goes(const wedge_side& a, const wedge_side& b) const { return held_->first_goes(a, b); }
+  std::optional<ridge_decision> couples(const side_below& below) const { return held_->couples(below); }
+  double price(const shortfall& missed) const { return held_->price(missed); }
+
+private:
+  struct interface {
+    virtual ~interface() = default;
+    virtual side_judgement judge(const simplicial_mesh<2>&, const side_table<2>&) const = 0;
+    virtual side_judgement judge(const simplicial_mesh<3>&, const side_table<3>&) const = 0;
+    virtual bool first_goes(const wedge_side&, const wedge_side&) const = 0;
+    virtual std::optional<ridge_decision> couples(const side_below&) const = 0;
+    virtual double price(const shortfall&) const = 0;
+  };
+  template <class R>
+  struct holder final : interface {
+    explicit holder(R held) : rule(std::move(held)) {}
+    side_judgement judge(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const override {
+      return rule(mesh, sides);
+    }
+    side_judgement judge(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const override {
+      return rule(mesh, sides);
+    }
+    bool first_goes(const wedge_side& a, const wedge_side& b) const override { return rule.first_goes(a, b); }
+    std::optional<ridge_decision> couples(const side_below& below) const override {
+      return rule.couples(below);
+    }
+    double price(const shortfall& missed) const override { return rule.price(missed); }
+    R rule;
+  };
+
+  std::string name_;
+  std::shared_ptr<const interface> held_;
+};
+static_assert(simplification_rule<any_simplification_rule, 2> &&
+              simplification_rule<any_simplification_rule, 3>);
+
+} // namespace dovetail

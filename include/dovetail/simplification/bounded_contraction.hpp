@@ -1,0 +1,272 @@
+/// @file
+/// Bounded contraction: the nodes of an element-dual graph are merged across all edges that may not become
+/// interfaces, those of a side-dual graph deleted with them.
+///
+/// Section 3.3 of J. Chen et al., "Scalable generation of large-scale unstructured meshes by a novel domain
+/// decomposition approach": coupled sides (S0), sides of bad shape (S1), then node deletion on the SDG,
+/// smallest wedge first (S2). All contractions are bounded: one that would make a super-element too heavy is
+/// refused, and the side gets its price as weight in the contracted graph instead, so that the partitioner
+/// avoids it.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/graph/contraction.hpp"
+#include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/simplification/types.hpp"
+#include "dovetail/simplification/wedge_runs.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// One run of the algorithm; `contract_bounded` calls its steps in order.
+template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
+class bounded_contraction {
+public:
+  bounded_contraction(const Elements& elements, const Sides& sides, const side_judgement& judged,
+                      const Rule& rule, const contraction_bound& bound)
+      : elements_(elements), judged_(judged), rule_(rule), weights_(weights_of(elements)), runs_(sides),
+        supers_(weights_), refusals_(elements.side_count()), fixed_(elements.side_count(), 0),
+        bound_(heaviest_allowed(bound)) {
+    if (judged.quality.size() != fixed_.size())
+      throw usage_error("the simplification rule judged " + std::to_string(judged.quality.size()) +
+                        " sides of " + std::to_string(fixed_.size()) + "; it must give one quality each");
+    for (std::size_t s = 0; s < fixed_.size(); ++s)
+      fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
+  }
+
+  void contract_coupled_sides(std::span<const coupled_side> coupled) {
+    std::vector<coupled_side> candidates;
+    for (const coupled_side& each : coupled)
+      if (!is_fixed(each.side))
+        candidates.push_back(each);
+    contract_worst_first(candidates);
+  }
+
+  void contract_bad_shapes() {
+    std::vector<coupled_side> candidates;
+    for (std::size_t s = 0; s < fixed_.size(); ++s)
+      if (judged_.quality[s] < judged_.wanted_quality && fixed_[s] == 0)
+        candidates.push_back({static_cast<local_id>(s), {{judged_.quality[s], judged_.wanted_quality}}});
+    contract_worst_first(candidates);
+  }
+
+  void delete_small_wedges() {
+    std::vector<queued_wedge> first;
+    for (wedge_id w = 0; w < runs_.wedge_count(); ++w)
+      if (runs_.is_name(w) && is_small(runs_.angle(w)))
+        first.push_back({runs_.angle(w), w});
+    queue_ = wedge_queue(std::greater<>(), std::move(first));
+    queue_is_open_ = true;
+    while (!queue_.empty()) {
+      const auto [angle, w] = queue_.top();
+      queue_.pop();
+      if (runs_.is_end(w) && runs_.angle(w) == angle) // else an older state of a run that has grown
+        treat_wedge(w, angle);
+    }
+  }
+
+  simplification result() {
+    simplification out;
+    out.side_states.resize(fixed_.size());
+    auto numbered = supers_.number_sets();
+    out.super_of_element = std::move(numbered.of_member);
+    out.super_count = numbered.count;
+    for (std::size_t s = 0; s < fixed_.size(); ++s) {
+      if (fixed_[s] != 0) {
+        out.side_states[s] = side_state::fixed;
+      } else if (is_internal(static_cast<local_id>(s))) {
+        out.side_states[s] = side_state::removed;
+      } else if (refusals_[s].side != no_id) {
+        out.side_states[s] = side_state::refused;
+        out.refused.push_back(refusals_[s]);
+      }
+    }
+    out.forced = std::move(forced_);
+    out.graph = contracted_graph(out);
+    summarize(out);
+    return out;
+  }
+
+private:
+  using queued_wedge = std::pair<double, wedge_id>; ///< ties by wedge number
+  using wedge_queue = std::priority_queue<queued_wedge, std::vector<queued_wedge>, std::greater<>>;
+
+  static std::vector<double> weights_of(const Elements& elements) {
+    std::vector<double> weights(elements.element_count());
+    for (std::size_t e = 0; e < weights.size(); ++e)
+      weights[e] = elements.weight(static_cast<local_id>(e));
+    return weights;
+  }
+
+  double heaviest_allowed(const contraction_bound& bound) const {
+    const double total = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+    const auto n = static_cast<double>(weights_.size());
+    return std::max(bound.fraction * total / std::max(1.0, bound.subdomains),
+                    n > 0 ? bound.always_allowed_elements * total / n : 0.0);
+  }
+
+  bool is_fixed(local_id side) const { return fixed_[static_cast<std::size_t>(side)] != 0; }
+  bool is_refused(local_id side) const { return refusals_[static_cast<std::size_t>(side)].side != no_id; }
+  bool is_small(double angle) const { return angle < judged_.wanted_angle_deg; }
+  /// Both elements are in one super-element, so the side can never become an interface.
+  bool is_internal(local_id side) {
+    const auto [a, b] = elements_.elements(side);
+    return !is_fixed(side) && supers_.find(a) == supers_.find(b);
+  }
+
+  void contract_worst_first(std::vector<coupled_side>& candidates) {
+    sort_all(candidates, [](const coupled_side& a, const coupled_side& b) {
+      const auto key = [](const coupled_side& c) {
+        const shortfall& missed = c.decision.missed;
+        return std::tuple(missed.value - missed.wanted, c.side, c.decision.only_penalise);
+      };
+      return key(a) < key(b);
+    });
+    for (const coupled_side& c : candidates)
+      if (c.decision.only_penalise)
+        refuse(c.side, c.decision.missed);
+      else
+        remove_or_refuse(c.side, c.decision.missed);
+  }
+
+  void treat_wedge(wedge_id w, double angle) {
+    const auto [a, b] = runs_.bounding_sides(w);
+    // Sides that became internal by other contractions are only noticed here: joining their runs puts the
+    // grown run back into the queue when it is still small.
+    for (const local_id side : {a, b})
+      if (is_internal(side)) {
+        remove(side);
+        return;
+      }
+    if (is_fixed(a) && is_fixed(b)) {
+      forced_.push_back({{std::min(a, b), std::max(a, b)}, angle});
+      return;
+    }
+    if (is_refused(a) || is_refused(b))
+      return;
+    remove_or_refuse(which_goes(a, b), {angle, judged_.wanted_angle_deg});
+  }
+
+  local_id which_goes(local_id a, local_id b) {
+    if (is_fixed(a) || is_fixed(b))
+      return is_fixed(a) ? b : a;
+    const auto seen = [&](local_id side) {
+      const auto [e, f] = elements_.elements(side); // not in one super-element yet
+      return wedge_side{side, judged_.quality[static_cast<std::size_t>(side)],
+                        supers_.weight(e) + supers_.weight(f)};
+    };
+    return rule_.first_goes(seen(a), seen(b)) ? a : b;
+  }
+
+  void remove_or_refuse(local_id side, const shortfall& missed) {
+    const auto [a, b] = elements_.elements(side);
+    const bool already_one = supers_.find(a) == supers_.find(b);
+    if (!already_one && supers_.weight(a) + supers_.weight(b) > bound_) {
+      refuse(side, missed);
+      return;
+    }
+    supers_.unite(a, b);
+    remove(side);
+  }
+
+  void refuse(local_id side, const shortfall& missed) {
+    refused_side& refusal = refusals_[static_cast<std::size_t>(side)];
+    if (refusal.side == no_id || missed.fraction() < refusal.missed.fraction())
+      refusal = {side, missed};
+  }
+
+  void remove(local_id side) {
+    if (runs_.is_removed(side))
+      return;
+    runs_.remove(side, [&](wedge_id name) {
+      if (queue_is_open_ && is_small(runs_.angle(name)))
+        queue_.emplace(runs_.angle(name), name);
+    });
+  }
+
+  csr_graph contracted_graph(const simplification& out) const {
+    std::vector<double> weights(static_cast<std::size_t>(out.super_count), 0.0);
+    for (std::size_t e = 0; e < weights_.size(); ++e)
+      weights[static_cast<std::size_t>(out.super_of_element[e])] += weights_[e];
+    std::vector<weighted_edge> edges;
+    for (std::size_t s = 0; s < fixed_.size(); ++s) {
+      if (out.side_states[s] == side_state::removed)
+        continue;
+      const auto [a, b] = elements_.elements(static_cast<local_id>(s));
+      if (b == no_id)
+        continue;
+      const refused_side& refusal = refusals_[s];
+      edges.push_back({out.super_of_element[static_cast<std::size_t>(a)],
+                       out.super_of_element[static_cast<std::size_t>(b)],
+                       refusal.side == no_id ? 1.0 : rule_.price(refusal.missed)});
+    }
+    return make_csr_graph(std::move(weights), edges);
+  }
+
+  void summarize(simplification& out) const {
+    const auto count = [&](side_state state) {
+      return static_cast<double>(std::count(out.side_states.begin(), out.side_states.end(), state));
+    };
+    report& summary = out.summary;
+    summary.name = "simplification";
+    summary.set("elements", static_cast<double>(weights_.size()));
+    summary.set("super_elements", static_cast<double>(out.super_count));
+    summary.set("kept_sides", count(side_state::kept));
+    summary.set("removed_sides", count(side_state::removed));
+    summary.set("refused_sides", count(side_state::refused));
+    summary.set("fixed_sides", count(side_state::fixed));
+    summary.set("forced_wedges", static_cast<double>(out.forced.size()));
+    summary.set("weight_bound", bound_);
+    const auto& weights = out.graph.node_weights;
+    summary.set("heaviest_super_element",
+                weights.empty() ? 0 : *std::max_element(weights.begin(), weights.end()));
+  }
+
+  const Elements& elements_;
+  const side_judgement& judged_;
+  const Rule& rule_;
+  std::vector<double> weights_; ///< per element
+  wedge_runs<Sides> runs_;
+  disjoint_sets supers_;
+  std::vector<refused_side> refusals_; ///< per side; side == no_id where none
+  std::vector<std::uint8_t> fixed_;    ///< per side
+  double bound_;
+  std::vector<forced_wedge> forced_;
+  wedge_queue queue_;
+  bool queue_is_open_ = false; ///< before S2 the queue is not filled
+};
+
+} // namespace detail
+
+/// Contracts an element-dual graph as far as a rule wants it and the bound allows it. `coupled` sides go
+/// first, whatever their quality; fixed ones among them are passed over.
+///
+/// Afterwards every wedge under `judged.wanted_angle_deg`, measured across super-elements, lies between two
+/// fixed sides or touches a refused one. Deterministic: ties break by side and wedge number. Complexity: n
+/// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities.
+template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
+simplification contract_bounded(const Elements& elements, const Sides& sides, const side_judgement& judged,
+                                const Rule& rule, const contraction_bound& bound = {},
+                                std::span<const coupled_side> coupled = {}) {
+  detail::bounded_contraction<Elements, Sides, Rule> run(elements, sides, judged, rule, bound);
+  run.contract_coupled_sides(coupled);
+  run.contract_bad_shapes();
+  run.delete_small_wedges();
+  return run.result();
+}
+
+} // namespace dovetail

@@ -1,0 +1,30 @@
+// near miss 1: it judges meshes of triangles only
+// error 1: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
+// near miss 2: it does not say which side of a small wedge goes
+// error 2: r\.first_goes\(a, b\)
+// near miss 3: its judgement changes it
+// error 3: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
+#include "dovetail/pipeline/parameters.hpp"
+
+struct my_rule {
+#if NEAR_MISS == 1
+  dovetail::side_judgement operator()(const dovetail::simplicial_mesh<2>&,
+                                      const dovetail::side_table<2>&) const;
+#elif NEAR_MISS == 3
+  template <int D>
+  dovetail::side_judgement operator()(const dovetail::simplicial_mesh<D>&, const dovetail::side_table<D>&);
+#else
+  template <int D>
+  dovetail::side_judgement operator()(const dovetail::simplicial_mesh<D>&,
+                                      const dovetail::side_table<D>&) const;
+#endif
+  std::optional<dovetail::ridge_decision> couples(const dovetail::side_below& below) const;
+#if NEAR_MISS != 2
+  bool first_goes(const dovetail::wedge_side& a, const dovetail::wedge_side& b) const;
+#endif
+  double price(const dovetail::shortfall& missed) const;
+};
+
+void call() {
+  dovetail::parameters<>{}.with_simplifier(my_rule{});
+}

@@ -1,0 +1,201 @@
+#include "dovetail/simplification/any_simplification_rule.hpp"
+#include "dovetail/simplification/aspect_ratio.hpp"
+#include "dovetail/simplification/flow_aligned.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/shape_only.hpp"
+#include "dovetail/simplification/wedges_only.hpp"
+#include "simplification/rule_contract.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace dovetail;
+using namespace dovetail_test;
+
+TEST_CASE("every rule keeps the contract") {
+  SUBCASE("the paper's") {
+    check_rule(simplifier::paper{});
+  }
+  SUBCASE("the paper's with shapes on the surface too") {
+    check_rule(simplifier::paper{.surface_shape_deg = 20});
+  }
+  SUBCASE("none") {
+    check_rule(simplifier::none{});
+  }
+  SUBCASE("shape only") {
+    check_rule(simplifier::shape_only{.surface_deg = 20});
+  }
+  SUBCASE("wedges only") {
+    check_rule(simplifier::wedges_only{});
+  }
+  SUBCASE("by aspect ratio") {
+    check_rule(simplifier::aspect_ratio{.surface_ratio = 0.4});
+  }
+  SUBCASE("along a flow") {
+    check_rule(simplifier::flow_aligned{.direction =
+                                            [](vec3 p) {
+                                              return vec3{p.y, -p.x, 0};
+                                            },
+                                        .surface_deg = 60});
+  }
+  SUBCASE("a rule that hides another") {
+    check_rule(any_simplification_rule(simplifier::wedges_only{}));
+  }
+}
+
+namespace {
+
+template <int D, class Rule>
+simplification simplified(const simplicial_mesh<D>& mesh, const Rule& rule) {
+  return simplify<D>(mesh, build_sides(mesh), rule, {}, {.subdomains = 8});
+}
+
+} // namespace
+
+TEST_CASE("no rule leaves every element by itself") {
+  const auto result = simplified<3>(squeezed_cubes(4, 1), simplifier::none{});
+  CHECK(result.summary.get("removed_sides") == 0);
+  CHECK(result.summary.get("refused_sides") == 0);
+  for (const double weight : result.graph.edge_weights)
+    CHECK(weight == 1);
+}
+
+TEST_CASE("the paper's rule with one half switched off is the other half's") {
+  const auto cubes = squeezed_cubes(4, 2, 0.6);
+  const auto squares = squeezed_squares(15, 2);
+  const auto same = [&](const auto& half, const simplifier::paper& other_off) {
+    CHECK(simplified<3>(cubes, half).side_states == simplified<3>(cubes, other_off).side_states);
+    CHECK(simplified<2>(squares, half).side_states == simplified<2>(squares, other_off).side_states);
+  };
+  same(simplifier::wedges_only{}, {.volume_shape_deg = 0});
+  same(simplifier::shape_only{}, {.surface_wedge_deg = 0, .volume_wedge_deg = 0});
+  same(simplifier::none{},
+       {.surface_wedge_deg = 0, .volume_wedge_deg = 0, .surface_shape_deg = 0, .volume_shape_deg = 0});
+}
+
+TEST_CASE("each threshold of the paper's rule counts in its own place") {
+  const auto cubes = squeezed_cubes(4, 2, 0.8);
+  const auto squares = squeezed_squares(15, 2);
+  const auto removed = [](const simplification& result) { return result.summary.get("removed_sides"); };
+  const double in_volume = removed(simplified<3>(cubes, simplifier::paper{}));
+  const double on_surface = removed(simplified<2>(squares, simplifier::paper{}));
+  CHECK(removed(simplified<3>(cubes, simplifier::paper{.volume_wedge_deg = 40})) > in_volume);
+  CHECK(removed(simplified<3>(cubes, simplifier::paper{.volume_shape_deg = 40})) > in_volume);
+  CHECK(removed(simplified<3>(cubes, simplifier::paper{.surface_wedge_deg = 60})) == in_volume);
+  CHECK(removed(simplified<2>(squares, simplifier::paper{.surface_wedge_deg = 40})) < on_surface);
+  CHECK(removed(simplified<2>(squares, simplifier::paper{.surface_shape_deg = 40})) > on_surface);
+  CHECK(removed(simplified<2>(squares, simplifier::paper{.volume_wedge_deg = 60})) == on_surface);
+}
+
+TEST_CASE("aspect ratios are those of known triangles") {
+  const auto ratio = [](double x, double y) {
+    return simplifier::aspect_ratio::ratio({vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{x, y, 0}});
+  };
+  CHECK(ratio(0.5, std::sqrt(0.75)) == doctest::Approx(1));
+  CHECK(ratio(0.5, 0.5 * std::tan(3.14159265358979 / 6)) == doctest::Approx(0.4641).epsilon(1e-4));
+  CHECK(ratio(0, 1) == doctest::Approx(2 * std::sqrt(2.0) - 2));
+  CHECK(ratio(0.3, 0) == 0);
+}
+
+TEST_CASE("along a flow, what crosses it goes") {
+  // In a mesh of good angles only the flow tells sides apart.
+  const auto mesh = jittered_squares(12, 0.05, 3);
+  const auto sides = build_sides(mesh);
+  const simplifier::flow_aligned rule{.direction =
+                                          [](vec3) {
+                                            return vec3{0, 2, 0};
+                                          },
+                                      .surface_deg = 60,
+                                      .surface_wedge_deg = 0};
+  const auto result = simplify<2>(mesh, sides, rule, {}, {.fraction = unbounded});
+  CHECK(result.summary.get("removed_sides") > 50);
+  CHECK(result.summary.get("kept_sides") > 50);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const vec3 along = mesh.points[static_cast<std::size_t>(sides.vertices[s][1])] -
+                       mesh.points[static_cast<std::size_t>(sides.vertices[s][0])];
+    const bool crosses = std::abs(along.y) < 0.5 * norm(along); // more than 60 degrees from the y axis
+    if (result.side_states[s] != side_state::fixed && crosses)
+      CHECK(result.side_states[s] == side_state::removed);
+    if (!crosses)
+      CHECK(result.side_states[s] != side_state::refused);
+  }
+  const simplifier::flow_aligned still{.direction =
+                                           [](vec3) {
+                                             return vec3{0, 0, 0};
+                                           },
+                                       .surface_deg = 60,
+                                       .surface_wedge_deg = 0};
+  CHECK(simplify<2>(mesh, sides, still).summary.get("removed_sides") == 0);
+  CHECK_THROWS_AS(simplify<2>(mesh, sides, simplifier::flow_aligned{.direction = {}}), usage_error);
+}
+
+TEST_CASE("a face along the flow is as good as can be, one across it as bad") {
+  simplicial_mesh<3> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.elements = {{0, 1, 2, 3}};
+  const auto sides = build_sides(mesh);
+  const auto judged = simplifier::flow_aligned{.direction =
+                                                   [](vec3) {
+                                                     return vec3{0, 0, 3};
+                                                   },
+                                               .volume_deg = 70}(mesh, sides);
+  CHECK(judged.wanted_quality == 20);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const auto& v = sides.vertices[s];
+    const bool has_tip = std::find(v.begin(), v.end(), 3) != v.end();
+    const bool has_origin = std::find(v.begin(), v.end(), 0) != v.end();
+    const double slope = 90 - degrees_per_radian * std::asin(std::sqrt(1.0 / 3));
+    CHECK(judged.quality[s] == doctest::Approx(!has_tip ? 0 : has_origin ? 90 : slope));
+  }
+}
+
+TEST_CASE("sides at a removed edge are removed, those at a refused one only penalised") {
+  const auto check = [](const auto& rule) {
+    const auto removed = rule.couples({side_state::removed, 0.5, {}});
+    REQUIRE(removed);
+    CHECK(!removed->only_penalise);
+    CHECK(removed->missed.value == 0.5);
+    const auto refused = rule.couples({side_state::refused, 0.7, {0.5, 0.9}});
+    REQUIRE(refused);
+    CHECK(refused->only_penalise);
+    CHECK(refused->missed.value == 0.5);
+    CHECK(refused->missed.wanted == 0.9);
+  };
+  check(simplifier::paper{});
+  check(simplifier::shape_only{});
+  check(simplifier::wedges_only{});
+  check(simplifier::aspect_ratio{});
+  check(simplifier::flow_aligned{});
+  CHECK(!simplifier::none{}.couples({side_state::removed, 0.5, {}}));
+  CHECK(simplifier::paper{}.couples({side_state::removed, 20, {}})->missed.wanted == 50);
+}
+
+TEST_CASE("the price of a refused side grows with what is missing") {
+  const simplifier::paper rule{.price_of_refusal = {3, 100}};
+  CHECK(rule.price({30, 30}) == 4);
+  CHECK(rule.price({40, 30}) == 4);
+  CHECK(rule.price({15, 30}) == 54);
+}
+
+TEST_CASE("a rule that hides another gives the same") {
+  const simplifier::flow_aligned rule{.surface_deg = 70, .price_of_refusal = {1, 2}};
+  const any_simplification_rule hidden(rule, "flow");
+  CHECK(hidden.name() == "flow");
+  const auto cubes = squeezed_cubes(4, 1);
+  const auto squares = squeezed_squares(12, 1);
+  CHECK(simplified<3>(cubes, hidden).side_states == simplified<3>(cubes, rule).side_states);
+  CHECK(simplified<3>(cubes, hidden).graph.edge_weights == simplified<3>(cubes, rule).graph.edge_weights);
+  CHECK(simplified<2>(squares, hidden).side_states == simplified<2>(squares, rule).side_states);
+  CHECK(hidden.couples({side_state::removed, 5, {}})->missed.wanted == 90);
+}
+
+TEST_CASE("a rule that judges another number of sides is refused") {
+  struct too_few : simplifier::paper {
+    side_judgement operator()(const simplicial_mesh<2>&, const side_table<2>&) const { return {{1, 2}}; }
+  };
+  const auto mesh = squeezed_squares(3, 1);
+  CHECK_THROWS_AS(simplify<2>(mesh, build_sides(mesh), too_few{}), usage_error);
+}
