@@ -83,16 +83,13 @@ struct measure_improver {
     using namespace improvement;
     using measure = archetype::shape_measure;
     tet_complex complex = take_mesh(mesh, frozen, layout::along_curve);
-    for (local_id e = 0; e < complex.element_slots(); ++e)
-      if (const auto& v = complex.vertices(e); complex.is_alive(e))
-        complex.set_value(e,
-                          static_cast<float>(measure_of<measure>(complex.point(v[0]), complex.point(v[1]),
-                                                                 complex.point(v[2]), complex.point(v[3]))));
+    evaluate<measure>(complex);
     complex.set_sizes(present_sizes(complex));
     const surface_limits surface(complex);
-    schedule_limits limits;
-    limits.mender.target = static_cast<float>(measure::from_angle(20));
-    schedule<measure>(complex, surface, limits).run();
+    poor_tetrahedra<measure> poor(complex, surface);
+    schedule_limits<3> limits;
+    limits.operations.target = static_cast<float>(measure::from_angle(20));
+    schedule<poor_tetrahedra<measure>, native_operations::on_tetrahedra<measure>>(complex, poor).run(limits);
     give_back(complex, mesh);
     return {};
   }

@@ -1,7 +1,7 @@
 /// @file
 /// All contractions of free edges of small random meshes, against brute force.
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/vertex_insertion.hpp"
+#include "dovetail/improver/tetrahedra/edge_contraction.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
 #include "random_meshes.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 /// @file
 /// The move of all free vertices: where it goes, and what it never does.
-#include "dovetail/improver/global_smoothing.hpp"
 #include "dovetail/improver/native.hpp"
+#include "dovetail/improver/tetrahedra/global_smoothing.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

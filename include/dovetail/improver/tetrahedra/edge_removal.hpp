@@ -7,9 +7,9 @@
 /// not evaluated.
 #pragma once
 
-#include "dovetail/improver/local_change.hpp"
 #include "dovetail/improver/shape_measure.hpp"
-#include "dovetail/improver/tet_walks.hpp"
+#include "dovetail/improver/tetrahedra/local_change.hpp"
+#include "dovetail/improver/tetrahedra/tet_walks.hpp"
 
 namespace dovetail::improvement {
 
@@ -19,6 +19,18 @@ using edge_ends = std::array<local_id, 2>;
 template <shape_measure Measure>
 class edge_removal {
 public:
+  static constexpr const char* name = "edge removal";
+
+  /// For best_change: each edge of `e`.
+  template <class Offer>
+  void propose(const tet_complex& mesh, local_id e, const Offer& offer) {
+    for (int edge = 0; edge < 6 && offer.is_open(); ++edge)
+      if (collect_shell(mesh, e, edge, shell_))
+        offer([&](local_change& change) {
+          return find(mesh, shell_, worst_value(mesh, shell_.elements.view()), change);
+        });
+  }
+
   /// The best removal of the edge of `shell` if all its elements are better than `bar`, else false. Elements
   /// with an edge of `passing` need not be better, only positive: they will be replaced in their turn.
   bool find(const tet_complex& mesh, const edge_shell& shell, float bar, local_change& change,
@@ -100,6 +112,7 @@ private:
     emit(shell, c.apex, j, change);
   }
 
+  edge_shell shell_;
   std::array<cell, index(max_shell* max_shell)> cells_;
   std::array<vec3, index(max_shell)> ring_;
   vec3 a_, b_;

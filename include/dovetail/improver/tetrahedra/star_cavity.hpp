@@ -3,8 +3,8 @@
 /// these elements out, join their outline to one point".
 #pragma once
 
-#include "dovetail/improver/apex_search.hpp"
-#include "dovetail/improver/size_band.hpp"
+#include "dovetail/improver/tetrahedra/apex_search.hpp"
+#include "dovetail/improver/tetrahedra/size_band.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 /// (or were) flat or inverted. Where all elements are positive, geometry sees to it.
 #pragma once
 
-#include "dovetail/improver/tet_walks.hpp"
+#include "dovetail/improver/tetrahedra/tet_walks.hpp"
 
 #include <algorithm>
 #include <array>

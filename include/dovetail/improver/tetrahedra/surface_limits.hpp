@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/quality_counts.hpp"
-#include "dovetail/improver/tet_complex.hpp"
+#include "dovetail/improver/tetrahedra/tet_complex.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// Keeps edge lengths near the sizing field while elements change.
 #pragma once
 
-#include "dovetail/improver/local_change.hpp"
+#include "dovetail/improver/tetrahedra/local_change.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/improver/cavity_matcher.hpp"
-#include "dovetail/improver/tet_adjacency.hpp"
+#include "dovetail/improver/tetrahedra/cavity_matcher.hpp"
+#include "dovetail/improver/tetrahedra/tet_adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>

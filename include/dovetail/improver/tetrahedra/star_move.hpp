@@ -3,9 +3,9 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/improver/local_change.hpp"
 #include "dovetail/improver/shape_measure.hpp"
-#include "dovetail/improver/size_band.hpp"
+#include "dovetail/improver/tetrahedra/local_change.hpp"
+#include "dovetail/improver/tetrahedra/size_band.hpp"
 
 namespace dovetail::improvement {
 

@@ -8,7 +8,7 @@
 /// 10.1145/1073204.1073238.
 #pragma once
 
-#include "dovetail/improver/star_move.hpp"
+#include "dovetail/improver/tetrahedra/star_move.hpp"
 
 #include <cstddef>
 

@@ -7,7 +7,7 @@
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/point_numbering.hpp"
-#include "dovetail/improver/surface_complex.hpp"
+#include "dovetail/improver/triangles/surface_complex.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>

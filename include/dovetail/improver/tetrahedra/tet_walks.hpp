@@ -2,7 +2,7 @@
 /// The elements around an edge (its shell) and around a vertex (its star).
 #pragma once
 
-#include "dovetail/improver/tet_complex.hpp"
+#include "dovetail/improver/tetrahedra/tet_complex.hpp"
 
 #include <array>
 

@@ -4,7 +4,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/quality_counts.hpp"
-#include "dovetail/improver/surface_complex.hpp"
+#include "dovetail/improver/triangles/surface_complex.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,14 +2,27 @@
 /// Moves one free vertex so that the worst element around it gets better.
 #pragma once
 
-#include "dovetail/improver/apex_search.hpp"
-#include "dovetail/improver/star_move.hpp"
+#include "dovetail/improver/tetrahedra/operation_limits.hpp"
+#include "dovetail/improver/tetrahedra/star_move.hpp"
 
 namespace dovetail::improvement {
 
 template <shape_measure Measure>
 class vertex_smoothing {
 public:
+  static constexpr std::array names{"smoothing"};
+  static constexpr turn when = turn::always;
+
+  /// Moves the free vertices of `e` in turn as long as it is poor.
+  bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {
+    const auto corners = mesh.vertices(e);
+    bool helped = false;
+    for (const local_id v : corners)
+      if (mesh.is_free(v) && limits.is_poor(mesh, e))
+        helped = tries([&] { return improve(mesh, v, limits.search(), limits.band); }) || helped;
+    return helped;
+  }
+
   /// Moves `v` when that raises the worst value of its star by more than rounding could feign and keeps the
   /// edges in the band. O(star).
   bool improve(tet_complex& mesh, local_id v, const apex_search_limits& limits, const size_band& band) {

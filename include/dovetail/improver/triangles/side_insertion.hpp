@@ -2,18 +2,44 @@
 /// Splits a side of a poor triangle, lets the new vertex settle, and takes all back when that does not help.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/improver/triangles/operation_limits.hpp"
 #include "dovetail/mesh/surface_smoothing.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace dovetail::improvement {
 
-/// Vertex insertion for a state of mesh/surface_operations.hpp that can drop its last vertex.
-template <class State>
-class surface_insertion {
+class side_insertion {
 public:
-  surface_insertion(State& state, dovetail::detail::smoother<State>& smooth) : s_(state), smooth_(smooth) {}
+  static constexpr std::array names{"insertion"};
+  static constexpr turn when = turn::hard;
+
+  explicit side_insertion(surface_complex& mesh) : s_(mesh), smooth_(mesh) {}
+
+  /// Tries the sides of `t`, the longest first.
+  bool mend(surface_complex& mesh, local_id t, const operation_limits<2>& limits,
+            const recorded_tries& tries) {
+    std::array<std::pair<double, local_id>, 3> sides;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const local_id c = 3 * t + static_cast<local_id>(k);
+      sides[k] = {-mesh.length(mesh.table.tail(c), mesh.table.head(c)), c};
+    }
+    sort_all(sides);
+    for (const auto& side : sides) {
+      const local_id c = side.second;
+      const local_id v = mesh.table.tail(c), w = mesh.table.head(c);
+      if (mesh.table.free_side(c) && tries([&] { return improve(c, limits.target, limits.least_step); }))
+        return true;
+      // An attempt that was taken back may have renamed the corners of t.
+      if (!mesh.table.alive(t) || mesh.table.tail(c) != v || mesh.table.head(c) != w)
+        return false;
+    }
+    return false;
+  }
 
   /// Splits the free side opposite c. Kept when, after flips of the sides around the new vertex and moves,
   /// the worst triangle around it is better than the worse of the two that were split by more than
@@ -96,8 +122,8 @@ private:
 
   double lack_of(double quality) const { return std::max(target_ - quality, 0.0); }
 
-  State& s_;
-  dovetail::detail::smoother<State>& smooth_;
+  surface_complex& s_;
+  dovetail::detail::smoother<surface_complex> smooth_;
   double target_ = 0;
   double lacked_ = 0;             ///< by the triangles that are replaced
   std::vector<local_id> flipped_; ///< the far ends of the edges that flips gave to v

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
-#include "dovetail/improver/tet_adjacency.hpp"
+#include "dovetail/improver/tetrahedra/tet_adjacency.hpp"
 
 #include <array>
 #include <bit>

@@ -5,7 +5,7 @@
 
 #include "dovetail/core/vector.hpp"
 #include "dovetail/improver/shape_measure.hpp"
-#include "dovetail/improver/tet_walks.hpp"
+#include "dovetail/improver/tetrahedra/tet_walks.hpp"
 
 #include <array>
 

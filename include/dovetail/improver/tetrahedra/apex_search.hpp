@@ -7,7 +7,7 @@
 /// mesh improvement using swapping and smoothing", for the objective.
 #pragma once
 
-#include "dovetail/improver/star_batch.hpp"
+#include "dovetail/improver/tetrahedra/star_batch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/concepts.hpp"
-#include "dovetail/improver/curve_order.hpp"
 #include "dovetail/improver/point_numbering.hpp"
-#include "dovetail/improver/tet_complex.hpp"
+#include "dovetail/improver/tetrahedra/curve_order.hpp"
+#include "dovetail/improver/tetrahedra/tet_complex.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,14 +7,23 @@
 /// part is grown from (x, y, z) where the outline's element is the worst (Shewchuk, as for edge removal).
 #pragma once
 
-#include "dovetail/improver/local_change.hpp"
 #include "dovetail/improver/shape_measure.hpp"
+#include "dovetail/improver/tetrahedra/local_change.hpp"
 
 namespace dovetail::improvement {
 
 template <shape_measure Measure>
 class face_removal {
 public:
+  static constexpr const char* name = "face removal";
+
+  /// For best_change: each side of `e`.
+  template <class Offer>
+  void propose(const tet_complex& mesh, local_id e, const Offer& offer) {
+    for (int side = 0; side < 4 && offer.is_open(); ++side)
+      offer([&](local_change& change) { return find(mesh, e, side, change); });
+  }
+
   /// The best removal of side `side` of `e`, if it beats the elements it replaces; else false.
   bool find(const tet_complex& mesh, local_id e, int side, local_change& change) {
     if (mesh.is_fixed(e, side))

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/improver/cavity_topology.hpp"
-#include "dovetail/improver/tet_walks.hpp"
+#include "dovetail/improver/tetrahedra/cavity_topology.hpp"
+#include "dovetail/improver/tetrahedra/tet_walks.hpp"
 
 #include <algorithm>
 

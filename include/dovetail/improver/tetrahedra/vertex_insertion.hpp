@@ -7,7 +7,8 @@
 /// improvement", with a greedy search instead of a lexicographic one.
 #pragma once
 
-#include "dovetail/improver/star_cavity.hpp"
+#include "dovetail/improver/tetrahedra/operation_limits.hpp"
+#include "dovetail/improver/tetrahedra/star_cavity.hpp"
 
 namespace dovetail::improvement {
 
@@ -21,6 +22,29 @@ struct insertion_limits {
 template <shape_measure Measure>
 class vertex_insertion {
 public:
+  static constexpr std::array names{"insertion"};
+  static constexpr turn when = turn::hard;
+
+  /// Tries the middle of `e`, then that of each of its edges.
+  bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {
+    insertion_limits own{.search = limits.search(), .band = limits.band};
+    if (limits.is_last_round) {
+      own.growth = 30;
+      own.patience = 12;
+    }
+    const auto& v = mesh.vertices(e);
+    const vec3 center = 0.25 * (mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]) + mesh.point(v[3]));
+    if (tries([&] { return improve(mesh, {&e, 1}, center, own); }))
+      return true;
+    for (int edge = 0; edge < 6; ++edge)
+      if (collect_shell(mesh, e, edge, shell_) && tries([&] {
+            const vec3 middle = midpoint(mesh.point(shell_.a), mesh.point(shell_.b));
+            return improve(mesh, shell_.elements.view(), middle, own);
+          }))
+        return true;
+    return false;
+  }
+
   /// Replaces a cavity that contains the elements `seed` by the star of a new vertex near `place`, if that
   /// beats the elements replaced. O(growth x cavity).
   bool improve(tet_complex& mesh, std::span<const local_id> seed, vec3 place,
@@ -113,33 +137,12 @@ private:
     return sum / static_cast<float>(3 * best_.outline.size);
   }
 
+  edge_shell shell_;
   star_cavity cavity_, best_;
   vec3 best_place_;
   float best_bar_ = 0;
   star_batch<Measure> batch_;
   apex_search<Measure> search_;
-  local_change change_;
-};
-
-/// Contracts an edge: the star of a free vertex is filled from one of its neighbours.
-template <shape_measure Measure>
-class edge_contraction {
-public:
-  /// Removes the free vertex `from` by moving it onto `to`, if that beats the elements around `from`.
-  /// O(star).
-  bool improve(tet_complex& mesh, local_id from, local_id to, const size_band& band) {
-    if (!collect_star(mesh, from, star_))
-      return false;
-    cavity_.clear();
-    for (const local_id e : star_)
-      cavity_.elements.push(e);
-    return find_outline(mesh, cavity_, to) && may_lose_inside(mesh, cavity_, to, 0) &&
-           fill_from<Measure>(mesh, cavity_, to, worst_value(mesh, star_.view()), band, change_);
-  }
-
-private:
-  bounded_list<local_id, max_star> star_;
-  star_cavity cavity_;
   local_change change_;
 };
 

@@ -7,14 +7,25 @@
 /// when they lead nowhere.
 #pragma once
 
-#include "dovetail/improver/edge_removal.hpp"
-#include "dovetail/improver/size_band.hpp"
+#include "dovetail/improver/tetrahedra/edge_removal.hpp"
+#include "dovetail/improver/tetrahedra/operation_limits.hpp"
 
 namespace dovetail::improvement {
 
 template <shape_measure Measure>
 class shell_transformation {
 public:
+  static constexpr std::array names{"shell transformation"};
+  static constexpr turn when = turn::hard;
+
+  /// Tries each edge of `e` until one can be removed.
+  bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {
+    for (int edge = 0; edge < 6; ++edge)
+      if (tries([&] { return improve(mesh, e, edge, limits.band); }))
+        return true;
+    return false;
+  }
+
   /// Edge removals tried for one edge, at most, and how far they may lead away from it.
   static constexpr int max_tries = 24, max_depth = 2;
 
