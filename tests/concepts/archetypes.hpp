@@ -7,6 +7,7 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/operation.hpp"
 #include "dovetail/improver/shape_measure.hpp"
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -18,6 +19,7 @@
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -205,6 +207,21 @@ struct shape_measure {
     return dot(cross(a, b), c) / (longest * std::sqrt(longest));
   }
   static double from_angle(double degrees) { return degrees / 60; }
+};
+// end
+
+// for mesh_operation
+/// Changes nothing; neither copyable nor movable.
+struct operation {
+  operation() = default;
+  operation(const operation&) = delete;
+  operation& operator=(const operation&) = delete;
+  static constexpr std::array names{"nothing"};
+  static constexpr improvement::turn when = improvement::turn::hard;
+  bool mend(improvement::tet_complex&, local_id, const improvement::operation_limits<3>&,
+            const improvement::recorded_tries& tries) {
+    return tries([] { return false; });
+  }
 };
 // end
 

@@ -31,6 +31,8 @@ static_assert(feature_aware_sizing_field<archetype::aware_sizing>);
 static_assert(!bounded_below_sizing_field<archetype::aware_sizing>);
 static_assert(bisection_rule<archetype::bisection> && !graph_partitioner<archetype::bisection>);
 static_assert(improvement::shape_measure<archetype::shape_measure>);
+static_assert(improvement::mesh_operation<archetype::operation, 3>);
+static_assert(!improvement::mesh_operation<archetype::operation, 2>, "it works on tetrahedra");
 static_assert(patch_surface<archetype::surface_as<any_surface>>);
 static_assert(piece_mesher<archetype::mesher, 3> && boundary_keeping_mesher<archetype::mesher, 3>);
 static_assert(!piece_mesher<archetype::mesher, 2>, "it makes tetrahedra");
@@ -77,7 +79,7 @@ struct rule_partitioner {
   }
 };
 
-/// The native improver's schedule with the archetype of a measure.
+/// The native improver's schedule with the archetypes of a measure and of an operation.
 struct measure_improver {
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing&) const {
     using namespace improvement;
@@ -89,7 +91,8 @@ struct measure_improver {
     poor_tetrahedra<measure> poor(complex, surface);
     schedule_limits<3> limits;
     limits.operations.target = static_cast<float>(measure::from_angle(20));
-    schedule<poor_tetrahedra<measure>, native_operations::on_tetrahedra<measure>>(complex, poor).run(limits);
+    using operations = native_operations::on_tetrahedra<measure>::with<archetype::operation>;
+    schedule<poor_tetrahedra<measure>, operations>(complex, poor).run(limits);
     give_back(complex, mesh);
     return {};
   }
@@ -160,7 +163,7 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
   SUBCASE("a graph to read") {
     check(archetype::sizing(0), given.with_partitioner(walk_partitioner<archetype::accessible_graph>{}));
   }
-  SUBCASE("a measure of shape") {
+  SUBCASE("a measure of shape, and an operation") {
     check(archetype::sizing(0), given.with_improver(measure_improver{}));
   }
   SUBCASE("what to try next") {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dovetail/core/linkage.hpp"
 #include "dovetail/improver/native_by.hpp"
 
 namespace dovetail::improvement {

@@ -2,7 +2,7 @@
 /// The native improver with other operations than its own.
 #pragma once
 
-#include "dovetail/improver/native.hpp"
+#include "dovetail/improver/native_parameters.hpp"
 #include "dovetail/improver/operations.hpp"
 #include "dovetail/improver/tetrahedra/tet_improver.hpp"
 #include "dovetail/improver/triangles/triangle_improver.hpp"
@@ -43,3 +43,5 @@ struct native_by {
 };
 
 } // namespace dovetail::improvement
+
+#include "dovetail/improver/native.hpp" // its native.ipp needs what is above

@@ -54,10 +54,8 @@ enum class turn {
 ///
 /// Models: those that operations.hpp lists.
 template <class O, int D>
-concept mesh_operation = (std::constructible_from<O, complex_of<D>&> ||
-                          std::default_initializable<O>)&&requires(O& o, complex_of<D>& mesh, local_id e,
-                                                                   const operation_limits<D>& limits,
-                                                                   const recorded_tries& tries) {
+concept mesh_operation = requires(O& o, complex_of<D>& mesh, local_id e, const operation_limits<D>& limits,
+                                  const recorded_tries& tries) {
   {std::span<const char* const>(O::names)};
   { O::when } -> std::convertible_to<turn>;
   { o.mend(mesh, e, limits, tries) } -> std::same_as<bool>;
@@ -75,8 +73,11 @@ struct held_operation {
   static Operation made_for(Complex& mesh) {
     if constexpr (std::constructible_from<Operation, Complex&>)
       return Operation(mesh);
-    else
+    else {
+      static_assert(std::default_initializable<Operation>,
+                    "an operation is made from the mesh, or by default");
       return Operation();
+    }
   }
 
   Operation operation;

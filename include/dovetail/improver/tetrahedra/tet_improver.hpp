@@ -5,7 +5,7 @@
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/laps.hpp"
-#include "dovetail/improver/native.hpp"
+#include "dovetail/improver/native_parameters.hpp"
 #include "dovetail/improver/schedule.hpp"
 #include "dovetail/improver/tetrahedra/global_smoothing.hpp"
 #include "dovetail/improver/tetrahedra/mesh_exchange.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/laps.hpp"
-#include "dovetail/improver/native.hpp"
+#include "dovetail/improver/native_parameters.hpp"
 #include "dovetail/improver/schedule.hpp"
 #include "dovetail/improver/triangles/poor_triangles.hpp"
 #include "dovetail/improver/triangles/relaxation.hpp"
