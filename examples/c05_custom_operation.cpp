@@ -45,7 +45,7 @@ private:
 /// Tried after those that the improver has anyway.
 struct my_operations : native_operations {
   template <shape_measure Measure>
-  using on_tetrahedra = native_operations::on_tetrahedra<Measure>::template with<centering<Measure>>;
+  using on_tetrahedra = typename native_operations::on_tetrahedra<Measure>::template with<centering<Measure>>;
 };
 // end
 

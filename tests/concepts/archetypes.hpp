@@ -12,6 +12,7 @@
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/preferences.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -117,6 +119,15 @@ public:
 
 private:
   M held_;
+};
+// end
+
+// for calibrated_mesher, piece_sizing_mesher
+template <boundary_keeping_mesher<3> M>
+struct telling_mesher_as : mesher_as<M> {
+  using mesher_as<M>::mesher_as;
+  static constexpr int elements_per_inverse_cubed_size = 12;
+  float elements_per_subdomain() const { return 500; }
 };
 // end
 
@@ -228,7 +239,20 @@ struct operation {
 // for improver
 struct improver : copyable_only {
   using copyable_only::copyable_only;
+  static constexpr improver_traits traits{};
   report operator()(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&) const { return {}; }
+};
+// end
+
+// for surface_improver
+struct surface_improver : copyable_only {
+  using copyable_only::copyable_only;
+  static constexpr improver_traits traits{};
+  report operator()(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&) const { return {}; }
+  report operator()(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&,
+                    const surface_host&) const {
+    return {};
+  }
 };
 // end
 
@@ -247,6 +271,7 @@ struct executor {
     return outcomes;
   }
   short workers() const { return 1; }
+  bool shares_process() const { return true; }
 };
 // end
 
@@ -311,6 +336,15 @@ public:
 
 private:
   const G& held_;
+};
+// end
+
+// for geometry_model_with_planes
+template <geometry_model_with_planes G>
+struct planes_as : geometry_as<G> {
+  explicit planes_as(const G& held) : geometry_as<G>(held), known(held) {}
+  std::optional<surface_frame> plane_of_face(local_id f) const { return known.plane_of_face(f); }
+  const G& known;
 };
 // end
 

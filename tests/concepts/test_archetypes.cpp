@@ -41,7 +41,10 @@ static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
 static_assert(executor<archetype::executor>);
-static_assert(geometry_model<archetype::geometry>);
+static_assert(surface_improver<archetype::surface_improver> && !improver<archetype::surface_improver, 3>);
+static_assert(!surface_improver<archetype::improver>);
+static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);
+static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
@@ -81,6 +84,7 @@ struct rule_partitioner {
 
 /// The native improver's schedule with the archetypes of a measure and of an operation.
 struct measure_improver {
+  static constexpr improver_traits traits{};
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing&) const {
     using namespace improvement;
     using measure = archetype::shape_measure;
@@ -166,6 +170,11 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
   SUBCASE("a measure of shape, and an operation") {
     check(archetype::sizing(0), given.with_improver(measure_improver{}));
   }
+  SUBCASE("what to expect of a mesher") {
+    using telling = archetype::telling_mesher_as<mesher::tetgen>;
+    static_assert(calibrated_mesher<telling> && piece_sizing_mesher<telling>);
+    check(archetype::sizing(0), given.with_mesher(telling(mesher::tetgen{})));
+  }
   SUBCASE("what to try next") {
     check(archetype::sizing(0), given.with_mesher(archetype::mesher_after_failure(mesher::tetgen{})));
   }
@@ -209,6 +218,16 @@ TEST_CASE("graph archetypes tell the same graph") {
   CHECK(breadth_first_order(read, local_id{3}) == std::vector<local_id>{3, 2, 0, 1});
   CHECK(breadth_first_order(archetype::walkable_graph(csr), local_id{3}) ==
         std::vector<local_id>{3, 2, 0, 1});
+}
+
+TEST_CASE("pieces of triangles need no more of an improver or a model with planes than the concepts say") {
+  const any_geometry cube = unit_cube();
+  static_assert(geometry_model_with_planes<archetype::planes_as<any_geometry>>);
+  const auto given =
+      parameters<>{}.with_improver(archetype::surface_improver(0)).with_options({.subdomains = 3});
+  const auto result = generate<2>(archetype::planes_as(cube), archetype::sizing(0), given);
+  CHECK(result.failures.empty());
+  CHECK(io::check_distributed(result.mesh).valid());
 }
 
 TEST_CASE("pieces of triangles need no more of a surface mesher than its concept says") {

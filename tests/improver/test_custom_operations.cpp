@@ -68,7 +68,7 @@ struct own_operations {
 /// The native ones and both.
 struct more_operations {
   template <shape_measure Measure>
-  using on_tetrahedra = native_operations::on_tetrahedra<Measure>::template with<centering<Measure>>;
+  using on_tetrahedra = typename native_operations::on_tetrahedra<Measure>::template with<centering<Measure>>;
   using on_triangles = native_operations::on_triangles::with<relaxing>;
 };
 static_assert(improver<native_by<own_operations>, 3> && improver<native_by<own_operations>, 2>);

@@ -10,6 +10,7 @@ namespace improvement {
 
 /// Leaves the mesh as it is. Models `improver<none, D>`.
 struct none {
+  static constexpr improver_traits traits{.thread_safe = true};
   template <int D>
   report operator()(simplicial_mesh<D>&, const frozen_entities<D>& = {}, const any_sizing& = {}) const {
     report result;
@@ -23,11 +24,11 @@ struct none {
 using native_improver = improvement::native;
 using no_improver = improvement::none;
 
-static_assert(improver<native_improver, 3> && improver<native_improver, 2>);
+static_assert(improver<native_improver, 3> && surface_improver<native_improver>);
 static_assert(improver<no_improver, 3> && improver<no_improver, 2>);
 
 } // namespace dovetail
 
-#if !defined(DOVETAIL_COMPILED)
+#ifndef DOVETAIL_COMPILED
 #include "dovetail/improver/native.ipp"
 #endif

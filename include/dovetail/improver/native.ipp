@@ -1,3 +1,5 @@
+/// @file
+/// What `native.hpp` declares.
 #pragma once
 
 #include "dovetail/core/linkage.hpp"

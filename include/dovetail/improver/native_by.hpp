@@ -14,14 +14,15 @@ namespace dovetail::improvement {
 ///
 ///     struct mine : native_operations {
 ///       template <shape_measure Measure>
-///       using on_tetrahedra = native_operations::on_tetrahedra<Measure>::template
-///       with<my_operation<Measure>>;
+///       using on_tetrahedra =
+///           typename native_operations::on_tetrahedra<Measure>::template with<my_operation<Measure>>;
 ///     };
 ///     improvement::native_by<mine>{improvement::native::fine()}(mesh);
 ///
 /// Models `improver<native_by<Operations>, D>` for D = 2 and 3.
 template <class Operations>
 struct native_by {
+  static constexpr improver_traits traits = native::traits;
   native parameters = {};
 
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},

@@ -15,6 +15,8 @@ enum class objective { minimum_dihedral, radius_ratio, mean_ratio };
 /// `improver<native, 2>`. Start from a preset: `native::fast()`,
 /// `native::fine()` (the same as `native{}`), `native::finest()`, `native::hard()` for small coarse meshes.
 struct native {
+  static constexpr improver_traits traits{.thread_safe = true};
+
   /// Elements with a dihedral angle under this, in degrees, are worked on.
   double target_angle = 29;
   /// Elements that are still under this get a last try with larger cavities.

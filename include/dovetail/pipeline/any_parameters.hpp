@@ -16,7 +16,7 @@
 namespace dovetail {
 
 /// `parameters` convert to it. In D = 2 the mesher is the surface remesher unless another one was chosen; in
-/// D = 3 one has to be, before anything is meshed. An improver of the other dimension is not called.
+/// D = 3 one has to be. An improver must be one of D.
 template <int D>
 struct any_parameters {
   any_mesher<D> mesh_it;
@@ -50,10 +50,8 @@ private:
   }
   template <class I>
   static any_improver<D> improver_of(const I& given) {
-    if constexpr (improver<I, D>)
-      return given;
-    else
-      return {};
+    static_assert(improver<I, D>, "generate<D> needs an improver of elements of D");
+    return given;
   }
 };
 

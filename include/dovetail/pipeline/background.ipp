@@ -140,6 +140,7 @@ any_sizing allowed_size(const erased_sizing& size, const background::coarse_surf
 template <int D>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
                           const std::type_identity_t<any_parameters<D>>& given) {
+  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
   detail::require_usable_size(model, size);
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e6;

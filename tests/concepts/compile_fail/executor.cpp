@@ -4,6 +4,8 @@
 // error 2: e\.run\(count, task, options\).*return-type|constraint 'std::same_as<void
 // near miss 3: it takes no options
 // error 3: e\.run\(count, task, options\).*invalid|too many arguments|no matching member function
+// near miss 4: it does not say whether tasks share the process
+// error 4: e\.shares_process\(\).*invalid|no member named 'shares_process'
 #include "dovetail/parallel/concepts.hpp"
 
 using outcomes = std::vector<dovetail::task_outcome>;
@@ -18,6 +20,9 @@ struct my_executor {
 #endif
 #if NEAR_MISS != 1
   int workers() const;
+#endif
+#if NEAR_MISS != 4
+  bool shares_process() const;
 #endif
 };
 

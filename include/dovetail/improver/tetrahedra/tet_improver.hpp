@@ -109,7 +109,7 @@ public:
   }
 
 private:
-  template <shape_measure M>
+  template <class M> // a constraint here makes clang 14 crash
   using operations = typename Operations::template on_tetrahedra<M>;
 
   schedule_limits<3> limits_for(double target) const {
