@@ -2,6 +2,7 @@
 #include "graph_archetypes.hpp"
 
 #include "dovetail/geometry/discrete_model.hpp"
+#include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/graph/traversal.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
@@ -221,11 +222,11 @@ TEST_CASE("graph archetypes tell the same graph") {
 }
 
 TEST_CASE("pieces of triangles need no more of an improver or a model with planes than the concepts say") {
-  const any_geometry cube = unit_cube();
-  static_assert(geometry_model_with_planes<archetype::planes_as<any_geometry>>);
+  const plane_domain square({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}});
+  static_assert(geometry_model_with_planes<archetype::planes_as<plane_domain>>);
   const auto given =
       parameters<>{}.with_improver(archetype::surface_improver(0)).with_options({.subdomains = 3});
-  const auto result = generate<2>(archetype::planes_as(cube), archetype::sizing(0), given);
+  const auto result = generate<2>(archetype::planes_as(square), archetype::sizing(0), given);
   CHECK(result.failures.empty());
   CHECK(io::check_distributed(result.mesh).valid());
 }
