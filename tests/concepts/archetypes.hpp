@@ -257,11 +257,8 @@ struct surface_improver : copyable_only {
 // end
 
 // for executor
-/// Neither copyable nor movable: an executor is passed by reference where it runs.
-struct executor {
-  executor() = default;
-  executor(const executor&) = delete;
-  executor& operator=(const executor&) = delete;
+struct executor : copyable_only {
+  using copyable_only::copyable_only;
   std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
     std::vector<task_outcome> outcomes(count);
     for (std::size_t i = 0; i < count; ++i) {

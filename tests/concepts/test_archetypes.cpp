@@ -4,6 +4,7 @@
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/graph/traversal.hpp"
+#include "dovetail/improver/native_by.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
@@ -122,7 +123,7 @@ TEST_CASE("archetypes do what their concept's semantics say") {
   path.neighbours = {1, 0, 2, 1};
   CHECK(archetype::partitioner(0)(path, 3) == std::vector<local_id>{0, 1, 2});
 
-  const archetype::executor executor;
+  const archetype::executor executor(0);
   const auto outcomes = executor.run(2, [](std::size_t i) { return byte_buffer(i); }, {});
   REQUIRE(outcomes.size() == 2);
   CHECK(outcomes[1].ok);
@@ -138,7 +139,7 @@ TEST_CASE("the pipeline needs no more of any policy than its concept says") {
   generate_options options;
   options.subdomains = 3;
   const parameters<mesher, partitioner, improver, archetype::executor> given{
-      mesher(dovetail::mesher::tetgen{}), partitioner(0), improver(0), archetype::executor(), options};
+      mesher(dovetail::mesher::tetgen{}), partitioner(0), improver(0), archetype::executor(0), options};
   const auto result = generate<3>(geometry, archetype::sizing(0), given);
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);

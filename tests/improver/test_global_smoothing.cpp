@@ -2,6 +2,7 @@
 /// The move of all free vertices: where it goes, and what it never does.
 #include "dovetail/improver/native.hpp"
 #include "dovetail/improver/tetrahedra/global_smoothing.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

@@ -58,8 +58,8 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 ///
 /// Models: serial, threads, processes, any_executor.
 template <class E>
-concept executor = requires(const E& e, std::size_t count, const task_function& task,
-                            const run_options& options) {
+concept executor = std::copy_constructible<E> &&
+    requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {
   { e.run(count, task, options) } -> std::same_as<std::vector<task_outcome>>;
   { e.workers() } -> std::convertible_to<int>;
   { e.shares_process() } -> std::convertible_to<bool>;

@@ -24,6 +24,8 @@ struct any_parameters {
   any_improver<D> improve_it;
   any_executor run_tasks;
   generate_options options;
+  any_improver<3> improve_background = default_background_improver();
+  remesh::patch_remesher remesh_surface = {};
 
   any_parameters(any_mesher<D> mesher, any_partitioner partitioner, any_improver<D> improver,
                  any_executor executor, generate_options given)
@@ -33,7 +35,10 @@ struct any_parameters {
   template <class M, class P, class I, class E>
   any_parameters(const parameters<M, P, I, E>& given) // NOLINT: converts
       : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
-                       given.options) {}
+                       given.options) {
+    improve_background = given.improve_background;
+    remesh_surface = given.remesh_surface;
+  }
 
 private:
   template <class M, class P, class I, class E>
@@ -44,7 +49,7 @@ private:
     if constexpr (boundary_keeping_mesher<M, D>)
       return given.mesh_it;
     else if constexpr (D == 2)
-      return mesher::native_surface{given.options.surface_remesher};
+      return mesher::native_surface{given.remesh_surface};
     else
       return {};
   }
