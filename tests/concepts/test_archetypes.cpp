@@ -9,6 +9,7 @@
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 
@@ -193,6 +194,32 @@ TEST_CASE("a background needs no more of a mesher of whole domains than its conc
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);
   CHECK(io::check_distributed(result.mesh).valid());
+}
+
+TEST_CASE("what policies cannot do is known before anything is meshed") {
+  const plane_domain square({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}});
+  bool is_asked = false;
+  const any_sizing size = [&](vec3) {
+    is_asked = true;
+    return 0.1;
+  };
+  const auto given = parameters<>{}.with_improver(archetype::surface_improver(0));
+  CHECK_THROWS_AS(generate<2>(square, size, given.with_executor(parallel::threads{2})), usage_error);
+  CHECK_FALSE(is_asked);
+  CHECK_THROWS_AS(generate<3>(unit_cube(), size, parameters<>{}), usage_error);
+  CHECK_FALSE(is_asked);
+  CHECK(generate<2>(square, size, given.with_executor(parallel::threads{1})).failures.empty());
+  CHECK(is_asked);
+}
+
+TEST_CASE("the improver of the background is a policy") {
+  const auto given = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 3});
+  const auto told =
+      generate<3>(unit_cube(), archetype::sizing(0), given.with_background_improver(archetype::improver(0)));
+  CHECK(told.failures.empty());
+  CHECK(
+      measure_quality(told.background.volume).min_wedge_deg <
+      measure_quality(generate<3>(unit_cube(), archetype::sizing(0), given).background.volume).min_wedge_deg);
 }
 
 TEST_CASE("graph archetypes tell the same graph") {
