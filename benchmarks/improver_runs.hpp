@@ -3,8 +3,8 @@
 /// line of JSON per mesh. For the programs improver*.cpp; improver.py makes tables of the lines.
 #pragma once
 
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/surface_limits.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
+#include "dovetail/improver/tetrahedra/surface_limits.hpp"
 
 #include <algorithm>
 #include <cstdint>

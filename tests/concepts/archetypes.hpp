@@ -7,10 +7,12 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/operation.hpp"
 #include "dovetail/improver/shape_measure.hpp"
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/mesher/preferences.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
@@ -18,9 +20,11 @@
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -118,6 +122,15 @@ private:
 };
 // end
 
+// for calibrated_mesher, piece_sizing_mesher
+template <boundary_keeping_mesher<3> M>
+struct telling_mesher_as : mesher_as<M> {
+  using mesher_as<M>::mesher_as;
+  static constexpr int elements_per_inverse_cubed_size = 12;
+  float elements_per_subdomain() const { return 500; }
+};
+// end
+
 // for line_keeping_mesher
 /// M keeps the whole boundary, so the lines are kept as well; this one does not say that it does.
 template <boundary_keeping_mesher<3> M>
@@ -208,19 +221,44 @@ struct shape_measure {
 };
 // end
 
+// for mesh_operation
+/// Changes nothing; neither copyable nor movable.
+struct operation {
+  operation() = default;
+  operation(const operation&) = delete;
+  operation& operator=(const operation&) = delete;
+  static constexpr std::array names{"nothing"};
+  static constexpr improvement::turn when = improvement::turn::hard;
+  bool mend(improvement::tet_complex&, local_id, const improvement::operation_limits<3>&,
+            const improvement::recorded_tries& tries) {
+    return tries([] { return false; });
+  }
+};
+// end
+
 // for improver
 struct improver : copyable_only {
   using copyable_only::copyable_only;
+  static constexpr improver_traits traits{};
   report operator()(simplicial_mesh<3>&, const frozen_entities<3>&, const any_sizing&) const { return {}; }
 };
 // end
 
+// for surface_improver
+struct surface_improver : copyable_only {
+  using copyable_only::copyable_only;
+  static constexpr improver_traits traits{};
+  report operator()(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&) const { return {}; }
+  report operator()(simplicial_mesh<2>&, const frozen_entities<2>&, const any_sizing&,
+                    const surface_host&) const {
+    return {};
+  }
+};
+// end
+
 // for executor
-/// Neither copyable nor movable: an executor is passed by reference where it runs.
-struct executor {
-  executor() = default;
-  executor(const executor&) = delete;
-  executor& operator=(const executor&) = delete;
+struct executor : copyable_only {
+  using copyable_only::copyable_only;
   std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
     std::vector<task_outcome> outcomes(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -230,6 +268,7 @@ struct executor {
     return outcomes;
   }
   short workers() const { return 1; }
+  bool shares_process() const { return true; }
 };
 // end
 
@@ -294,6 +333,15 @@ public:
 
 private:
   const G& held_;
+};
+// end
+
+// for geometry_model_with_planes
+template <geometry_model_with_planes G>
+struct planes_as : geometry_as<G> {
+  explicit planes_as(const G& held) : geometry_as<G>(held), known(held) {}
+  std::optional<surface_frame> plane_of_face(local_id f) const { return known.plane_of_face(f); }
+  const G& known;
 };
 // end
 

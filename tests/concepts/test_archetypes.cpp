@@ -2,12 +2,15 @@
 #include "graph_archetypes.hpp"
 
 #include "dovetail/geometry/discrete_model.hpp"
+#include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/graph/contraction.hpp"
+#include "dovetail/improver/native_by.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 #include "dovetail/simplification/simplify.hpp"
@@ -32,6 +35,8 @@ static_assert(feature_aware_sizing_field<archetype::aware_sizing>);
 static_assert(!bounded_below_sizing_field<archetype::aware_sizing>);
 static_assert(bisection_rule<archetype::bisection> && !graph_partitioner<archetype::bisection>);
 static_assert(improvement::shape_measure<archetype::shape_measure>);
+static_assert(improvement::mesh_operation<archetype::operation, 3>);
+static_assert(!improvement::mesh_operation<archetype::operation, 2>, "it works on tetrahedra");
 static_assert(patch_surface<archetype::surface_as<any_surface>>);
 static_assert(piece_mesher<archetype::mesher, 3> && boundary_keeping_mesher<archetype::mesher, 3>);
 static_assert(!piece_mesher<archetype::mesher, 2>, "it makes tetrahedra");
@@ -40,7 +45,10 @@ static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
 static_assert(executor<archetype::executor>);
-static_assert(geometry_model<archetype::geometry>);
+static_assert(surface_improver<archetype::surface_improver> && !improver<archetype::surface_improver, 3>);
+static_assert(!surface_improver<archetype::improver>);
+static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);
+static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
@@ -60,22 +68,21 @@ struct rule_partitioner {
   }
 };
 
-/// The native improver's schedule with the archetype of a measure.
+/// The native improver's schedule with the archetypes of a measure and of an operation.
 struct measure_improver {
+  static constexpr improver_traits traits{};
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing&) const {
     using namespace improvement;
     using measure = archetype::shape_measure;
     tet_complex complex = take_mesh(mesh, frozen, layout::along_curve);
-    for (local_id e = 0; e < complex.element_slots(); ++e)
-      if (const auto& v = complex.vertices(e); complex.is_alive(e))
-        complex.set_value(e,
-                          static_cast<float>(measure_of<measure>(complex.point(v[0]), complex.point(v[1]),
-                                                                 complex.point(v[2]), complex.point(v[3]))));
+    evaluate<measure>(complex);
     complex.set_sizes(present_sizes(complex));
     const surface_limits surface(complex);
-    schedule_limits limits;
-    limits.mender.target = static_cast<float>(measure::from_angle(20));
-    schedule<measure>(complex, surface, limits).run();
+    poor_tetrahedra<measure> poor(complex, surface);
+    schedule_limits<3> limits;
+    limits.operations.target = static_cast<float>(measure::from_angle(20));
+    using operations = native_operations::on_tetrahedra<measure>::with<archetype::operation>;
+    schedule<poor_tetrahedra<measure>, operations>(complex, poor).run(limits);
     give_back(complex, mesh);
     return {};
   }
@@ -100,7 +107,7 @@ TEST_CASE("archetypes do what their concept's semantics say") {
   path.neighbours = {1, 0, 2, 1};
   CHECK(archetype::partitioner(0)(path, 3) == std::vector<local_id>{0, 1, 2});
 
-  const archetype::executor executor;
+  const archetype::executor executor(0);
   const auto outcomes = executor.run(2, [](std::size_t i) { return byte_buffer(i); }, {});
   REQUIRE(outcomes.size() == 2);
   CHECK(outcomes[1].ok);
@@ -116,7 +123,7 @@ TEST_CASE("the pipeline needs no more of any policy than its concept says") {
   generate_options options;
   options.subdomains = 3;
   const parameters<mesher, partitioner, improver, archetype::executor> given{
-      mesher(dovetail::mesher::tetgen{}), partitioner(0), improver(0), archetype::executor(), options};
+      mesher(dovetail::mesher::tetgen{}), partitioner(0), improver(0), archetype::executor(0), options};
   const auto result = generate<3>(geometry, archetype::sizing(0), given);
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);
@@ -143,8 +150,13 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
   SUBCASE("a rule that simplifies") {
     check(archetype::sizing(0), given.with_simplifier(archetype::simplification_rule(0)));
   }
-  SUBCASE("a measure of shape") {
+  SUBCASE("a measure of shape, and an operation") {
     check(archetype::sizing(0), given.with_improver(measure_improver{}));
+  }
+  SUBCASE("what to expect of a mesher") {
+    using telling = archetype::telling_mesher_as<mesher::tetgen>;
+    static_assert(calibrated_mesher<telling> && piece_sizing_mesher<telling>);
+    check(archetype::sizing(0), given.with_mesher(telling(mesher::tetgen{})));
   }
   SUBCASE("what to try next") {
     check(archetype::sizing(0), given.with_mesher(archetype::mesher_after_failure(mesher::tetgen{})));
@@ -188,6 +200,42 @@ TEST_CASE("the contraction needs no more of dual graphs and of a rule than their
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}, {0, 0.1, 0}};
   mesh.elements = {{0, 1, 2}, {0, 2, 3}};
   CHECK(simplify<2>(mesh, build_sides(mesh), archetype::simplification_rule(0)).super_count == 1);
+}
+
+TEST_CASE("what policies cannot do is known before anything is meshed") {
+  const plane_domain square({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}});
+  bool is_asked = false;
+  const any_sizing size = [&](vec3) {
+    is_asked = true;
+    return 0.1;
+  };
+  const auto given = parameters<>{}.with_improver(archetype::surface_improver(0));
+  CHECK_THROWS_AS(generate<2>(square, size, given.with_executor(parallel::threads{2})), usage_error);
+  CHECK_FALSE(is_asked);
+  CHECK_THROWS_AS(generate<3>(unit_cube(), size, parameters<>{}), usage_error);
+  CHECK_FALSE(is_asked);
+  CHECK(generate<2>(square, size, given.with_executor(parallel::threads{1})).failures.empty());
+  CHECK(is_asked);
+}
+
+TEST_CASE("the improver of the background is a policy") {
+  const auto given = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 3});
+  const auto told =
+      generate<3>(unit_cube(), archetype::sizing(0), given.with_background_improver(archetype::improver(0)));
+  CHECK(told.failures.empty());
+  CHECK(
+      measure_quality(told.background.volume).min_wedge_deg <
+      measure_quality(generate<3>(unit_cube(), archetype::sizing(0), given).background.volume).min_wedge_deg);
+}
+
+TEST_CASE("pieces of triangles need no more of an improver or a model with planes than the concepts say") {
+  const plane_domain square({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}});
+  static_assert(geometry_model_with_planes<archetype::planes_as<plane_domain>>);
+  const auto given =
+      parameters<>{}.with_improver(archetype::surface_improver(0)).with_options({.subdomains = 3});
+  const auto result = generate<2>(archetype::planes_as(square), archetype::sizing(0), given);
+  CHECK(result.failures.empty());
+  CHECK(io::check_distributed(result.mesh).valid());
 }
 
 TEST_CASE("pieces of triangles need no more of a surface mesher than its concept says") {

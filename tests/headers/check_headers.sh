@@ -13,6 +13,7 @@ shift 3
 
 failed=0
 unit=alone_${folder//./umbrella}
+unit=${unit//\//_}
 trap 'rm -f "$unit".cpp "$unit".o' EXIT
 for path in "$include_directory/dovetail/$folder"/*.hpp; do
   [[ -f $path ]] || continue

@@ -1,7 +1,7 @@
 /// @file
 /// All contractions of free edges of small random meshes, against brute force.
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/vertex_insertion.hpp"
+#include "dovetail/improver/tetrahedra/edge_contraction.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
 #include "random_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -30,7 +30,7 @@ mesh_type random_mesh(std::uint64_t seed) {
   return grown.mesh;
 }
 
-tet_complex complex_of(mesh_type mesh) {
+tet_complex complex_from(mesh_type mesh) {
   const mesh_type plain = mesh;
   tet_complex complex = take_mesh(mesh, {});
   for (local_id e = 0; e < complex.element_slots(); ++e)
@@ -147,7 +147,7 @@ TEST_CASE("an edge is contracted exactly when brute force says that it helps, wi
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     CAPTURE(seed);
     const mesh_type mesh = random_mesh(seed);
-    const tet_complex complex = complex_of(mesh);
+    const tet_complex complex = complex_from(mesh);
     std::set<std::array<local_id, 2>> edges;
     for (const auto& v : mesh.elements)
       for (const local_id from : v)

@@ -1,6 +1,6 @@
 /// @file
 /// The order along a Hilbert curve, and numbers given back after it.
-#include "dovetail/improver/mesh_exchange.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

@@ -1,11 +1,12 @@
 /// @file
 /// Each operation against brute force or first principles.
-#include "dovetail/improver/edge_removal.hpp"
-#include "dovetail/improver/face_removal.hpp"
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/surface_limits.hpp"
-#include "dovetail/improver/vertex_insertion.hpp"
-#include "dovetail/improver/vertex_smoothing.hpp"
+#include "dovetail/improver/tetrahedra/edge_contraction.hpp"
+#include "dovetail/improver/tetrahedra/edge_removal.hpp"
+#include "dovetail/improver/tetrahedra/face_removal.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
+#include "dovetail/improver/tetrahedra/surface_limits.hpp"
+#include "dovetail/improver/tetrahedra/vertex_insertion.hpp"
+#include "dovetail/improver/tetrahedra/vertex_smoothing.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

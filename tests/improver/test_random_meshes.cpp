@@ -2,6 +2,7 @@
 /// Ten thousand small random meshes, all presets and objectives: what is frozen is kept, what is valid stays
 /// valid, and nothing gets worse.
 #include "dovetail/improver/native.hpp"
+#include "dovetail/improver/shape_measure.hpp"
 #include "random_meshes.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 /// @file
 /// Shell transformation: what it accepts is better, what it gives up is as if nothing had been tried.
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/shell_transformation.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
+#include "dovetail/improver/tetrahedra/shell_transformation.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

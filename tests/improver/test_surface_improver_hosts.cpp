@@ -87,7 +87,8 @@ TEST_CASE("a tag chooses the face, and its parameters are carried along") {
   }
   auto result = mesh;
   std::vector<std::array<vec2, 3>> corner_uv;
-  dovetail::improvement::improve_surface(native::fine(), result, {}, {}, host, &corner_uv);
+  dovetail::improvement::improve_surface<dovetail::improvement::native_operations>(native::fine(), result, {},
+                                                                                   {}, host, &corner_uv);
   check_change(mesh, result);
   REQUIRE(corner_uv.size() == result.elements.size());
   for (std::size_t t = 0; t < corner_uv.size(); ++t)

@@ -1,7 +1,7 @@
 /// @file
 /// The two classes of elements, counted anew by definition.
-#include "dovetail/improver/mesh_exchange.hpp"
-#include "dovetail/improver/surface_limits.hpp"
+#include "dovetail/improver/tetrahedra/mesh_exchange.hpp"
+#include "dovetail/improver/tetrahedra/surface_limits.hpp"
 #include "improver_checks.hpp"
 
 #include <doctest/doctest.h>

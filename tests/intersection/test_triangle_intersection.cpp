@@ -109,6 +109,7 @@ struct rough_sheet {
 
 struct serial_run {
   int workers() const { return 1; }
+  bool shares_process() const { return true; }
   std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
     std::vector<task_outcome> outcomes(count);
     for (std::size_t i = 0; i < count; ++i)

@@ -63,6 +63,7 @@ static_assert(boundary_keeping_mesher<fan_mesher, 3>);
 
 struct counting_improver {
   bool throws = false;
+  static constexpr improver_traits traits{};
   report operator()(simplicial_mesh<3>&, const frozen_entities<3>& frozen, const any_sizing&) const {
     if (throws)
       throw mesh_error("cannot improve");

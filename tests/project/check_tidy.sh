@@ -8,6 +8,7 @@ mapfile -t flags < <(grep . "$3")
 tidy=$4
 
 unit=tidy_${folder//./umbrella}.cpp
+unit=${unit//\//_}
 (cd "$source_directory/include" && printf '#include "%s"\n' dovetail/"$folder"/*.hpp) >"$unit"
 "$tidy" --quiet --config-file="$source_directory/.clang-tidy" \
   --header-filter="include/dovetail/${folder//./[^/]*hpp}" "$unit" -- "${flags[@]}" 2>/dev/null

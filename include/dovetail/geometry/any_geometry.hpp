@@ -40,7 +40,7 @@ public:
   }
   box3 bounds() const { return held_->bounds(); }
   bool thread_safe() const { return held_->thread_safe(); }
-  /// Only some models know which of their faces are planes.
+  /// Nothing when the held model is no `geometry_model_with_planes`.
   std::optional<surface_frame> plane_of_face(local_id f) const { return held_->plane_of_face(f); }
 
 private:
@@ -81,7 +81,7 @@ private:
     box3 bounds() const override { return held.bounds(); }
     bool thread_safe() const override { return held.thread_safe(); }
     std::optional<surface_frame> plane_of_face([[maybe_unused]] local_id f) const override {
-      if constexpr (requires { held.plane_of_face(f); })
+      if constexpr (geometry_model_with_planes<G>)
         return held.plane_of_face(f);
       else
         return {};
@@ -91,6 +91,6 @@ private:
 
   std::shared_ptr<const interface> held_;
 };
-static_assert(geometry_model<any_geometry>);
+static_assert(geometry_model_with_planes<any_geometry>);
 
 } // namespace dovetail

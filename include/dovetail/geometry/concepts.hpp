@@ -7,6 +7,7 @@
 
 #include <array>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,27 @@ concept geometry_model = std::copy_constructible<G> &&
   { g.project_to_curve(id, p, t) } -> std::convertible_to<double>;
   { g.bounds() } -> std::same_as<box3>;
   { g.thread_safe() } -> std::convertible_to<bool>;
+};
+
+/// The role `geometry_model_with_planes`: a model that knows which of its faces are planes.
+///
+/// Valid expressions for `const G& g`, `local_id f`: those of `geometry_model<G>` and
+///
+/// - `g.plane_of_face(f)`: std::optional<surface_frame>; a point of the plane, and two orthogonal unit
+/// vectors in it
+///
+/// Semantics: the frame's cross(du, dv) is along the face's parametric normal. Nothing for a face that is not
+/// a plane or not known to be one; points are then found by the model's queries, which costs more: on a plane
+/// they are computed, and pieces of one plane (D = 2) are not searched for crossings.
+///
+/// Complexity: constant.
+///
+/// Failure: none.
+///
+/// Models: occt_model, plane_domain, any_geometry.
+template <class G>
+concept geometry_model_with_planes = geometry_model<G> && requires(const G& g, local_id id) {
+  { g.plane_of_face(id) } -> std::same_as<std::optional<surface_frame>>;
 };
 
 } // namespace dovetail

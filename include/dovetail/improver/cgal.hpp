@@ -25,6 +25,8 @@ namespace improvement {
 /// meshes whose boundary is not a sphere; they are then left as they were. Runs in a forked child, for it may
 /// crash: the calling process must have one thread only (`usage_error` otherwise).
 struct cgal {
+  static constexpr improver_traits traits{.thread_safe = false};
+
   int iterations = 3;
   double limit_seconds = 3600; ///< the child's wall clock; the last resort
 

@@ -11,6 +11,13 @@
 
 namespace dovetail {
 
+struct surface_host;
+
+/// What an improver promises; declared by each model.
+struct improver_traits {
+  bool thread_safe = false; ///< may run in several threads of one process
+};
+
 /// What an improver may not touch. Points [0, points) are frozen in place; the sides listed must stay (the
 /// boundary of the mesh, where an element has no neighbour, is frozen in any case, with its points).
 template <int D>
@@ -21,14 +28,16 @@ struct frozen_entities {
 
 /// The role `improver<I, D>`: better element shapes, frozen entities untouched.
 ///
-/// Valid expression for `const I& i`, `simplicial_mesh<D>& mesh`, `const frozen_entities<D>& frozen`,
+/// Valid expressions for `const I& i`, `simplicial_mesh<D>& mesh`, `const frozen_entities<D>& frozen`,
 /// `const any_sizing& h` (may be empty: edge lengths are then kept near their present ones):
 ///
 /// - `i(mesh, frozen, h)`: report
+/// - `I::traits`: improver_traits, constexpr static
 ///
 /// Semantics: every frozen side is a side of the result; frozen points keep their index and coordinates bit
 /// for bit (other points may be renumbered, removed or added after them); the mesh stays valid and its
-/// worst element does not get worse; elements keep tags. Deterministic: stops by counts, never by time.
+/// worst element does not get worse; elements keep tags. Deterministic: stops by counts, never by time. The
+/// traits are true.
 ///
 /// Complexity: linear in the elements per pass, and the number of passes is bounded by a parameter.
 ///
@@ -40,6 +49,30 @@ template <class I, int D>
 concept improver = std::copy_constructible<I> &&
     requires(const I& i, simplicial_mesh<D>& mesh, const frozen_entities<D>& frozen, const any_sizing& h) {
   { i(mesh, frozen, h) } -> std::same_as<report>;
+  { I::traits } -> std::convertible_to<improver_traits>;
+};
+
+/// The role `surface_improver<I>`: an improver of triangles that knows the surface they lie on.
+///
+/// Valid expressions: those of `improver<I, 2>` and, for `const surface_host& host` (may be empty: the
+/// triangles themselves are then the surface):
+///
+/// - `i(mesh, frozen, h, host)`: report
+///
+/// Semantics: vertices that it moves or adds lie on `host`, and no triangle turns over against it. An
+/// improver of triangles that is no surface improver moves no vertex of a piece with a curved face (see
+/// `improve_on_host`).
+///
+/// Complexity: as `improver`, with a few calls of the host per vertex moved.
+///
+/// Failure: as `improver`.
+///
+/// Models: native_improver, any_improver<2>.
+template <class I>
+concept surface_improver = improver<I, 2> &&
+    requires(const I& i, simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen, const any_sizing& h,
+             const surface_host& host) {
+  { i(mesh, frozen, h, host) } -> std::same_as<report>;
 };
 
 } // namespace dovetail

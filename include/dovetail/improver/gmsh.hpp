@@ -21,6 +21,8 @@ namespace improvement {
 /// (see `improve_by_library`). Each call forks a child, which is the only process to call Gmsh: the calling
 /// one must have one thread only (`usage_error` otherwise).
 struct gmsh {
+  static constexpr improver_traits traits{.thread_safe = false};
+
   double threshold = 0.5;      ///< elements with a smaller radius ratio are worked on; 0.3 is Gmsh's default
   int repeats = 1;             ///< runs of the optimiser
   double limit_seconds = 3600; ///< the child's wall clock; the last resort

@@ -22,6 +22,8 @@ namespace improvement {
 /// a child, as Netgen prints and has global state: the calling process must have one thread only
 /// (`usage_error`).
 struct netgen {
+  static constexpr improver_traits traits{.thread_safe = false};
+
   int steps = 3;               ///< rounds of optimisation
   double limit_seconds = 3600; ///< the child's wall clock; the last resort
 

@@ -4,30 +4,28 @@
 
 #include "dovetail/core/report.hpp"
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace dovetail::improvement {
-
-enum class operation : std::size_t {
-  edge_removal,
-  face_removal,
-  smoothing,
-  shell_transformation,
-  contraction,
-  insertion,
-  count
-};
 
 /// Tries, acceptances and seconds per kind of operation.
 class operation_log {
 public:
+  /// Adds kinds of operations, which have consecutive numbers from the result on.
+  std::size_t add(std::span<const char* const> names) {
+    const std::size_t first = entries_.size();
+    for (const char* name : names)
+      entries_.push_back({name});
+    return first;
+  }
   /// Runs `attempt` (which returns whether it changed the mesh) and records it. Only one try in 16 is timed,
   /// so that the clock does not cost more than what it measures; the seconds are scaled accordingly.
   template <class Attempt>
-  bool record(operation kind, Attempt&& attempt) {
-    auto& counted = entries_[static_cast<std::size_t>(kind)];
+  bool record(std::size_t kind, Attempt&& attempt) {
+    entry& counted = entries_[kind];
     const bool is_timed = counted.tried++ % 16 == 0;
     const stopwatch clock = is_timed ? stopwatch() : never_;
     const bool accepted = attempt();
@@ -36,31 +34,39 @@ public:
       counted.sampled_seconds += clock.seconds();
     return accepted;
   }
-  std::size_t accepted(operation kind) const { return entries_[static_cast<std::size_t>(kind)].accepted; }
-  std::size_t total_accepted() const {
-    std::size_t total = 0;
-    for (const auto& counted : entries_)
-      total += counted.accepted;
-    return total;
-  }
+  /// Kinds of the same name are added up.
   void write_to(report& to) const {
-    static constexpr std::array<const char*, static_cast<std::size_t>(operation::count)> names{
-        "edge removal", "face removal", "smoothing", "shell transformation", "contraction", "insertion"};
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const std::string name = names[k];
-      to.set(name + " tried", static_cast<double>(entries_[k].tried));
-      to.set(name + " accepted", static_cast<double>(entries_[k].accepted));
-      to.set(name + " seconds", 16 * entries_[k].sampled_seconds);
+    for (const entry& counted : entries_) {
+      to.add(counted.name + " tried", static_cast<double>(counted.tried));
+      to.add(counted.name + " accepted", static_cast<double>(counted.accepted));
+      to.add(counted.name + " seconds", 16 * counted.sampled_seconds);
     }
   }
 
 private:
   struct entry {
+    std::string name;
     std::size_t tried = 0, accepted = 0;
     double sampled_seconds = 0;
   };
-  std::array<entry, static_cast<std::size_t>(operation::count)> entries_;
+  std::vector<entry> entries_;
   stopwatch never_;
+};
+
+/// What an operation records its tries with: `tries(attempt)`, or `tries(attempt, k)` for the k-th of its
+/// names. The result is that of `attempt`, whether it changed the mesh.
+class recorded_tries {
+public:
+  recorded_tries(operation_log& log, std::size_t first) : log_(log), first_(first) {}
+
+  template <class Attempt>
+  bool operator()(Attempt&& attempt, std::size_t name = 0) const {
+    return log_.record(first_ + name, attempt);
+  }
+
+private:
+  operation_log& log_;
+  std::size_t first_;
 };
 
 } // namespace dovetail::improvement

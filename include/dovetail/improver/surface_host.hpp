@@ -41,6 +41,18 @@ struct surface_host {
   explicit operator bool() const { return static_cast<bool>(project); }
 };
 
+/// Whether every face that is named is known to be a plane, or there is no host.
+inline bool is_plane_throughout(const surface_host& host, const std::vector<local_id>& faces) {
+  if (!host)
+    return true;
+  if (!host.plane_normal || faces.empty())
+    return false;
+  for (std::size_t t = 0; t < faces.size(); ++t)
+    if ((t == 0 || faces[t] != faces[t - 1]) && !(norm_squared(host.plane_normal(faces[t])) > 0))
+      return false;
+  return true;
+}
+
 /// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
 /// triangles are left alone.
 inline std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh,

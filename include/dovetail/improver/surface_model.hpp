@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
-#include "dovetail/improver/surface_improver.hpp"
+#include "dovetail/improver/native_by.hpp"
 
 #include <vector>
 
@@ -37,15 +37,16 @@ std::vector<bool> poles_of(const simplicial_mesh<2>& mesh, const G& model) {
 
 /// Improves a surface mesh in place by a native preset; points [0, vertices of the model) are its vertices.
 /// Curve edges and the points on them keep their numbers and places.
-template <class Preset, geometry_model G>
-report improve_on_model(const Preset& preset, surface_mesh& surface, const G& model,
+template <geometry_model G>
+report improve_on_model(const native& preset, surface_mesh& surface, const G& model,
                         const any_sizing& size = {}) {
   surface_host faces = host_on_model(model);
   faces.corner_uv = surface.corner_uv;
   frozen_entities<2> frozen{0, sides_at_poles(surface.mesh, poles_of(surface.mesh, model))};
   for (const auto& edge : surface.curve_edges)
     frozen.sides.push_back(edge.vertices);
-  report result = improve_surface(preset, surface.mesh, frozen, size, faces, &surface.corner_uv);
+  report result =
+      improve_surface<native_operations>(preset, surface.mesh, frozen, size, faces, &surface.corner_uv);
   // Points inside faces may have new numbers.
   const std::size_t known = surface.vertex_hosts.size();
   surface.vertex_hosts.resize(surface.mesh.points.size());

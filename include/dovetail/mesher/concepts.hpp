@@ -58,8 +58,7 @@ struct mesher_result<2> {
 /// - `m(in, h)`: mesher_result<D>
 /// - `M::traits`: mesher_traits, constexpr static
 ///
-/// It may also have `M::elements_per_inverse_cubed_size`, the elements made per integral of h^-3, and
-/// `m.elements_per_subdomain()`, the elements of the pieces it does best with (see mesher/preferences.hpp).
+/// It may also be a `calibrated_mesher`, a `piece_sizing_mesher`, and one that `has_fallbacks`.
 ///
 /// Semantics: all elements are positively oriented and fill the inside of the oriented shells (outer shells
 /// and voids). The mean edge length on a uniform field equals the size within 5 % (netgen: 12 %). The traits

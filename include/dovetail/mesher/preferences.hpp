@@ -1,24 +1,65 @@
 /// @file
-/// What a mesher may say about itself beyond its traits: optional members, and what holds without them.
+/// What a mesher may say about itself beyond its traits, and what holds for one that does not.
 #pragma once
+
+#include <concepts>
+#include <type_traits>
 
 namespace dovetail {
 
-/// The elements a mesher makes per integral of h^-3; 0, for regular elements, when it does not say.
+/// The role `calibrated_mesher`: a mesher that says how many elements it makes, for predictions.
+///
+/// Valid expressions: those of `piece_mesher<M, 3>` and
+///
+/// - `M::elements_per_inverse_cubed_size`: a positive number, constexpr static
+///
+/// Semantics: the elements made per integral of h^-3, with its parameters as they are by default. A mesher
+/// that does not say is taken to make regular elements.
+///
+/// Complexity: constant.
+///
+/// Failure: none.
+///
+/// Models: tetgen, gmsh_hxt, gmsh_delaunay, netgen.
+template <class M>
+concept calibrated_mesher = requires {
+  typename std::bool_constant<(M::elements_per_inverse_cubed_size > 0)>;
+};
+
+/// The role `piece_sizing_mesher`: a mesher that does best with pieces of a certain size.
+///
+/// Valid expressions: those of `piece_mesher<M, D>` and, for `const M& m`,
+///
+/// - `m.elements_per_subdomain()`: a number
+///
+/// Semantics: the elements that a subdomain should have when the caller does not say; for others it is
+/// `default_elements_per_subdomain`.
+///
+/// Complexity: constant.
+///
+/// Failure: none.
+///
+/// Models: gmsh_hxt, any_mesher.
+template <class M>
+concept piece_sizing_mesher = requires(const M& m) {
+  { m.elements_per_subdomain() } -> std::convertible_to<double>;
+};
+
+inline constexpr double default_elements_per_subdomain = 31250;
+
+/// 0, for regular elements, when the mesher does not say.
 template <class Mesher>
 constexpr double elements_per_inverse_cubed_size() {
-  if constexpr (requires { Mesher::elements_per_inverse_cubed_size; })
+  if constexpr (calibrated_mesher<Mesher>)
     return Mesher::elements_per_inverse_cubed_size;
   else
     return 0;
 }
 
-inline constexpr double default_elements_per_subdomain = 31250;
-
 /// The elements of the pieces that a mesher does best with.
 template <class Mesher>
 double elements_per_subdomain(const Mesher& mesher) {
-  if constexpr (requires { mesher.elements_per_subdomain(); })
+  if constexpr (piece_sizing_mesher<Mesher>)
     return mesher.elements_per_subdomain();
   else
     return default_elements_per_subdomain;

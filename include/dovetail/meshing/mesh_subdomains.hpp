@@ -62,15 +62,21 @@ struct meshed_pieces {
 
 using meshing_result = meshed_pieces<3>;
 
+/// Throws `usage_error` when no mesher was chosen, or a policy may not run in the executor's threads: what is
+/// known before anything is meshed.
+template <int D>
+void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& improve,
+                      const any_executor& run_tasks);
+
 /// Meshes subdomains 0 .. count-1. In the worker, right after meshing: improvement, the checks of
 /// `check_mesher_result` on the final mesh, quality, and the write to the store, under a key of the piece's
 /// boundary: what the store has is not made again, whatever its number was then. A round ends before the next
 /// begins, and what it tries depends on its number only, so the result does not depend on the number of
 /// workers, nor on whether the run was interrupted and resumed.
 ///
-/// Failed subdomains do not throw. Throws `usage_error` when the mesher may not run in the executor's
-/// threads, `io_error` when a finished piece cannot be stored, `sizing_error` when the field gives an
-/// unusable size, and `cancelled`. Memory: one piece per worker with a spool, else the whole mesh.
+/// Failed subdomains do not throw. Throws what `require_policies` throws, `io_error` when a finished piece
+/// cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`. Memory: one piece
+/// per worker with a spool, else the whole mesh.
 ///
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
 template <int D = 3>

@@ -285,18 +285,35 @@ private:
 } // namespace detail
 
 template <int D>
+void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& improve,
+                      const any_executor& run_tasks) {
+  const std::string why = " must not run in several threads of one process; use worker processes";
+  if (!mesh_it)
+    throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
+  if (!runs_in_threads(run_tasks))
+    return;
+  if (!mesh_it.actual_traits().thread_safe)
+    throw usage_error("this mesher" + why);
+  if (!improve.actual_traits().thread_safe)
+    throw usage_error("this improver" + why);
+}
+
+template <int D>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const std::type_identity_t<any_mesher<D>>& mesh_it,
                                  const std::type_identity_t<any_improver<D>>& improve, const any_sizing& size,
                                  const any_executor& run_tasks, const meshing_options& options) {
-  if (!mesh_it.actual_traits().thread_safe && run_tasks.shares_process())
-    throw usage_error("this mesher must not run in several threads of one process; use worker processes");
+  require_policies(mesh_it, improve, run_tasks);
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
   return detail::subdomain_rounds<D>(count, source, mesh_it, improve, size, run_tasks, options).run();
 }
 
 #ifdef DOVETAIL_COMPILED
+template void require_policies<2>(const any_mesher<2>& mesh_it, const any_improver<2>& improve,
+                                  const any_executor& run_tasks);
+template void require_policies<3>(const any_mesher<3>& mesh_it, const any_improver<3>& improve,
+                                  const any_executor& run_tasks);
 template meshed_pieces<2> mesh_subdomains<2>(std::size_t count, const piece_source<2>& source,
                                              const any_mesher<2>& mesh_it, const any_improver<2>& improve,
                                              const any_sizing& size, const any_executor& run_tasks,

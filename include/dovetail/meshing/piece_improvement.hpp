@@ -158,8 +158,7 @@ report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& i
   }
 }
 
-/// Improves triangles inside their frozen lines. An improver that takes no host cannot know the surface: it
-/// may move points of planes in z = 0 only.
+/// Improves triangles inside their frozen lines.
 inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input,
                             const any_improver<2>& improve, const any_sizing& size) {
   frozen_entities<2> frozen;
@@ -168,12 +167,7 @@ inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input
   const auto at_poles = sides_at_poles(made.mesh, poles_of(input, made.mesh.points.size()));
   append(frozen.sides, at_poles);
   const std::size_t of_lines = input.boundary.points.size();
-  surface_host host;
-  if (improve.takes_host())
-    host = host_of_piece(input, std::move(made.corner_uv));
-  else if (std::any_of(input.regions.begin(), input.regions.end(),
-                       [](const surface_region& region) { return !region.surface.plane; }))
-    frozen.points = static_cast<local_id>(made.mesh.points.size());
+  const surface_host host = host_of_piece(input, std::move(made.corner_uv));
   report result = improve_without_chords(made.mesh, input, frozen,
                                          [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
                                            return improve(mesh, kept, size, host);

@@ -2,7 +2,7 @@
 /// Any executor behind one type, so that the stages are compiled once and not once per executor.
 #pragma once
 
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/concepts.hpp"
 
 #include <concepts>
 #include <functional>
@@ -19,7 +19,7 @@ public:
     requires(!std::same_as<E, any_executor> && executor<E>)
   any_executor(E policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
-        shares_process_(runs_in_threads(policy)),
+        shares_process_(policy.shares_process()),
         run_([held = std::move(policy)](std::size_t count, const task_function& task,
                                         const run_options& options) {
           return held.run(count, task, options);

@@ -43,23 +43,33 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// - `e.run(count, task, options)`: std::vector<task_outcome> of length count, outcome i being that of
 /// `task(i)`
 /// - `e.workers()`: how many tasks run at a time, an int
+/// - `e.shares_process()`: whether tasks run in this process, and not in children or on other machines
 ///
 /// Semantics: `task(i)` depends on i and on data fixed before the call only; it may run in another thread
 /// or process, so all it gives back is its return value. A task that throws, crashes or exceeds the limit
 /// gives an outcome with `ok == false` and the reason; the others go on. Outcomes are the same for every
 /// model and number of workers. `options.order` lists tasks in the order they are started (largest
-/// predicted cost first).
+/// predicted cost first). Where tasks share the process, a task that crashes ends it and, with more than one
+/// worker, what tasks call must be thread-safe (`runs_in_threads`).
 ///
 /// Complexity: the tasks' own, plus one copy of each result.
 ///
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
-/// Models: serial, threads, processes.
+/// Models: serial, threads, processes, any_executor.
 template <class E>
-concept executor = requires(const E& e, std::size_t count, const task_function& task,
-                            const run_options& options) {
+concept executor = std::copy_constructible<E> &&
+    requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {
   { e.run(count, task, options) } -> std::same_as<std::vector<task_outcome>>;
   { e.workers() } -> std::convertible_to<int>;
+  { e.shares_process() } -> std::convertible_to<bool>;
 };
+
+/// Whether an executor runs tasks side by side in threads of one process: what a task calls must then be
+/// thread-safe.
+template <executor E>
+bool runs_in_threads(const E& e) {
+  return e.shares_process() && e.workers() > 1;
+}
 
 } // namespace dovetail

@@ -14,16 +14,6 @@
 
 namespace dovetail {
 
-/// An executor says whether it runs tasks side by side in threads of one process: what a task calls must then
-/// be thread-safe. One that does not say is taken not to.
-template <class E>
-bool runs_in_threads(const E& e) {
-  if constexpr (requires { e.shares_process(); })
-    return e.shares_process() && e.workers() > 1;
-  else
-    return false;
-}
-
 namespace detail {
 
 /// Runs one task here; its exception becomes a failed outcome.

@@ -14,7 +14,7 @@ namespace dovetail {
 class task_model {
 public:
   task_model(const any_geometry& model, const any_executor& run) : shared_(&model) {
-    if (run.shares_process() && !model.thread_safe())
+    if (runs_in_threads(run) && !model.thread_safe())
       own_.emplace(model);
   }
   const any_geometry& get() const { return own_ ? *own_ : *shared_; }

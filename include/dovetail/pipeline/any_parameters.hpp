@@ -16,7 +16,7 @@
 namespace dovetail {
 
 /// `parameters` convert to it. In D = 2 the mesher is the surface remesher unless another one was chosen; in
-/// D = 3 one has to be, before anything is meshed. An improver of the other dimension is not called.
+/// D = 3 one has to be. An improver must be one of D.
 template <int D>
 struct any_parameters {
   any_mesher<D> mesh_it;
@@ -25,6 +25,8 @@ struct any_parameters {
   any_executor run_tasks;
   generate_options options;
   any_simplification_rule simplify_by;
+  any_improver<3> improve_background = default_background_improver();
+  remesh::patch_remesher remesh_surface = {};
 
   any_parameters(any_mesher<D> mesher, any_partitioner partitioner, any_improver<D> improver,
                  any_executor executor, generate_options given, any_simplification_rule rule)
@@ -34,7 +36,10 @@ struct any_parameters {
   template <class M, class P, class I, class E>
   any_parameters(const parameters<M, P, I, E>& given) // NOLINT: converts
       : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
-                       given.options, given.simplify_by) {}
+                       given.options, given.simplify_by) {
+    improve_background = given.improve_background;
+    remesh_surface = given.remesh_surface;
+  }
 
 private:
   template <class M, class P, class I, class E>
@@ -45,16 +50,14 @@ private:
     if constexpr (boundary_keeping_mesher<M, D>)
       return given.mesh_it;
     else if constexpr (D == 2)
-      return mesher::native_surface{given.options.surface_remesher};
+      return mesher::native_surface{given.remesh_surface};
     else
       return {};
   }
   template <class I>
   static any_improver<D> improver_of(const I& given) {
-    if constexpr (improver<I, D>)
-      return given;
-    else
-      return {};
+    static_assert(improver<I, D>, "generate<D> needs an improver of elements of D");
+    return given;
   }
 };
 

@@ -74,19 +74,18 @@ DOVETAIL_INLINE simplicial_mesh<2> outer_surface(const surface_mesh& surface,
   return outer;
 }
 
-DOVETAIL_INLINE background::coarse_surface_result surface_without_crossings(const any_geometry& model,
-                                                                            const any_sizing& size,
-                                                                            const any_executor& run,
-                                                                            const generate_options& options) {
+DOVETAIL_INLINE background::coarse_surface_result
+surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
+                          const remesh::patch_remesher& remesher, int refinement_rounds) {
   background::coarse_surface_parameters parameters;
-  parameters.remesher = options.surface_remesher;
+  parameters.remesher = remesher;
   for (int round = 0;; ++round) {
     auto result = background::coarse_surface(model, size, parameters, run);
     const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
     result.summary.set("refinement_rounds", round);
     if (pairs.empty())
       return result;
-    if (round == options.refinement_rounds) {
+    if (round == refinement_rounds) {
       const auto& tags = result.surface.mesh.tags;
       detail::throw_crossing_faces(model.topology(), tags[static_cast<std::size_t>(pairs.front().first)],
                                    tags[static_cast<std::size_t>(pairs.front().second)]);
@@ -140,12 +139,14 @@ any_sizing allowed_size(const erased_sizing& size, const background::coarse_surf
 template <int D>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
                           const std::type_identity_t<any_parameters<D>>& given) {
+  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
   detail::require_usable_size(model, size);
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e6;
   options.on_progress("planning", 0, 0);
-  const auto first = surface_without_crossings(
-      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, options);
+  const auto first =
+      surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),
+                                given.run_tasks, given.remesh_surface, options.refinement_rounds);
   const mesh_plan plan =
       plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first),
                                    given.mesh_it.elements_per_inverse_cubed_size()),
@@ -168,14 +169,15 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
 
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto surface = surface_without_crossings(model, coarse, given.run_tasks, options);
+  auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.remesh_surface,
+                                           options.refinement_rounds);
   result.summary.children.push_back(std::move(surface.summary));
   result.size = allowed_size<D>(size, surface);
   result.mesh.surface = std::move(surface.surface);
   if constexpr (D == 3) {
     options.on_progress("background volume", 0, 0);
     auto volume = background::coarse_volume(
-        result.mesh.surface, model.topology(), coarse, given.mesh_it, options.background_improver,
+        result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,
         given.run_tasks,
         {.on_failure = write_facets_of_failures(options.failure_folder),
          .limit_seconds = options.limit_seconds,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/progress.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -15,6 +16,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace dovetail {
 
@@ -46,12 +48,14 @@ struct generate_options {
   std::optional<spool> store = std::nullopt; ///< where finished subdomains go; none: they stay in memory
   std::filesystem::path failure_folder =
       {}; ///< where facets of failed subdomains are written; empty: nowhere
-  /// Makes the coarse elements good, so that clean interfaces are found everywhere. A few sweeps towards 30
-  /// degrees take a small part of the time of `native::hard()` and leave interfaces as clean.
-  improvement::native background_improver{.target_angle = 30, .passes = 3, .hard_passes = 2};
-  remesh::patch_remesher surface_remesher = {};
   progress on_progress = {};
 };
+
+/// A few sweeps towards 30 degrees take a small part of the time of `native::hard()` and leave interfaces as
+/// clean.
+inline any_improver<3> default_background_improver() {
+  return improvement::native{.target_angle = 30, .passes = 3, .hard_passes = 2};
+}
 
 /// Policies and options. Each `with_...` returns parameters with one policy replaced.
 template <class Mesher = no_mesher, class Partitioner = partition::greedy,
@@ -63,39 +67,66 @@ struct parameters {
   Executor run_tasks{};
   generate_options options{};
   any_simplification_rule simplify_by{simplifier::paper{}, "paper"};
+  /// Makes the coarse elements good (D = 3), so that clean interfaces are found everywhere.
+  any_improver<3> improve_background = default_background_improver();
+  /// Of the coarse surface and of regions; in D = 2 of the pieces too, unless a mesher was chosen.
+  remesh::patch_remesher remesh_surface{};
 
   // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
   template <boundary_keeping_mesher<3> M>
   parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
-    return {std::move(mesher), partition_it, improve_it, run_tasks, options, simplify_by};
+    return with(std::move(mesher), partition_it, improve_it, run_tasks);
   }
   template <boundary_keeping_mesher<2> M>
     requires(!boundary_keeping_mesher<M, 3>)
   parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher)
-  const { return {std::move(mesher), partition_it, improve_it, run_tasks, options, simplify_by}; }
+  const { return with(std::move(mesher), partition_it, improve_it, run_tasks); }
   template <graph_partitioner P>
   parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
-    return {mesh_it, std::move(partitioner), improve_it, run_tasks, options, simplify_by};
+    return with(mesh_it, std::move(partitioner), improve_it, run_tasks);
   }
   template <improver<3> I>
   parameters<Mesher, Partitioner, I, Executor> with_improver(I improver) const {
-    return {mesh_it, partition_it, std::move(improver), run_tasks, options, simplify_by};
+    return with(mesh_it, partition_it, std::move(improver), run_tasks);
   }
   template <improver<2> I>
     requires(!improver<I, 3>)
   parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
-  const { return {mesh_it, partition_it, std::move(improver), run_tasks, options, simplify_by}; }
+  const { return with(mesh_it, partition_it, std::move(improver), run_tasks); }
   template <executor E>
   parameters<Mesher, Partitioner, Improver, E> with_executor(E executor) const {
-    return {mesh_it, partition_it, improve_it, std::move(executor), options, simplify_by};
+    return with(mesh_it, partition_it, improve_it, std::move(executor));
+  }
+  parameters with_background_improver(any_improver<3> improver) const {
+    parameters changed = *this;
+    changed.improve_background = std::move(improver);
+    return changed;
+  }
+  parameters with_surface_remesher(remesh::patch_remesher remesher) const {
+    parameters changed = *this;
+    changed.remesh_surface = remesher;
+    return changed;
   }
   /// A rule for the surface (2) and the volume (3).
   template <simplification_rule<2> R>
     requires(simplification_rule<R, 3>)
   parameters with_simplifier(R rule)
-  const { return {mesh_it, partition_it, improve_it, run_tasks, options, std::move(rule)}; }
-  parameters with_options(generate_options changed) const {
-    return {mesh_it, partition_it, improve_it, run_tasks, std::move(changed), simplify_by};
+  const {
+    parameters changed = *this;
+    changed.simplify_by = std::move(rule);
+    return changed;
+  }
+  parameters with_options(generate_options different) const {
+    parameters changed = *this;
+    changed.options = std::move(different);
+    return changed;
+  }
+
+private:
+  template <class M, class P, class I, class E>
+  parameters<M, P, I, E> with(M mesher, P partitioner, I improver, E executor) const {
+    return {std::move(mesher), std::move(partitioner), std::move(improver), std::move(executor), options,
+            simplify_by,       improve_background,     remesh_surface};
   }
 };
 

@@ -92,7 +92,7 @@ meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_bac
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;
-  const bool own_model = given.run_tasks.shares_process() && !model.thread_safe();
+  const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();
   return mesh_subdomains<D>(skeleton.material_of_subdomain.size(),
                             source_of_pieces(model, mesh, skeleton, own_model), given.mesh_it,
                             given.improve_it, skeleton.size, given.run_tasks, options);

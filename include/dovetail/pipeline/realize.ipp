@@ -53,9 +53,9 @@ private:
   remeshed_skeleton remesh() {
     const stopwatch clock;
     result_.coarse = extract_skeleton(mesh_, sides_, result_.subdomain_of_element);
-    auto remeshed = remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
-                                    given_.options.surface_remesher, given_.run_tasks, cache_,
-                                    given_.options.on_progress);
+    auto remeshed =
+        remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
+                        given_.remesh_surface, given_.run_tasks, cache_, given_.options.on_progress);
     const double before = result_.skeleton_summary.seconds;
     result_.skeleton_summary = remeshed.summary;
     result_.skeleton_summary.seconds = before + clock.seconds();

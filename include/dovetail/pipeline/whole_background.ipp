@@ -35,7 +35,8 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
   auto domain = surface_without_crossings(
-      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, options);
+      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.remesh_surface,
+      options.refinement_rounds);
   result.summary.children.push_back(domain.summary);
   result.size = allowed_size<3>(size, domain);
 
@@ -44,7 +45,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
   result.summary.children.push_back(std::move(whole.summary));
   result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
-  result.summary.children.push_back(options.background_improver(
+  result.summary.children.push_back(given.improve_background(
       result.mesh.volume, {.points = static_cast<local_id>(result.mesh.surface.mesh.points.size())}, coarse));
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);

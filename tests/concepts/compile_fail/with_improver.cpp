@@ -11,6 +11,7 @@ using frozen = dovetail::frozen_entities<3>;
 using size = dovetail::any_sizing;
 
 struct my_improver {
+  static constexpr dovetail::improver_traits traits{};
 #if NEAR_MISS == 1
   void operator()(mesh&, const frozen&, const size&) const;
 #elif NEAR_MISS == 2
