@@ -2,12 +2,13 @@
 /// Where the boundaries of parts are not manifold.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -15,31 +16,14 @@
 
 namespace dovetail {
 
-/// The elements around each point, growing, in compressed rows.
-struct point_elements {
-  std::vector<std::size_t> begins{0};
-  std::vector<local_id> elements;
-
-  std::span<const local_id> at(local_id point) const {
-    const auto v = static_cast<std::size_t>(point);
-    return span_of(elements).subspan(begins[v], begins[v + 1] - begins[v]);
-  }
-};
-
+/// The elements around each point, growing.
 template <int D>
-point_elements elements_around_points(const simplicial_mesh<D>& mesh) {
-  point_elements table;
-  table.begins.assign(mesh.points.size() + 1, 0);
-  for (const auto& element : mesh.elements)
-    for (const local_id v : element)
-      ++table.begins[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(table.begins.begin(), table.begins.end(), table.begins.begin());
-  table.elements.resize(table.begins.back());
-  std::vector<std::size_t> next(table.begins.begin(), table.begins.end() - 1);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    for (const local_id v : mesh.elements[e])
-      table.elements[next[static_cast<std::size_t>(v)]++] = static_cast<local_id>(e);
-  return table;
+compressed_rows<local_id> elements_around_points(const simplicial_mesh<D>& mesh) {
+  return sorted_into_rows<local_id>(mesh.points.size(), [&](const auto& put) {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      for (const local_id v : mesh.elements[e])
+        put(v, static_cast<local_id>(e));
+  });
 }
 
 /// How far a boundary is from a manifold.
@@ -67,15 +51,25 @@ template <int D>
 class boundary_defects {
 public:
   boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
-      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)) {}
+      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)),
+        on_boundary_(mesh.points.size(), 0) {
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (!sides.is_interior(static_cast<local_id>(s)))
+        for (const local_id v : sides.vertices[s])
+          on_boundary_[static_cast<std::size_t>(v)] = 1;
+  }
 
-  const point_elements& around() const { return around_; }
+  const compressed_rows<local_id>& around() const { return around_; }
+  /// Is there a side at the point that bounds some part, whatever the parts are?
+  bool is_on_boundary(local_id point) const { return on_boundary_[static_cast<std::size_t>(point)] != 0; }
 
   /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
   template <class PartOf>
   defect_count count_at(local_id point, const PartOf& part_of) {
-    collect_boundary(point, part_of);
     defect_count defects;
+    if (is_inside_one_part(point, part_of))
+      return defects;
+    collect_boundary(point, part_of);
     for (std::size_t first = 0; first < sides_here_.size();) {
       std::size_t last = first;
       while (last < sides_here_.size() && sides_here_[last].part == sides_here_[first].part)
@@ -97,11 +91,17 @@ private:
   };
 
   template <class PartOf>
+  bool is_inside_one_part(local_id point, const PartOf& part_of) const {
+    const auto elements = around_[point];
+    return !is_on_boundary(point) && std::all_of(elements.begin(), elements.end(), [&](local_id e) {
+      return part_of(e) == part_of(elements.front());
+    });
+  }
+
+  template <class PartOf>
   void collect_boundary(local_id point, const PartOf& part_of) {
     sides_here_.clear();
-    const auto elements = around_.at(point);
-    // The common case, all in one part and no boundary, is left to the loop below: it collects nothing.
-    for (const local_id e : elements) {
+    for (const local_id e : around_[point]) {
       const auto& vertices = mesh_.elements[static_cast<std::size_t>(e)];
       const local_id own = part_of(e);
       for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i) {
@@ -166,10 +166,11 @@ private:
 
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
-  point_elements around_;
-  std::vector<link_side> sides_here_; ///< scratch
-  std::vector<local_id> ends_;        ///< scratch
-  std::vector<std::size_t> parents_;  ///< scratch
+  compressed_rows<local_id> around_;
+  std::vector<std::uint8_t> on_boundary_; ///< per point
+  std::vector<link_side> sides_here_;     ///< scratch
+  std::vector<local_id> ends_;            ///< scratch
+  std::vector<std::size_t> parents_;      ///< scratch
 };
 
 } // namespace dovetail

@@ -6,6 +6,7 @@
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -80,8 +81,10 @@ private:
     const std::array<local_id, 1> supers{m.super};
     if (!parts_.keeps_connected(supers))
       return false;
-    const defect_count removed = parts_.defects_removed_by(supers, m.to, parts_.points_of(supers));
-    return removed.edges >= 0 && removed.points >= 0;
+    const auto is_none_added = [](const defect_count& removed) {
+      return removed.edges >= 0 && removed.points >= 0;
+    };
+    return is_none_added(parts_.defects_removed_by(supers, m.to, is_none_added));
   }
 
   /// Relieves overweight parts, the heaviest first.
@@ -89,12 +92,10 @@ private:
     std::vector<bool> stuck(parts_.part_count(), false);
     for (local_id moves = 0; moves < parts_.super_count(); ++moves) {
       local_id heaviest = no_id;
-      for (std::size_t p = 0; p < stuck.size(); ++p) {
-        const auto part = static_cast<local_id>(p);
-        if (!stuck[p] && parts_.is_over_limit(part) &&
+      for (const local_id part : parts_.overweight())
+        if (!stuck[index(part)] &&
             (heaviest == no_id || parts_.weight_of_part(part) > parts_.weight_of_part(heaviest)))
           heaviest = part;
-      }
       if (heaviest == no_id)
         break;
       if (!relieve(heaviest))
@@ -105,22 +106,26 @@ private:
   /// Makes the harmless move out of a part that costs least cut per weight; false when there is none.
   bool relieve(local_id heavy) {
     std::vector<move> moves;
-    for (local_id s = 0; s < parts_.super_count(); ++s) {
-      if (parts_.part_of(s) != heavy || weight_of(s) <= 0)
+    for (const local_id s : parts_.border_of(heavy)) {
+      if (weight_of(s) <= 0)
         continue;
       for_each_target(s, [&](local_id p, double gain) {
         if (parts_.weight_of_part(p) + weight_of(s) < parts_.weight_of_part(heavy))
           moves.push_back({gain / weight_of(s), s, p});
       });
     }
-    sort_all(moves, [](const move& a, const move& b) {
-      return std::tuple(-a.gain, a.super, a.to) < std::tuple(-b.gain, b.super, b.to);
-    });
-    for (const move& m : moves)
-      if (is_harmless(m)) {
-        parts_.assign(std::array{m.super}, m.to);
+    // Mostly one of the first is harmless, so they are sorted no further than that.
+    const auto is_dearer = [](const move& a, const move& b) {
+      return std::tuple(-a.gain, a.super, a.to) > std::tuple(-b.gain, b.super, b.to);
+    };
+    std::make_heap(moves.begin(), moves.end(), is_dearer);
+    for (; !moves.empty(); moves.pop_back()) {
+      std::pop_heap(moves.begin(), moves.end(), is_dearer);
+      if (is_harmless(moves.back())) {
+        parts_.assign(std::array{moves.back().super}, moves.back().to);
         return true;
       }
+    }
     return false;
   }
 

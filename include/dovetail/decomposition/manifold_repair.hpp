@@ -133,12 +133,16 @@ private:
   }
 
   void add_if_gain(std::vector<change>& changes, const std::vector<local_id>& group, local_id to) {
-    const defect_count removed = parts_.defects_removed_by(group, to, parts_.points_of(group));
-    if (removed.edges < 0 || !(removed.edges > 0 || removed.points > 0))
-      return;
-    const double cost = parts_.cut_added_by(group, to) - partition_standing::price_of_point * removed.points;
-    if (removed.edges > 0 || cost < 0)
-      changes.push_back({group, to, -removed.edges, cost, parts_.weight_of(group)});
+    const double cut = parts_.cut_added_by(group, to);
+    const auto cost = [&](const defect_count& removed) {
+      return cut - partition_standing::price_of_point * removed.points;
+    };
+    const auto is_gain = [&](const defect_count& removed) {
+      return removed.edges > 0 || (removed.edges == 0 && removed.points > 0 && cost(removed) < 0);
+    };
+    const defect_count removed = parts_.defects_removed_by(group, to, is_gain);
+    if (is_gain(removed))
+      changes.push_back({group, to, -removed.edges, cost(removed), parts_.weight_of(group)});
   }
 
   reassignable_parts<D>& parts_;
