@@ -3,15 +3,12 @@
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <span>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -52,7 +49,7 @@ class boundary_defects {
 public:
   boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
       : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)),
-        on_boundary_(mesh.points.size(), 0) {
+        on_boundary_(mesh.points.size(), 0), place_in_link_(mesh.points.size()) {
     for (std::size_t s = 0; s < sides.size(); ++s)
       if (!sides.is_interior(static_cast<local_id>(s)))
         for (const local_id v : sides.vertices[s])
@@ -70,13 +67,8 @@ public:
     if (is_inside_one_part(point, part_of))
       return defects;
     collect_boundary(point, part_of);
-    for (std::size_t first = 0; first < sides_here_.size();) {
-      std::size_t last = first;
-      while (last < sides_here_.size() && sides_here_[last].part == sides_here_[first].part)
-        ++last;
-      defects += count_in_link(std::span(sides_here_).subspan(first, last - first));
-      first = last;
-    }
+    while (!sides_here_.empty())
+      defects += count_in_link(sides_here_.back().part);
     return defects;
   }
 
@@ -86,8 +78,11 @@ private:
     local_id part;
     local_id a;
     local_id b;
-
-    auto key() const { return std::tuple(part, a, b); }
+  };
+  /// A point of the link at hand.
+  struct link_end {
+    int sides = 0;
+    std::size_t parent = 0; ///< in the forest of those that sides connect
   };
 
   template <class PartOf>
@@ -117,60 +112,64 @@ private:
         sides_here_.push_back(side);
       }
     }
-    sort_all(sides_here_, [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
   }
 
-  defect_count count_in_link(std::span<const link_side> link) {
-    if constexpr (D == 2)
-      return {0, std::max(0, (static_cast<int>(link.size()) + 1) / 2 - 1)};
+  /// Takes the link of one part out of `sides_here_`.
+  defect_count count_in_link(local_id part) {
     ends_.clear();
-    for (const link_side& side : link) {
-      ends_.push_back(side.a);
-      ends_.push_back(side.b);
+    ++link_;
+    int sides = 0;
+    int components = 0;
+    std::size_t left = 0;
+    for (const link_side& side : sides_here_) {
+      if (side.part != part) {
+        sides_here_[left++] = side;
+        continue;
+      }
+      ++sides;
+      if constexpr (D == 3) {
+        const std::size_t a = end_of_side(side.a, components);
+        const std::size_t b = end_of_side(side.b, components);
+        if (a != b) {
+          ends_[a].parent = b;
+          --components;
+        }
+      }
     }
-    sort_all(ends_);
-    defect_count defects;
-    for (std::size_t first = 0; first < ends_.size();) {
-      std::size_t last = first;
-      while (last < ends_.size() && ends_[last] == ends_[first])
-        ++last;
-      defects.edges += std::max(0, (static_cast<int>(last - first) + 1) / 2 - 1);
-      first = last;
-    }
-    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
-    defects.points = components(link) - 1;
+    sides_here_.resize(left);
+    if constexpr (D == 2)
+      return {0, std::max(0, (sides + 1) / 2 - 1)};
+    defect_count defects{0, components - 1};
+    for (const link_end& end : ends_)
+      defects.edges += std::max(0, (end.sides + 1) / 2 - 1);
     return defects;
   }
 
-  /// Connected components of the graph whose edges are the link's sides and whose nodes are `ends_`.
-  int components(std::span<const link_side> link) {
-    parents_.resize(ends_.size());
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    const auto root = [&](local_id v) {
-      auto k = static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), v) - ends_.begin());
-      while (parents_[k] != k)
-        k = parents_[k] = parents_[parents_[k]];
-      return k;
-    };
-    auto count = static_cast<int>(ends_.size());
-    for (const link_side& side : link) {
-      const std::size_t a = root(side.a);
-      const std::size_t b = root(side.b);
-      if (a != b) {
-        parents_[a] = b;
-        --count;
-      }
+  /// Counts one more side at a point of the link; returns the root of what it is connected with.
+  std::size_t end_of_side(local_id point, int& components) {
+    auto& [link, place] = place_in_link_[static_cast<std::size_t>(point)];
+    if (link != link_) {
+      link = link_;
+      place = static_cast<std::uint32_t>(ends_.size());
+      ends_.push_back({0, ends_.size()});
+      ++components;
     }
-    return count;
+    ++ends_[place].sides;
+    std::size_t k = place;
+    while (ends_[k].parent != k)
+      k = ends_[k].parent = ends_[ends_[k].parent].parent;
+    return k;
   }
 
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
   compressed_rows<local_id> around_;
   std::vector<std::uint8_t> on_boundary_; ///< per point
-  std::vector<link_side> sides_here_;     ///< scratch
-  std::vector<local_id> ends_;            ///< scratch
-  std::vector<std::size_t> parents_;      ///< scratch
+  // Scratch:
+  std::vector<link_side> sides_here_;
+  std::vector<link_end> ends_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> place_in_link_; ///< per point: the last link it was in
+  std::uint64_t link_ = 0;
 };
 
 } // namespace dovetail
