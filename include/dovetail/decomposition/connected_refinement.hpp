@@ -5,11 +5,11 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
+#include "dovetail/partition/move_gains.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -25,7 +25,7 @@ template <int D>
 class connected_refinement {
 public:
   explicit connected_refinement(reassignable_parts<D>& parts)
-      : parts_(parts), repair_(parts), connection_(parts.part_count(), 0.0) {}
+      : parts_(parts), repair_(parts), gains_(parts.graph(), parts.part_of_supers(), parts.part_count()) {}
 
   void run(int max_rounds = 10) {
     for (int round = 0; round < max_rounds; ++round) {
@@ -50,32 +50,6 @@ private:
     return static_cast<std::size_t>(id);
   }
   double weight_of(local_id super) const { return parts_.graph().node_weights[index(super)]; }
-
-  /// Calls `consider(part, gain)` for every other part beside a super-element.
-  template <class Consider>
-  void for_each_target(local_id super, const Consider& consider) {
-    const csr_graph& graph = parts_.graph();
-    const local_id own = parts_.part_of(super);
-    const auto row = graph.row(super);
-    const auto begin = index(graph.offsets[index(super)]);
-    double inside = 0;
-    touched_.clear();
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const local_id p = parts_.part_of(row[k]);
-      if (p == own) {
-        inside += graph.edge_weights[begin + k];
-        continue;
-      }
-      if (connection_[index(p)] == 0)
-        touched_.push_back(p);
-      connection_[index(p)] += graph.edge_weights[begin + k];
-    }
-    for (const local_id p : touched_) {
-      const double gain = connection_[index(p)] - inside;
-      connection_[index(p)] = 0;
-      consider(p, gain);
-    }
-  }
 
   bool is_harmless(const move& m) {
     const std::array<local_id, 1> supers{m.super};
@@ -109,7 +83,7 @@ private:
     for (const local_id s : parts_.border_of(heavy)) {
       if (weight_of(s) <= 0)
         continue;
-      for_each_target(s, [&](local_id p, double gain) {
+      gains_.for_each_target(s, [&](local_id p, double gain) {
         if (parts_.weight_of_part(p) + weight_of(s) < parts_.weight_of_part(heavy))
           moves.push_back({gain / weight_of(s), s, p});
       });
@@ -133,7 +107,7 @@ private:
   void shrink_cut() {
     for (local_id s = 0; s < parts_.super_count(); ++s) {
       move best{rounding, no_id, no_id};
-      for_each_target(s, [&](local_id p, double gain) {
+      gains_.for_each_target(s, [&](local_id p, double gain) {
         if (gain > best.gain)
           best = {gain, s, p};
       });
@@ -165,8 +139,7 @@ private:
 
   reassignable_parts<D>& parts_;
   manifold_repair<D> repair_;
-  std::vector<double> connection_; ///< scratch: weight of the edges from one super-element to each part
-  std::vector<local_id> touched_;
+  move_gains gains_;
 };
 
 } // namespace dovetail

@@ -74,6 +74,7 @@ public:
   std::size_t point_count() const { return mesh_.points.size(); }
   local_id super_count() const { return graph_.node_count(); }
   local_id part_of(local_id super) const { return part_[index(super)]; }
+  std::span<const local_id> part_of_supers() const { return part_; }
   std::size_t part_count() const { return weights_.size(); }
   double weight_of_part(local_id part) const { return weights_[index(part)]; }
   double limit_of_part(local_id part) const { return limits_[index(part)]; }
