@@ -21,8 +21,8 @@ class gap_filler {
 public:
   explicit gap_filler(reassignable_parts<D>& parts) : parts_(parts) {}
 
-  /// Fills the gap, of all at the edges of a point, that gives the best standing, if any is better than
-  /// now. Returns the super-elements that changed their part.
+  /// Fills the gap, of all at the edges of a point, that gives the best standing, if any is better than now
+  /// and mended against it. Returns the super-elements that changed their part.
   std::vector<local_id> fill_best_at(local_id point) {
     if constexpr (D == 2) {
       return {};
@@ -32,7 +32,7 @@ public:
       std::optional<gap> chosen;
       for (const gap& candidate : gaps_at(point)) {
         fill(candidate);
-        if (parts_.standing().is_better_than(best)) {
+        if (parts_.standing().is_better_than(best) && parts_.standing().is_mended_against(start.standing)) {
           best = parts_.standing();
           chosen = candidate;
         }

@@ -32,11 +32,22 @@ struct partition_standing {
 
   double cost() const { return cut + price_of_point * defects.points; }
   bool is_better_than(const partition_standing& other) const {
-    constexpr double rounding = 1e-9;
     if (defects.edges != other.defects.edges)
       return defects.edges < other.defects.edges;
     if (std::abs(excess - other.excess) > rounding * (1 + other.excess))
       return excess < other.excess;
+    return is_cheaper_than(other);
+  }
+  /// Better without regard to weights: what every step of a repair is, so that it comes to an end.
+  bool is_mended_against(const partition_standing& other) const {
+    return defects.edges != other.defects.edges ? defects.edges < other.defects.edges
+                                                : is_cheaper_than(other);
+  }
+
+private:
+  static constexpr double rounding = 1e-9;
+
+  bool is_cheaper_than(const partition_standing& other) const {
     return cost() < other.cost() - rounding * (1 + std::abs(other.cost()));
   }
 };
