@@ -38,7 +38,7 @@ struct partition_standing {
       return excess < other.excess;
     return is_cheaper_than(other);
   }
-  /// Better without regard to weights: what every step of a repair is, so that it comes to an end.
+  /// Better without regard to weights: what the steps of a repair are, so that it comes to an end.
   bool is_mended_against(const partition_standing& other) const {
     return defects.edges != other.defects.edges ? defects.edges < other.defects.edges
                                                 : is_cheaper_than(other);
