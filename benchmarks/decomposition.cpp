@@ -8,26 +8,17 @@
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
+#include "timed_partitioner.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
 namespace {
 
 using namespace dovetail;
-
-/// Processor time, which other programs on the machine do not lengthen.
-class processor_clock {
-public:
-  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
-
-private:
-  std::clock_t start_ = std::clock();
-};
 
 /// About as many tetrahedra as asked for, smaller towards the centre: the element size grows with the square
 /// root of the distance.
@@ -57,19 +48,6 @@ void print(const char* step, double elements, double seconds) {
   std::fflush(stdout);
 }
 
-/// A partitioner that tells how long it took.
-template <graph_partitioner P>
-struct timed {
-  P policy;
-  double* seconds;
-  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    const processor_clock clock;
-    auto part = policy(graph, parts);
-    *seconds += clock.seconds();
-    return part;
-  }
-};
-
 struct coarse_mesh {
   simplicial_mesh<3> mesh;
   side_table<3> sides;
@@ -81,9 +59,10 @@ template <graph_partitioner P>
 void measure(const char* name, const P& policy, const coarse_mesh& coarse, int parts) {
   const auto n = static_cast<double>(coarse.mesh.elements.size());
   double partition_seconds = 0;
-  const processor_clock clock;
-  const auto pieces = decompose<3>(coarse.mesh, coarse.sides, coarse.simplified.super_of_element,
-                                   coarse.simplified.graph, {}, timed<P>{policy, &partition_seconds}, parts);
+  const dovetail_benchmark::processor_clock clock;
+  const auto pieces =
+      decompose<3>(coarse.mesh, coarse.sides, coarse.simplified.super_of_element, coarse.simplified.graph, {},
+                   dovetail_benchmark::timed<P>{policy, &partition_seconds}, parts);
   print(name, n, partition_seconds);
   const double seconds = clock.seconds();
   print("repair", n, seconds - partition_seconds);
@@ -106,13 +85,13 @@ int main(int argc, char** argv) {
   coarse.mesh = graded_mesh(elements);
   const auto n = static_cast<double>(coarse.mesh.elements.size());
   std::printf("%.0f elements, %d parts\n", n, parts);
-  const processor_clock adjacency_clock;
+  const dovetail_benchmark::processor_clock adjacency_clock;
   coarse.sides = build_sides(coarse.mesh);
   print("adjacency", n, adjacency_clock.seconds());
   const auto weights = predicted_elements(coarse.mesh);
   simplify_parameters<3> parameters;
   parameters.subdomains = parts;
-  const processor_clock simplification_clock;
+  const dovetail_benchmark::processor_clock simplification_clock;
   coarse.simplified = simplify<3>(coarse.mesh, coarse.sides, {.element_weights = weights}, parameters);
   coarse.simplification_seconds = simplification_clock.seconds();
   print("simplification", n, coarse.simplification_seconds);
