@@ -16,6 +16,7 @@
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "timed_partitioner.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -33,19 +34,6 @@ struct coarse_model {
   simplicial_background<3> mesh;
   side_table<3> sides;
   std::vector<double> weights;
-};
-
-/// A partitioner that tells how long it took.
-template <graph_partitioner P>
-struct timed {
-  P policy;
-  double* seconds;
-  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    const stopwatch clock;
-    auto part = policy(graph, parts);
-    *seconds += clock.seconds();
-    return part;
-  }
 };
 
 class comparison {
@@ -74,7 +62,7 @@ public:
       double seconds = 0;
       const auto pieces =
           decompose<3>(coarse_.mesh.volume, coarse_.sides, simplified.super_of_element, simplified.graph,
-                       coarse_.mesh.volume.tags, timed<P>{policy, &seconds}, subdomains_);
+                       coarse_.mesh.volume.tags, dovetail_benchmark::timed<P>{policy, &seconds}, subdomains_);
       const auto contract = detail::coarse_interface_contract(
           coarse_.mesh, coarse_.sides, simplified.side_states, pieces.part_of_element, generate_options{});
       std::printf("| %s | %s | %.0f | %zu | %.3f | %.1f | %.1f | %.2f |\n", name, simplify ? "yes" : "no",

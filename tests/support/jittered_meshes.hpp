@@ -31,20 +31,23 @@ private:
   std::uint64_t state_;
 };
 
+/// The coordinate of line `index` of n cells on [0, 1], moved by at most `jitter` cell widths inside.
+inline double jittered(int index, int n, double jitter, random_numbers& random) {
+  const bool inside = index > 0 && index < n;
+  const double h = 1.0 / n;
+  return h * (index + (inside ? jitter * random.signed_unit() : 0.0));
+}
+
 /// A unit cube of n^3 cells, each cut into the six tetrahedra of Kuhn's subdivision; inner points moved by at
 /// most `jitter` cell widths per axis. Positively oriented for jitter up to 0.15.
 inline dovetail::simplicial_mesh<3> jittered_cubes(int n, double jitter = 0.15, std::uint64_t seed = 1) {
   dovetail::simplicial_mesh<3> mesh;
   random_numbers random(seed);
   const int m = n + 1;
-  const double h = 1.0 / n;
   for (int k = 0; k < m; ++k)
     for (int j = 0; j < m; ++j)
       for (int i = 0; i < m; ++i) {
-        const auto at = [&](int index) {
-          const bool inside = index > 0 && index < n;
-          return h * (index + (inside ? jitter * random.signed_unit() : 0.0));
-        };
+        const auto at = [&](int index) { return jittered(index, n, jitter, random); };
         const double x = at(i);
         const double y = at(j);
         mesh.points.push_back({x, y, at(k)});
@@ -75,13 +78,9 @@ inline dovetail::simplicial_mesh<2> jittered_squares(int n, double jitter = 0.2,
   dovetail::simplicial_mesh<2> mesh;
   random_numbers random(seed);
   const int m = n + 1;
-  const double h = 1.0 / n;
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i) {
-      const auto at = [&](int index) {
-        const bool inside = index > 0 && index < n;
-        return h * (index + (inside ? jitter * random.signed_unit() : 0.0));
-      };
+      const auto at = [&](int index) { return jittered(index, n, jitter, random); };
       const double x = at(i);
       const double y = at(j);
       mesh.points.push_back({x, y, bump * std::sin(4 * x) * std::cos(3 * y)});

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -52,25 +53,40 @@ inline double distance(const box3& a, const box3& b) {
 }
 
 /// Binary tree over `n` boxes, split at the median centre along the longest axis. Built in O(n log n), it
-/// depends on the boxes and their order only. Queries are const and thread-safe.
+/// depends on the boxes and their order only. Queries are const and thread-safe. Searches over points, or
+/// that go by more than boxes, keep bounds of their own per node (`reduce`).
 class box_tree {
 public:
   box_tree() = default;
-  explicit box_tree(const std::vector<box3>& boxes) : items_(boxes.size()) {
+  explicit box_tree(const std::vector<box3>& boxes, std::size_t leaf_size = 4) : items_(boxes.size()) {
     std::iota(items_.begin(), items_.end(), local_id{0});
     if (!boxes.empty())
-      build(boxes, 0, items_.size());
+      build(boxes, leaf_size, 0, items_.size());
   }
 
   bool empty() const { return items_.empty(); }
   /// The box around everything; empty for an empty tree.
   box3 bounds() const { return nodes_.empty() ? box3{} : nodes_.front().box; }
   std::size_t node_count() const { return nodes_.size(); }
+  const box3& box(std::size_t at) const { return nodes_[at].box; }
 
-  /// Calls `visit(item)` for every item in leaves all of whose ancestors satisfy `enter(box, node)`; the
-  /// item's own box is not tested. `node` in [0, node_count()) lets a caller keep bounds of its own per node.
-  template <class Enter, class Visit>
-  void for_each(Enter&& enter, Visit&& visit) const {
+  /// Puts the items that the boxes belong to in the order of the tree, and numbers them so from now on: those
+  /// of a leaf then are next to each other in memory.
+  template <class Item>
+  void put_in_order(std::vector<Item>& items) {
+    std::vector<Item> ordered;
+    ordered.reserve(items.size());
+    for (const local_id item : items_)
+      ordered.push_back(std::move(items[static_cast<std::size_t>(item)]));
+    items = std::move(ordered);
+    std::iota(items_.begin(), items_.end(), local_id{0});
+  }
+
+  /// Calls `visit(item)` for every item in leaves all of whose ancestors satisfy `enter(node)`; the item's
+  /// own box is not tested. `node` in [0, node_count()) lets a caller keep bounds of its own per node. Of two
+  /// children the right one is first where `prefers(right, left)`.
+  template <class Enter, class Visit, class Prefers>
+  void search(Enter&& enter, Visit&& visit, Prefers&& prefers) const {
     if (nodes_.empty())
       return;
     std::array<std::size_t, max_depth> pending;
@@ -78,43 +94,68 @@ public:
     pending[depth++] = 0;
     while (depth > 0) {
       const std::size_t at = pending[--depth];
-      const node& n = nodes_[at];
-      if (!enter(n.box, at))
+      if (!enter(at))
         continue;
+      const node& n = nodes_[at];
       if (n.count > 0) {
         for (std::size_t i = n.first; i < n.first + n.count; ++i)
           visit(items_[i]);
       } else {
-        pending[depth++] = n.first;
-        pending[depth++] = at + 1;
+        const bool right_first = prefers(n.first, at + 1);
+        pending[depth++] = right_first ? at + 1 : n.first;
+        pending[depth++] = right_first ? n.first : at + 1;
       }
     }
+  }
+
+  /// As `search` with `enter(box, node)`, left children first.
+  template <class Enter, class Visit>
+  void for_each(Enter&& enter, Visit&& visit) const {
+    search([&](std::size_t at) { return enter(nodes_[at].box, at); }, visit,
+           [](std::size_t, std::size_t) { return false; });
   }
 
   /// As `for_each`, nearer child first: with `enter` comparing against the best distance so far this is a
   /// nearest-item search.
   template <class Enter, class Visit>
   void for_each_near(vec3 p, Enter&& enter, Visit&& visit) const {
+    search([&](std::size_t at) { return enter(nodes_[at].box, at); }, visit,
+           [&](std::size_t right, std::size_t left) {
+             return distance_squared(nodes_[right].box, p) < distance_squared(nodes_[left].box, p);
+           });
+  }
+
+  /// The least of `bound` and `value(item)` for all items, given that `lower_bound(node)` exceeds no value
+  /// below the node; what promises less is searched first.
+  template <class LowerBound, class Value>
+  double least(double bound, LowerBound&& lower_bound, Value&& value) const {
     if (nodes_.empty())
-      return;
-    std::array<std::size_t, max_depth> pending;
+      return bound;
+    struct promise {
+      double bound;
+      std::size_t at;
+    };
+    std::array<promise, max_depth> pending;
     std::size_t depth = 0;
-    pending[depth++] = 0;
+    pending[depth++] = {lower_bound(std::size_t{0}), 0};
     while (depth > 0) {
-      const std::size_t at = pending[--depth];
-      const node& n = nodes_[at];
-      if (!enter(n.box, at))
+      const promise next = pending[--depth];
+      if (!(next.bound < bound))
         continue;
+      const node& n = nodes_[next.at];
       if (n.count > 0) {
         for (std::size_t i = n.first; i < n.first + n.count; ++i)
-          visit(items_[i]);
+          bound = std::min(bound, value(items_[i]));
       } else {
-        const bool left_first =
-            distance_squared(nodes_[at + 1].box, p) <= distance_squared(nodes_[n.first].box, p);
-        pending[depth++] = left_first ? n.first : at + 1;
-        pending[depth++] = left_first ? at + 1 : n.first;
+        promise near{lower_bound(next.at + 1), next.at + 1};
+        promise far{lower_bound(n.first), n.first};
+        if (far.bound < near.bound)
+          std::swap(near, far);
+        pending[depth++] = far;
+        pending[depth++] = near;
       }
     }
+    return bound;
   }
 
   /// Bottom-up reduction to one value per node: `leaf(item)` for items, `join(a, b)` to combine. O(n).
@@ -135,7 +176,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t leaf_size = 4;
   static constexpr std::size_t max_depth = 64; // halving: deeper would need 2^64 items
 
   struct node {
@@ -144,7 +184,7 @@ private:
     std::size_t count = 0; ///< items of a leaf; 0 for an inner node
   };
 
-  void build(const std::vector<box3>& boxes, std::size_t begin, std::size_t end) {
+  void build(const std::vector<box3>& boxes, std::size_t leaf_size, std::size_t begin, std::size_t end) {
     const std::size_t at = nodes_.size();
     nodes_.push_back({});
     box3 box;
@@ -170,13 +210,23 @@ private:
                        const double kb = key(b);
                        return ka != kb ? ka < kb : a < b;
                      });
-    build(boxes, begin, middle);
+    build(boxes, leaf_size, begin, middle);
     nodes_[at].first = nodes_.size();
-    build(boxes, middle, end);
+    build(boxes, leaf_size, middle, end);
   }
 
   std::vector<node> nodes_;
   std::vector<local_id> items_;
 };
+
+/// The boxes of points, to build a tree over items that lie at `place(item)`.
+template <class Item, class Place>
+std::vector<box3> boxes_of_points(const std::vector<Item>& items, const Place& place) {
+  std::vector<box3> boxes;
+  boxes.reserve(items.size());
+  for (const Item& item : items)
+    boxes.push_back({place(item), place(item)});
+  return boxes;
+}
 
 } // namespace dovetail

@@ -94,7 +94,7 @@ struct box3 {
   }
   bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
   double diagonal() const { return empty() ? 0.0 : distance(lower, upper); }
-  vec3 center() const { return midpoint(lower, upper); }
+  constexpr vec3 center() const { return midpoint(lower, upper); }
   bool overlaps(const box3& other) const {
     for (int k = 0; k < 3; ++k)
       if (upper[k] < other.lower[k] || other.upper[k] < lower[k])
@@ -102,5 +102,14 @@ struct box3 {
     return true;
   }
 };
+
+/// Octant k of a box: its upper half along x, y, z where bits 0, 1, 2 of k are set.
+constexpr box3 octant(const box3& box, unsigned k) {
+  const vec3 center = box.center();
+  box3 part = box;
+  for (int axis = 0; axis < 3; ++axis)
+    ((k >> axis & 1U) != 0 ? part.lower : part.upper)[axis] = center[axis];
+  return part;
+}
 
 } // namespace dovetail

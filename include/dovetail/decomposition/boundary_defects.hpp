@@ -2,44 +2,25 @@
 /// Where the boundaries of parts are not manifold.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <numeric>
-#include <span>
-#include <tuple>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
 
-/// The elements around each point, growing, in compressed rows.
-struct point_elements {
-  std::vector<std::size_t> begins{0};
-  std::vector<local_id> elements;
-
-  std::span<const local_id> at(local_id point) const {
-    const auto v = static_cast<std::size_t>(point);
-    return span_of(elements).subspan(begins[v], begins[v + 1] - begins[v]);
-  }
-};
-
+/// The elements around each point, growing.
 template <int D>
-point_elements elements_around_points(const simplicial_mesh<D>& mesh) {
-  point_elements table;
-  table.begins.assign(mesh.points.size() + 1, 0);
-  for (const auto& element : mesh.elements)
-    for (const local_id v : element)
-      ++table.begins[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(table.begins.begin(), table.begins.end(), table.begins.begin());
-  table.elements.resize(table.begins.back());
-  std::vector<std::size_t> next(table.begins.begin(), table.begins.end() - 1);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    for (const local_id v : mesh.elements[e])
-      table.elements[next[static_cast<std::size_t>(v)]++] = static_cast<local_id>(e);
-  return table;
+compressed_rows<local_id> elements_around_points(const simplicial_mesh<D>& mesh) {
+  return sorted_into_rows<local_id>(mesh.points.size(), [&](const auto& put) {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      for (const local_id v : mesh.elements[e])
+        put(v, static_cast<local_id>(e));
+  });
 }
 
 /// How far a boundary is from a manifold.
@@ -67,22 +48,27 @@ template <int D>
 class boundary_defects {
 public:
   boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
-      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)) {}
+      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)),
+        on_boundary_(mesh.points.size(), 0), place_in_link_(mesh.points.size()) {
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (!sides.is_interior(static_cast<local_id>(s)))
+        for (const local_id v : sides.vertices[s])
+          on_boundary_[static_cast<std::size_t>(v)] = 1;
+  }
 
-  const point_elements& around() const { return around_; }
+  const compressed_rows<local_id>& around() const { return around_; }
+  /// Is there a side at the point that bounds some part, whatever the parts are?
+  bool is_on_boundary(local_id point) const { return on_boundary_[static_cast<std::size_t>(point)] != 0; }
 
   /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
   template <class PartOf>
   defect_count count_at(local_id point, const PartOf& part_of) {
-    collect_boundary(point, part_of);
     defect_count defects;
-    for (std::size_t first = 0; first < sides_here_.size();) {
-      std::size_t last = first;
-      while (last < sides_here_.size() && sides_here_[last].part == sides_here_[first].part)
-        ++last;
-      defects += count_in_link(std::span(sides_here_).subspan(first, last - first));
-      first = last;
-    }
+    if (is_inside_one_part(point, part_of))
+      return defects;
+    collect_boundary(point, part_of);
+    while (!sides_here_.empty())
+      defects += count_in_link(sides_here_.back().part);
     return defects;
   }
 
@@ -92,16 +78,25 @@ private:
     local_id part;
     local_id a;
     local_id b;
-
-    auto key() const { return std::tuple(part, a, b); }
   };
+  /// A point of the link at hand.
+  struct link_end {
+    int sides = 0;
+    std::size_t parent = 0; ///< in the forest of those that sides connect
+  };
+
+  template <class PartOf>
+  bool is_inside_one_part(local_id point, const PartOf& part_of) const {
+    const auto elements = around_[point];
+    return !is_on_boundary(point) && std::all_of(elements.begin(), elements.end(), [&](local_id e) {
+      return part_of(e) == part_of(elements.front());
+    });
+  }
 
   template <class PartOf>
   void collect_boundary(local_id point, const PartOf& part_of) {
     sides_here_.clear();
-    const auto elements = around_.at(point);
-    // The common case, all in one part and no boundary, is left to the loop below: it collects nothing.
-    for (const local_id e : elements) {
+    for (const local_id e : around_[point]) {
       const auto& vertices = mesh_.elements[static_cast<std::size_t>(e)];
       const local_id own = part_of(e);
       for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i) {
@@ -117,59 +112,64 @@ private:
         sides_here_.push_back(side);
       }
     }
-    sort_all(sides_here_, [](const link_side& x, const link_side& y) { return x.key() < y.key(); });
   }
 
-  defect_count count_in_link(std::span<const link_side> link) {
-    if constexpr (D == 2)
-      return {0, std::max(0, (static_cast<int>(link.size()) + 1) / 2 - 1)};
+  /// Takes the link of one part out of `sides_here_`.
+  defect_count count_in_link(local_id part) {
     ends_.clear();
-    for (const link_side& side : link) {
-      ends_.push_back(side.a);
-      ends_.push_back(side.b);
+    ++link_;
+    int sides = 0;
+    int components = 0;
+    std::size_t left = 0;
+    for (const link_side& side : sides_here_) {
+      if (side.part != part) {
+        sides_here_[left++] = side;
+        continue;
+      }
+      ++sides;
+      if constexpr (D == 3) {
+        const std::size_t a = end_of_side(side.a, components);
+        const std::size_t b = end_of_side(side.b, components);
+        if (a != b) {
+          ends_[a].parent = b;
+          --components;
+        }
+      }
     }
-    sort_all(ends_);
-    defect_count defects;
-    for (std::size_t first = 0; first < ends_.size();) {
-      std::size_t last = first;
-      while (last < ends_.size() && ends_[last] == ends_[first])
-        ++last;
-      defects.edges += std::max(0, (static_cast<int>(last - first) + 1) / 2 - 1);
-      first = last;
-    }
-    ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
-    defects.points = components(link) - 1;
+    sides_here_.resize(left);
+    if constexpr (D == 2)
+      return {0, std::max(0, (sides + 1) / 2 - 1)};
+    defect_count defects{0, components - 1};
+    for (const link_end& end : ends_)
+      defects.edges += std::max(0, (end.sides + 1) / 2 - 1);
     return defects;
   }
 
-  /// Connected components of the graph whose edges are the link's sides and whose nodes are `ends_`.
-  int components(std::span<const link_side> link) {
-    parents_.resize(ends_.size());
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    const auto root = [&](local_id v) {
-      auto k = static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), v) - ends_.begin());
-      while (parents_[k] != k)
-        k = parents_[k] = parents_[parents_[k]];
-      return k;
-    };
-    auto count = static_cast<int>(ends_.size());
-    for (const link_side& side : link) {
-      const std::size_t a = root(side.a);
-      const std::size_t b = root(side.b);
-      if (a != b) {
-        parents_[a] = b;
-        --count;
-      }
+  /// Counts one more side at a point of the link; returns the root of what it is connected with.
+  std::size_t end_of_side(local_id point, int& components) {
+    auto& [link, place] = place_in_link_[static_cast<std::size_t>(point)];
+    if (link != link_) {
+      link = link_;
+      place = static_cast<std::uint32_t>(ends_.size());
+      ends_.push_back({0, ends_.size()});
+      ++components;
     }
-    return count;
+    ++ends_[place].sides;
+    std::size_t k = place;
+    while (ends_[k].parent != k)
+      k = ends_[k].parent = ends_[ends_[k].parent].parent;
+    return k;
   }
 
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
-  point_elements around_;
-  std::vector<link_side> sides_here_; ///< scratch
-  std::vector<local_id> ends_;        ///< scratch
-  std::vector<std::size_t> parents_;  ///< scratch
+  compressed_rows<local_id> around_;
+  std::vector<std::uint8_t> on_boundary_; ///< per point
+  // Scratch:
+  std::vector<link_side> sides_here_;
+  std::vector<link_end> ends_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> place_in_link_; ///< per point: the last link it was in
+  std::uint64_t link_ = 0;
 };
 
 } // namespace dovetail

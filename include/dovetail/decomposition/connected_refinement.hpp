@@ -5,10 +5,11 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
+#include "dovetail/partition/move_gains.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -24,7 +25,7 @@ template <int D>
 class connected_refinement {
 public:
   explicit connected_refinement(reassignable_parts<D>& parts)
-      : parts_(parts), repair_(parts), connection_(parts.part_count(), 0.0) {}
+      : parts_(parts), repair_(parts), gains_(parts.graph(), parts.part_of_supers(), parts.part_count()) {}
 
   void run(int max_rounds = 10) {
     for (int round = 0; round < max_rounds; ++round) {
@@ -50,38 +51,14 @@ private:
   }
   double weight_of(local_id super) const { return parts_.graph().node_weights[index(super)]; }
 
-  /// Calls `consider(part, gain)` for every other part beside a super-element.
-  template <class Consider>
-  void for_each_target(local_id super, const Consider& consider) {
-    const csr_graph& graph = parts_.graph();
-    const local_id own = parts_.part_of(super);
-    const auto row = graph.row(super);
-    const auto begin = index(graph.offsets[index(super)]);
-    double inside = 0;
-    touched_.clear();
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      const local_id p = parts_.part_of(row[k]);
-      if (p == own) {
-        inside += graph.edge_weights[begin + k];
-        continue;
-      }
-      if (connection_[index(p)] == 0)
-        touched_.push_back(p);
-      connection_[index(p)] += graph.edge_weights[begin + k];
-    }
-    for (const local_id p : touched_) {
-      const double gain = connection_[index(p)] - inside;
-      connection_[index(p)] = 0;
-      consider(p, gain);
-    }
-  }
-
   bool is_harmless(const move& m) {
     const std::array<local_id, 1> supers{m.super};
     if (!parts_.keeps_connected(supers))
       return false;
-    const defect_count removed = parts_.defects_removed_by(supers, m.to, parts_.points_of(supers));
-    return removed.edges >= 0 && removed.points >= 0;
+    const auto is_none_added = [](const defect_count& removed) {
+      return removed.edges >= 0 && removed.points >= 0;
+    };
+    return is_none_added(parts_.defects_removed_by(supers, m.to, is_none_added));
   }
 
   /// Relieves overweight parts, the heaviest first.
@@ -89,12 +66,10 @@ private:
     std::vector<bool> stuck(parts_.part_count(), false);
     for (local_id moves = 0; moves < parts_.super_count(); ++moves) {
       local_id heaviest = no_id;
-      for (std::size_t p = 0; p < stuck.size(); ++p) {
-        const auto part = static_cast<local_id>(p);
-        if (!stuck[p] && parts_.is_over_limit(part) &&
+      for (const local_id part : parts_.overweight())
+        if (!stuck[index(part)] &&
             (heaviest == no_id || parts_.weight_of_part(part) > parts_.weight_of_part(heaviest)))
           heaviest = part;
-      }
       if (heaviest == no_id)
         break;
       if (!relieve(heaviest))
@@ -105,22 +80,26 @@ private:
   /// Makes the harmless move out of a part that costs least cut per weight; false when there is none.
   bool relieve(local_id heavy) {
     std::vector<move> moves;
-    for (local_id s = 0; s < parts_.super_count(); ++s) {
-      if (parts_.part_of(s) != heavy || weight_of(s) <= 0)
+    for (const local_id s : parts_.border_of(heavy)) {
+      if (weight_of(s) <= 0)
         continue;
-      for_each_target(s, [&](local_id p, double gain) {
+      gains_.for_each_target(s, [&](local_id p, double gain) {
         if (parts_.weight_of_part(p) + weight_of(s) < parts_.weight_of_part(heavy))
           moves.push_back({gain / weight_of(s), s, p});
       });
     }
-    sort_all(moves, [](const move& a, const move& b) {
-      return std::tuple(-a.gain, a.super, a.to) < std::tuple(-b.gain, b.super, b.to);
-    });
-    for (const move& m : moves)
-      if (is_harmless(m)) {
-        parts_.assign(std::array{m.super}, m.to);
+    // Mostly one of the first is harmless, so they are sorted no further than that.
+    const auto is_dearer = [](const move& a, const move& b) {
+      return std::tuple(-a.gain, a.super, a.to) > std::tuple(-b.gain, b.super, b.to);
+    };
+    std::make_heap(moves.begin(), moves.end(), is_dearer);
+    for (; !moves.empty(); moves.pop_back()) {
+      std::pop_heap(moves.begin(), moves.end(), is_dearer);
+      if (is_harmless(moves.back())) {
+        parts_.assign(std::array{moves.back().super}, moves.back().to);
         return true;
       }
+    }
     return false;
   }
 
@@ -128,7 +107,7 @@ private:
   void shrink_cut() {
     for (local_id s = 0; s < parts_.super_count(); ++s) {
       move best{rounding, no_id, no_id};
-      for_each_target(s, [&](local_id p, double gain) {
+      gains_.for_each_target(s, [&](local_id p, double gain) {
         if (gain > best.gain)
           best = {gain, s, p};
       });
@@ -160,8 +139,7 @@ private:
 
   reassignable_parts<D>& parts_;
   manifold_repair<D> repair_;
-  std::vector<double> connection_; ///< scratch: weight of the edges from one super-element to each part
-  std::vector<local_id> touched_;
+  move_gains gains_;
 };
 
 } // namespace dovetail

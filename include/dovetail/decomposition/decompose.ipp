@@ -2,6 +2,7 @@
 /// What `decompose.hpp` declares.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
@@ -59,20 +60,48 @@ std::vector<vec3> centres_of_supers(const simplicial_mesh<D>& mesh,
   return sums;
 }
 
+/// One component of a graph; `number` is the number of each node in its component.
+inline csr_graph graph_of_component(const csr_graph& graph, std::span<const local_id> nodes,
+                                    std::span<const local_id> number) {
+  csr_graph component;
+  for (const local_id v : nodes) {
+    const auto i = static_cast<std::size_t>(v);
+    component.node_weights.push_back(graph.node_weights[i]);
+    component.positions.push_back(graph.positions[i]);
+    for (auto k = static_cast<std::size_t>(graph.offsets[i]);
+         k < static_cast<std::size_t>(graph.offsets[i + 1]); ++k) {
+      component.neighbours.push_back(number[static_cast<std::size_t>(graph.neighbours[k])]);
+      component.edge_weights.push_back(graph.edge_weights[k]);
+    }
+    component.offsets.push_back(static_cast<std::int64_t>(component.neighbours.size()));
+  }
+  return component;
+}
+
 /// Partitions each component on its own; the parts of one component have consecutive numbers.
 inline std::vector<local_id> partition_components(const csr_graph& graph,
                                                   const labelled_components& components,
                                                   const any_partitioner& partitioner,
                                                   std::span<const int> parts_of_component) {
-  std::vector<local_id> part(graph.node_weights.size(), no_id);
+  if (components.count == 1)
+    return partitioner(graph, parts_of_component[0]);
+  const auto nodes_of =
+      sorted_into_rows<local_id>(static_cast<std::size_t>(components.count), [&](const auto& put) {
+        for (std::size_t v = 0; v < components.of_node.size(); ++v)
+          put(components.of_node[v], static_cast<local_id>(v));
+      });
+  std::vector<local_id> number(graph.node_weights.size());
+  for (std::size_t c = 0; c < nodes_of.size(); ++c)
+    for (std::size_t k = 0; k < nodes_of[c].size(); ++k)
+      number[static_cast<std::size_t>(nodes_of[c][k])] = static_cast<local_id>(k);
+  std::vector<local_id> part(number.size(), no_id);
   local_id first_part = 0;
-  for (local_id c = 0; c < components.count; ++c) {
-    const int parts = parts_of_component[static_cast<std::size_t>(c)];
-    const subgraph piece = induced_subgraph(graph, components.of_node, c);
-    const std::vector<local_id> local = partitioner(piece.graph, parts);
+  for (std::size_t c = 0; c < nodes_of.size(); ++c) {
+    const auto nodes = nodes_of[c];
+    const auto local = partitioner(graph_of_component(graph, nodes, number), parts_of_component[c]);
     for (std::size_t k = 0; k < local.size(); ++k)
-      part[static_cast<std::size_t>(piece.nodes[k])] = first_part + local[k];
-    first_part += parts;
+      part[static_cast<std::size_t>(nodes[k])] = first_part + local[k];
+    first_part += parts_of_component[c];
   }
   return part;
 }

@@ -21,9 +21,9 @@ class gap_filler {
 public:
   explicit gap_filler(reassignable_parts<D>& parts) : parts_(parts) {}
 
-  /// Fills the gap, of all at the edges of a point, that gives the best standing, if any is better than
-  /// now. Returns the super-elements that changed their part.
-  std::vector<local_id> fill_best_at(local_id point) {
+  /// Fills the gap, of all at the edges of a point, that gives the best standing, if any is better than now
+  /// (`must_mend`: and mended against it). Returns the super-elements that changed their part.
+  std::vector<local_id> fill_best_at(local_id point, bool must_mend) {
     if constexpr (D == 2) {
       return {};
     } else {
@@ -32,8 +32,9 @@ public:
       std::optional<gap> chosen;
       for (const gap& candidate : gaps_at(point)) {
         fill(candidate);
-        if (parts_.standing().is_better_than(best)) {
-          best = parts_.standing();
+        const partition_standing now = parts_.standing();
+        if (now.is_better_than(best) && (!must_mend || now.is_mended_against(start.standing))) {
+          best = now;
           chosen = candidate;
         }
         parts_.go_back_to(start);

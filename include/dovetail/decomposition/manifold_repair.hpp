@@ -19,8 +19,9 @@ namespace dovetail {
 /// Repairs defects one by one: tries to give groups of super-elements at the defect to another part there,
 /// and keeps the change that removes most defects at edges, then pays best for those at points (refused sides
 /// are dear). A change is made only when both parts stay connected and no part is emptied; every change
-/// lowers the number of defects at edges or, at the same number, the cost, so this terminates. Where nothing
-/// else helps an edge, its gaps are filled (gap_filling.hpp).
+/// lowers the number of defects at edges or, at the same number, the cost. Where nothing else helps an edge,
+/// its gaps are filled (gap_filling.hpp); this may serve the weights instead, but once at each point only, so
+/// this terminates.
 template <int D>
 class manifold_repair {
 public:
@@ -32,6 +33,7 @@ public:
   /// Repairs what can be repaired at some points, and what comes up beside them meanwhile.
   void repair(const std::vector<local_id>& points) {
     std::set<local_id> open(points.begin(), points.end());
+    std::set<local_id> filled;
     while (!open.empty()) {
       const local_id v = *open.begin();
       open.erase(open.begin());
@@ -42,7 +44,7 @@ public:
       if (!changed.empty())
         parts_.assign(changed, best.to);
       else if (parts_.defects_at(v).edges > 0)
-        changed = gaps_.fill_best_at(v);
+        changed = gaps_.fill_best_at(v, !filled.insert(v).second);
       for (const local_id w : parts_.points_of(changed)) // v itself among them, if still open
         if (parts_.defects_at(w).any())
           open.insert(w);
@@ -133,12 +135,16 @@ private:
   }
 
   void add_if_gain(std::vector<change>& changes, const std::vector<local_id>& group, local_id to) {
-    const defect_count removed = parts_.defects_removed_by(group, to, parts_.points_of(group));
-    if (removed.edges < 0 || !(removed.edges > 0 || removed.points > 0))
-      return;
-    const double cost = parts_.cut_added_by(group, to) - partition_standing::price_of_point * removed.points;
-    if (removed.edges > 0 || cost < 0)
-      changes.push_back({group, to, -removed.edges, cost, parts_.weight_of(group)});
+    const double cut = parts_.cut_added_by(group, to);
+    const auto cost = [&](const defect_count& removed) {
+      return cut - partition_standing::price_of_point * removed.points;
+    };
+    const auto is_gain = [&](const defect_count& removed) {
+      return removed.edges > 0 || (removed.edges == 0 && removed.points > 0 && cost(removed) < 0);
+    };
+    const defect_count removed = parts_.defects_removed_by(group, to, is_gain);
+    if (is_gain(removed))
+      changes.push_back({group, to, -removed.edges, cost(removed), parts_.weight_of(group)});
   }
 
   reassignable_parts<D>& parts_;

@@ -2,14 +2,18 @@
 /// Parts made of super-elements, and what changes when some of these go to another part.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/boundary_defects.hpp"
+#include "dovetail/decomposition/cut_off_pieces.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,11 +32,22 @@ struct partition_standing {
 
   double cost() const { return cut + price_of_point * defects.points; }
   bool is_better_than(const partition_standing& other) const {
-    constexpr double rounding = 1e-9;
     if (defects.edges != other.defects.edges)
       return defects.edges < other.defects.edges;
     if (std::abs(excess - other.excess) > rounding * (1 + other.excess))
       return excess < other.excess;
+    return is_cheaper_than(other);
+  }
+  /// Better without regard to weights: what the steps of a repair are, so that it comes to an end.
+  bool is_mended_against(const partition_standing& other) const {
+    return defects.edges != other.defects.edges ? defects.edges < other.defects.edges
+                                                : is_cheaper_than(other);
+  }
+
+private:
+  static constexpr double rounding = 1e-9;
+
+  bool is_cheaper_than(const partition_standing& other) const {
     return cost() < other.cost() - rounding * (1 + std::abs(other.cost()));
   }
 };
@@ -51,27 +66,26 @@ public:
       : mesh_(mesh), sides_(sides), defects_(mesh, sides), super_(super_of_element), graph_(graph),
         part_(part), limits_(std::move(limits)),
         weights_(part_weights(graph, part, static_cast<int>(limits_.size()))), sizes_(limits_.size(), 0),
-        element_begins_(static_cast<std::size_t>(graph.node_count()) + 1, 0),
-        elements_(super_of_element.size()), mark_(part.size(), 0) {
-    for (const local_id p : part)
-      ++sizes_[index(p)];
-    for (const local_id s : super_)
-      ++element_begins_[index(s) + 1];
-    for (std::size_t s = 0; s + 1 < element_begins_.size(); ++s)
-      element_begins_[s + 1] += element_begins_[s];
-    std::vector<std::size_t> next(element_begins_.begin(), element_begins_.end() - 1);
-    for (std::size_t e = 0; e < super_.size(); ++e)
-      elements_[next[index(super_[e])]++] = static_cast<local_id>(e);
+        foreign_neighbours_(part.size(), 0), place_in_border_(part.size(), no_id), borders_(limits_.size()),
+        points_(points_of_supers()), counted_(mesh.points.size()), is_counted_(mesh.points.size(), 0),
+        pieces_(graph, part) {
+    for (local_id s = 0; s < super_count(); ++s) {
+      ++sizes_[index(part_of(s))];
+      join_border_if_there(s);
+    }
+    for (std::size_t p = 0; p < limits_.size(); ++p)
+      change_weight(static_cast<local_id>(p), 0);
   }
 
   const simplicial_mesh<D>& mesh() const { return mesh_; }
   const side_table<D>& sides() const { return sides_; }
   const csr_graph& graph() const { return graph_; }
-  std::span<const local_id> elements_at(local_id point) const { return defects_.around().at(point); }
+  std::span<const local_id> elements_at(local_id point) const { return defects_.around()[point]; }
   local_id super_of(local_id element) const { return super_[index(element)]; }
   std::size_t point_count() const { return mesh_.points.size(); }
   local_id super_count() const { return graph_.node_count(); }
   local_id part_of(local_id super) const { return part_[index(super)]; }
+  std::span<const local_id> part_of_supers() const { return part_; }
   std::size_t part_count() const { return weights_.size(); }
   double weight_of_part(local_id part) const { return weights_[index(part)]; }
   double limit_of_part(local_id part) const { return limits_[index(part)]; }
@@ -81,6 +95,10 @@ public:
     return weight <= light_fraction * limit_of_part(part);
   }
   bool is_over_limit(local_id part) const { return weights_[index(part)] > limits_[index(part)]; }
+  /// The parts over their limits.
+  const std::set<local_id>& overweight() const { return overweight_; }
+  /// The super-elements of a part that have neighbours in other parts, in no order.
+  std::span<const local_id> border_of(local_id part) const { return span_of(borders_[index(part)]); }
 
   /// Gives super-elements of one part to another.
   void assign(std::span<const local_id> supers, local_id to) {
@@ -111,14 +129,18 @@ public:
   partition_standing standing() const {
     partition_standing now = standing_;
     now.excess = 0;
-    for (std::size_t p = 0; p < weights_.size(); ++p)
-      now.excess += std::max(0.0, weights_[p] - limits_[p]);
+    for (const local_id p : overweight_)
+      now.excess += weights_[index(p)] - limits_[index(p)];
     return now;
   }
 
   /// Boundary defects at a point, or at several.
   defect_count defects_at(local_id point) {
-    return defects_.count_at(point, [this](local_id e) { return part_[index(super_[index(e)])]; });
+    if (is_counted_[index(point)] == 0) {
+      counted_[index(point)] = count_at(point);
+      is_counted_[index(point)] = 1;
+    }
+    return counted_[index(point)];
   }
   defect_count defects_at(std::span<const local_id> points) {
     defect_count total;
@@ -126,33 +148,37 @@ public:
       total += defects_at(v);
     return total;
   }
-  /// By how much a change, which is undone again, lowers the number of defects at `points`.
-  defect_count defects_removed_by(std::span<const local_id> supers, local_id to,
-                                  std::span<const local_id> points) {
+  /// By how much giving super-elements of one part to another would lower the number of defects. Counts no
+  /// further than `is_enough(bound)` is true, where the result is at most `bound`; then returns the bound.
+  template <class IsEnough>
+  defect_count defects_removed_by(std::span<const local_id> supers, local_id to, const IsEnough& is_enough) {
     const local_id from = part_of(supers[0]);
-    const defect_count before = defects_at(points);
+    const std::vector<local_id> points = points_of(supers);
+    defect_count removed = defects_at(points);
+    if (!is_enough(removed))
+      return removed;
     for (const local_id s : supers)
       part_[index(s)] = to;
-    const defect_count after = defects_at(points);
+    for (std::size_t k = 0; k < points.size() && is_enough(removed); ++k)
+      removed = removed - count_at(points[k]);
     for (const local_id s : supers)
       part_[index(s)] = from;
-    return before - after;
+    return removed;
   }
 
-  /// The points of the elements of some super-elements, growing.
+  /// The points where something may change when these super-elements change their part, growing.
   std::vector<local_id> points_of(std::span<const local_id> supers) const {
     std::vector<local_id> points;
     for (const local_id s : supers)
-      for (std::size_t k = element_begins_[index(s)]; k < element_begins_[index(s) + 1]; ++k)
-        for (const local_id v : mesh_.elements[index(elements_[k])])
-          points.push_back(v);
-    sort_unique(points);
+      append(points, points_[s]);
+    if (supers.size() > 1)
+      sort_unique(points);
     return points;
   }
   /// The super-elements at a point, growing.
   std::vector<local_id> supers_at(local_id point) const {
     std::vector<local_id> supers;
-    for (const local_id e : defects_.around().at(point))
+    for (const local_id e : defects_.around()[point])
       supers.push_back(super_[index(e)]);
     sort_unique(supers);
     return supers;
@@ -192,72 +218,13 @@ public:
   }
 
   /// Does the part of these super-elements (which are all of one part) stay connected and non-empty without
-  /// them? Searches from one neighbour until all others are reached: mostly a few steps.
+  /// them? Mostly a few steps.
   bool keeps_connected(std::span<const local_id> supers) {
-    const local_id part = part_of(supers[0]);
-    if (sizes_[index(part)] <= supers.size())
-      return false;
-    const std::size_t leaving = fresh_marks(3); // marks of this call: leaving, to be reached, reached
-    const std::size_t wanted = leaving + 1;
-    const std::size_t reached = leaving + 2;
-    for (const local_id s : supers)
-      mark_[index(s)] = leaving;
-    std::size_t missing = 0;
-    stack_.clear();
-    for (const local_id s : supers)
-      for (const local_id other : graph_.row(s))
-        if (part_of(other) == part && mark_[index(other)] != leaving && mark_[index(other)] != wanted) {
-          mark_[index(other)] = wanted;
-          ++missing;
-          if (stack_.empty())
-            stack_.push_back(other);
-        }
-    if (missing == 0)
-      return false;
-    mark_[index(stack_.front())] = reached;
-    --missing;
-    for (std::size_t k = 0; k < stack_.size() && missing > 0; ++k)
-      for (const local_id other : graph_.row(stack_[k])) {
-        if (part_of(other) != part || mark_[index(other)] == leaving || mark_[index(other)] == reached)
-          continue;
-        if (mark_[index(other)] == wanted)
-          --missing;
-        mark_[index(other)] = reached;
-        stack_.push_back(other);
-      }
-    return missing == 0;
+    return sizes_[index(part_of(supers[0]))] > supers.size() && pieces_.stays_connected(supers);
   }
-
-  /// What the part of these super-elements falls into without them, but for its heaviest piece. Linear in the
-  /// part.
+  /// What the part of these super-elements falls into without them, but for its heaviest piece.
   std::vector<local_id> pieces_cut_off_by(std::span<const local_id> supers) {
-    const local_id part = part_of(supers[0]);
-    const std::size_t seen = fresh_marks(1);
-    for (const local_id s : supers)
-      mark_[index(s)] = seen;
-    std::vector<std::vector<local_id>> pieces;
-    for (const local_id s : supers)
-      for (const local_id seed : graph_.row(s)) {
-        if (part_of(seed) != part || mark_[index(seed)] == seen)
-          continue;
-        std::vector<local_id> piece{seed};
-        mark_[index(seed)] = seen;
-        for (std::size_t k = 0; k < piece.size(); ++k)
-          for (const local_id other : graph_.row(piece[k]))
-            if (part_of(other) == part && mark_[index(other)] != seen) {
-              mark_[index(other)] = seen;
-              piece.push_back(other);
-            }
-        pieces.push_back(std::move(piece));
-      }
-    const auto heaviest = std::max_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
-      return weight_of(a) < weight_of(b);
-    });
-    std::vector<local_id> cut_off;
-    for (auto it = pieces.begin(); it != pieces.end(); ++it)
-      if (it != heaviest)
-        cut_off.insert(cut_off.end(), it->begin(), it->end());
-    return cut_off;
+    return pieces_.cut_off_by(supers, weight_of_part(part_of(supers[0])));
   }
 
 private:
@@ -266,19 +233,76 @@ private:
     return static_cast<std::size_t>(id);
   }
 
+  /// The points of each super-element, growing, where others meet it or the mesh ends: at all others no
+  /// partition has a defect.
+  compressed_rows<local_id> points_of_supers() const {
+    const auto is_inside = [&](local_id point) {
+      const auto around = defects_.around()[point];
+      return !defects_.is_on_boundary(point) && std::all_of(around.begin(), around.end(), [&](local_id e) {
+        return super_of(e) == super_of(around.front());
+      });
+    };
+    return sorted_into_rows<local_id>(part_.size(), [&](const auto& put_into) {
+      for (std::size_t v = 0; v < mesh_.points.size(); ++v)
+        if (const auto point = static_cast<local_id>(v); !is_inside(point))
+          for (const local_id s : supers_at(point))
+            put_into(s, point);
+    });
+  }
+
+  defect_count count_at(local_id point) {
+    return defects_.count_at(point, [this](local_id e) { return part_[index(super_[index(e)])]; });
+  }
+
   void put(local_id super, local_id to) {
-    local_id& from = part_[index(super)];
-    weights_[index(from)] -= graph_.node_weights[index(super)];
-    weights_[index(to)] += graph_.node_weights[index(super)];
+    const local_id from = part_of(super);
+    const double weight = graph_.node_weights[index(super)];
+    leave_border(super);
+    part_[index(super)] = to;
     --sizes_[index(from)];
     ++sizes_[index(to)];
-    from = to;
+    change_weight(from, -weight);
+    change_weight(to, weight);
+    for (const local_id other : graph_.row(super)) {
+      const local_id p = part_of(other);
+      if (p == from && foreign_neighbours_[index(other)]++ == 0)
+        join_border(other);
+      else if (p == to && --foreign_neighbours_[index(other)] == 0)
+        leave_border(other);
+    }
+    join_border_if_there(super);
+    for (const local_id v : points_[super])
+      is_counted_[index(v)] = 0;
   }
-  /// The first of several marks that no super-element has.
-  std::size_t fresh_marks(std::size_t count) {
-    const std::size_t first = next_mark_;
-    next_mark_ += count;
-    return first;
+  void change_weight(local_id part, double by) {
+    weights_[index(part)] += by;
+    if (is_over_limit(part))
+      overweight_.insert(part);
+    else
+      overweight_.erase(part);
+  }
+
+  void join_border_if_there(local_id super) {
+    const auto row = graph_.row(super);
+    foreign_neighbours_[index(super)] = static_cast<local_id>(std::count_if(
+        row.begin(), row.end(), [&](local_id other) { return part_of(other) != part_of(super); }));
+    if (foreign_neighbours_[index(super)] > 0)
+      join_border(super);
+  }
+  void join_border(local_id super) {
+    auto& border = borders_[index(part_of(super))];
+    place_in_border_[index(super)] = static_cast<local_id>(border.size());
+    border.push_back(super);
+  }
+  void leave_border(local_id super) {
+    local_id& place = place_in_border_[index(super)];
+    if (place == no_id)
+      return;
+    auto& border = borders_[index(part_of(super))];
+    place_in_border_[index(border.back())] = place;
+    border[index(place)] = border.back();
+    border.pop_back();
+    place = no_id;
   }
 
   const simplicial_mesh<D>& mesh_;
@@ -287,16 +311,19 @@ private:
   std::span<const local_id> super_;
   const csr_graph& graph_;
   std::span<local_id> part_;
-  std::vector<double> limits_;              ///< per part
-  std::vector<double> weights_;             ///< per part
-  std::vector<std::size_t> sizes_;          ///< super-elements per part
-  std::vector<std::size_t> element_begins_; ///< rows of `elements_`, one per super-element
-  std::vector<local_id> elements_;
-  std::vector<std::size_t> mark_; ///< per super-element, of the search that came there last
-  std::size_t next_mark_ = 1;
+  std::vector<double> limits_;               ///< per part
+  std::vector<double> weights_;              ///< per part
+  std::vector<std::size_t> sizes_;           ///< super-elements per part
+  std::set<local_id> overweight_;            ///< parts above their limits
+  std::vector<local_id> foreign_neighbours_; ///< per super-element: how many are in other parts
+  std::vector<local_id> place_in_border_;    ///< per super-element: in the border of its part, or no_id
+  std::vector<std::vector<local_id>> borders_;
+  compressed_rows<local_id> points_;     ///< per super-element
+  std::vector<defect_count> counted_;    ///< per point: its defects, where `is_counted_`
+  std::vector<std::uint8_t> is_counted_; ///< per point
+  cut_off_pieces pieces_;
   std::vector<std::pair<local_id, local_id>> trail_; ///< (super-element, part it came from)
   partition_standing standing_;                      ///< but for the excess, which is found when asked for
-  std::vector<local_id> stack_;
 };
 
 } // namespace dovetail

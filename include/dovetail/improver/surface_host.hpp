@@ -2,6 +2,7 @@
 /// What the vertices of a triangulation stay on while it is improved.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/vector.hpp"
@@ -76,17 +77,11 @@ public:
   /// `normals` are per vertex. Vertices on both sides of a fixed side must be different ones.
   triangle_host(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<vec3> normals)
       : points_(std::move(points)), triangles_(std::move(triangles)), normals_(std::move(normals)),
-        first_(points_.size() + 1, 0), around_(3 * triangles_.size()) {
-    for (const auto& triangle : triangles_)
-      for (const local_id v : triangle)
-        ++first_[at(v) + 1];
-    for (std::size_t v = 0; v < points_.size(); ++v)
-      first_[v + 1] += first_[v];
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
-      for (const local_id v : triangles_[t])
-        around_[next[at(v)]++] = static_cast<local_id>(t);
-  }
+        around_(sorted_into_rows<local_id>(points_.size(), [this](const auto& put) {
+          for (std::size_t t = 0; t < triangles_.size(); ++t)
+            for (const local_id v : triangles_[t])
+              put(v, static_cast<local_id>(t));
+        })) {}
 
   /// The point near p on the triangles around `on`, which becomes the triangle it lies on. O(steps taken).
   host_point project(vec3 p, local_id& on) const {
@@ -97,10 +92,10 @@ public:
         break;
       const local_id from = on;
       for (const local_id v : triangles_[at(from)])
-        for (std::size_t i = first_[at(v)]; i < first_[at(v) + 1]; ++i)
-          if (const found other = nearest(around_[i], p); other.distance_squared < best.distance_squared) {
+        for (const local_id t : around_[v])
+          if (const found other = nearest(t, p); other.distance_squared < best.distance_squared) {
             best = other;
-            on = around_[i];
+            on = t;
           }
       if (on == from)
         break;
@@ -129,8 +124,7 @@ private:
   std::vector<vec3> points_;
   std::vector<simplex<2>> triangles_;
   std::vector<vec3> normals_;
-  std::vector<std::size_t> first_; ///< per vertex: where its triangles start in `around_`
-  std::vector<local_id> around_;
+  compressed_rows<local_id> around_; ///< per vertex: its triangles
 };
 
 } // namespace improvement

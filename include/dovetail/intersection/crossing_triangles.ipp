@@ -104,10 +104,8 @@ private:
     const vec3 middle = whole.box.center();
     std::array<cell, 8> parts;
     for (unsigned part = 0; part < 8; ++part) {
-      parts[part].box = whole.box;
+      parts[part].box = octant(whole.box, part);
       parts[part].depth = whole.depth + 1;
-      for (int axis = 0; axis < 3; ++axis)
-        ((part >> axis) & 1u ? parts[part].box.lower : parts[part].box.upper)[axis] = middle[axis];
     }
     for (const local_id item : whole.items) {
       const box3 at = box(item);

@@ -19,28 +19,12 @@ class sides_by_subdomain {
 public:
   /// O(sides + subdomains). Throws `mesh_error` when a side names a subdomain or a point that does
   /// not exist, so that consumers may index freely.
-  explicit sides_by_subdomain(const distributed_simplicial_mesh<D>& mesh)
-      : start_(mesh.counts.size() + 1, 0) {
-    const auto& skeleton = mesh.skeleton;
+  explicit sides_by_subdomain(const distributed_simplicial_mesh<D>& mesh) {
     check(mesh);
-    for (const auto& pair : skeleton.subdomains)
-      for (const auto s : pair)
-        if (s != no_id)
-          ++start_[static_cast<std::size_t>(s) + 1];
-    for (std::size_t s = 1; s < start_.size(); ++s)
-      start_[s] += start_[s - 1];
-    items_.resize(start_.back());
-    auto next = start_;
-    for (std::size_t t = 0; t < skeleton.subdomains.size(); ++t)
-      for (const auto s : skeleton.subdomains[t])
-        if (s != no_id)
-          items_[next[static_cast<std::size_t>(s)]++] = static_cast<local_id>(t);
+    sides_ = sort_by_subdomain(mesh.skeleton, mesh.counts.size());
   }
 
-  std::span<const local_id> operator[](local_id subdomain) const {
-    const auto s = static_cast<std::size_t>(subdomain);
-    return std::span(items_).subspan(start_[s], start_[s + 1] - start_[s]);
-  }
+  std::span<const local_id> operator[](local_id subdomain) const { return sides_[subdomain]; }
 
 private:
   static void check(const distributed_simplicial_mesh<D>& mesh) {
@@ -59,8 +43,7 @@ private:
     }
   }
 
-  std::vector<std::size_t> start_;
-  std::vector<local_id> items_;
+  sides_of_subdomains sides_;
 };
 
 using triangles_by_subdomain = sides_by_subdomain<3>;

@@ -6,8 +6,10 @@
 /// of piece p has id (elements of pieces before p) + e.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -94,5 +96,20 @@ struct distributed_simplicial_mesh {
 };
 
 using distributed_mesh = distributed_simplicial_mesh<3>;
+
+/// Which sides of a skeleton bound which subdomain, growing. A side with one subdomain on both of its sides
+/// is listed twice in a row.
+using sides_of_subdomains = compressed_rows<local_id>;
+
+/// Sorts the skeleton's sides by subdomain; linear. The skeleton names no others than `subdomains`.
+template <int D>
+sides_of_subdomains sort_by_subdomain(const simplicial_skeleton<D>& skeleton, std::size_t subdomains) {
+  return sorted_into_rows<local_id>(subdomains, [&](const auto& put) {
+    for (std::size_t t = 0; t < skeleton.subdomains.size(); ++t)
+      for (const local_id s : skeleton.subdomains[t])
+        if (s != no_id)
+          put(s, static_cast<local_id>(t));
+  });
+}
 
 } // namespace dovetail

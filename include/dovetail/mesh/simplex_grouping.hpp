@@ -2,6 +2,7 @@
 /// Finds equal simplices in a long list by sorting: the kernel under adjacency, duplicates and contraction.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/sequence.hpp"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,49 +36,25 @@ constexpr std::array<local_id, N> sorted_vertices(std::array<local_id, N> vertic
   return vertices;
 }
 
-namespace detail {
-
-/// The counting sort's output: records bucketed by their first vertex.
-template <std::size_t N>
-struct bucketed_records {
-  std::vector<std::size_t> bucket_begins;          ///< size point_count + 1
-  std::vector<std::array<std::uint32_t, N>> items; ///< vertices 1 .. N-1 and, last, the index of the simplex
-};
-
-template <std::size_t N, class KeyOf>
-bucketed_records<N> bucket_by_first_vertex(std::size_t count, std::size_t point_count, const KeyOf& key_of) {
-  bucketed_records<N> buckets;
-  buckets.bucket_begins.assign(point_count + 1, 0);
-  for (std::size_t i = 0; i < count; ++i)
-    ++buckets.bucket_begins[static_cast<std::size_t>(key_of(i)[0]) + 1];
-  for (std::size_t v = 0; v < point_count; ++v)
-    buckets.bucket_begins[v + 1] += buckets.bucket_begins[v];
-
-  buckets.items.resize(count);
-  std::vector<std::size_t> next(buckets.bucket_begins.begin(), buckets.bucket_begins.end() - 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::array<local_id, N> key = key_of(i);
-    auto& item = buckets.items[next[static_cast<std::size_t>(key[0])]++];
-    for (std::size_t k = 1; k < N; ++k)
-      item[k - 1] = static_cast<std::uint32_t>(key[k]);
-    item[N - 1] = static_cast<std::uint32_t>(i);
-  }
-  return buckets;
-}
-
-} // namespace detail
-
 /// Calls `visit(key, members)` once per distinct key, in lexicographic order of keys; `members` are the
 /// indices i in [0, count) with `key_of(i) == key`, growing. Keys are sorted vertex lists below
 /// `point_count`. Needs count < 2^32. A counting sort by the first vertex, then small sorts: about linear.
 template <std::size_t N, class KeyOf, class Visit>
 void for_each_group(std::size_t count, std::size_t point_count, const KeyOf& key_of, const Visit& visit) {
-  auto buckets = detail::bucket_by_first_vertex<N>(count, point_count, key_of);
+  using record = std::array<std::uint32_t, N>; // vertices 1 .. N-1 and, last, the index of the simplex
+  auto buckets = sorted_into_rows<record>(point_count, [&](const auto& put) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array<local_id, N> key = key_of(i);
+      record made;
+      for (std::size_t k = 1; k < N; ++k)
+        made[k - 1] = static_cast<std::uint32_t>(key[k]);
+      made[N - 1] = static_cast<std::uint32_t>(i);
+      put(key[0], made);
+    }
+  });
   std::vector<std::uint32_t> members;
   for (std::size_t v = 0; v < point_count; ++v) {
-    const auto bucket =
-        span_of(buckets.items)
-            .subspan(buckets.bucket_begins[v], buckets.bucket_begins[v + 1] - buckets.bucket_begins[v]);
+    const std::span<record> bucket = buckets[v];
     if constexpr (N > 1) // with N == 1 the bucket is one group and already in order
       sort_all(bucket);
     for (std::size_t first = 0; first < bucket.size();) {

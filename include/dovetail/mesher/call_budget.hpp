@@ -33,8 +33,8 @@ public:
     if (depth == 7 || longest < 2 * smallest || (depth >= 2 && largest < 1.5 * smallest))
       return extent.x * extent.y * extent.z / (smallest * smallest * smallest);
     double sum = 0;
-    for (int octant = 0; octant < 8; ++octant)
-      sum += over(child(box, octant), depth + 1);
+    for (unsigned k = 0; k < 8; ++k)
+      sum += over(octant(box, k), depth + 1);
     return sum;
   }
 
@@ -44,13 +44,6 @@ private:
     for (int k = 0; k < 3; ++k)
       p[k] += ((corner >> k & 1) != 0 ? 0.25 : -0.25) * (box.upper[k] - box.lower[k]);
     return p;
-  }
-  static box3 child(const box3& box, int octant) {
-    box3 part = box;
-    const vec3 center = box.center();
-    for (int k = 0; k < 3; ++k)
-      ((octant >> k & 1) != 0 ? part.lower : part.upper)[k] = center[k];
-    return part;
   }
   const any_sizing& size_;
 };

@@ -118,12 +118,8 @@ private:
       largest_ = std::max(largest_, h);
       return;
     }
-    for (int octant = 0; octant < 8; ++octant) {
-      box3 part = box;
-      for (int k = 0; k < 3; ++k)
-        ((octant >> k & 1) != 0 ? part.lower : part.upper)[k] = center[k];
-      sample(part, depth + 1);
-    }
+    for (unsigned k = 0; k < 8; ++k)
+      sample(octant(box, k), depth + 1);
   }
 
   simplicial_mesh<3> result() const {

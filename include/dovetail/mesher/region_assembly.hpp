@@ -6,6 +6,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/remesh/chords.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,34 +41,18 @@ inline void append_region(const surface_region& region, const patch_mesh& made, 
   }
 }
 
-/// The pairs of labels that a boundary's segments join, sorted.
-inline std::vector<std::array<local_id, 2>> joined_labels(const patch_boundary& boundary) {
-  std::vector<std::array<local_id, 2>> pairs;
-  pairs.reserve(boundary.segments.size());
-  for (const auto& [a, b] : boundary.segments)
-    pairs.push_back(sorted_vertices(std::array{boundary.labels[static_cast<std::size_t>(a)],
-                                               boundary.labels[static_cast<std::size_t>(b)]}));
-  sort_all(pairs);
-  return pairs;
-}
-
 /// Adds to a region's forbidden edges those inner edges between boundary points that it must not have; false
 /// when it has none.
 inline bool forbid_chords(const surface_region& region, const patch_mesh& made, patch_boundary& boundary) {
   if (!region.forbids)
     return false;
-  const auto label = [&](local_id v) { return boundary.labels[static_cast<std::size_t>(v)]; };
-  const auto frozen = static_cast<local_id>(boundary.labels.size());
-  const auto own = joined_labels(boundary);
   auto& forbidden = boundary.forbidden_edges;
   const std::size_t before = forbidden.size();
-  for (const simplex<2>& t : made.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const local_id a = t[i], b = t[(i + 1) % 3]; a < frozen && b < frozen && label(a) != label(b))
-        if (const auto edge = sorted_vertices(std::array{label(a), label(b)});
-            !std::binary_search(own.begin(), own.end(), edge) && region.forbids(edge[0], edge[1]) &&
-            std::find(forbidden.begin(), forbidden.end(), edge) == forbidden.end())
-          forbidden.push_back(edge);
+  chord_finder(boundary).for_each(made.triangles, [&](std::size_t, const std::array<local_id, 2>& chord) {
+    if (region.forbids(chord[0], chord[1]) &&
+        std::find(forbidden.begin(), forbidden.end(), chord) == forbidden.end())
+      forbidden.push_back(chord);
+  });
   return forbidden.size() > before;
 }
 
@@ -75,7 +60,7 @@ inline bool forbid_chords(const surface_region& region, const patch_mesh& made, 
 class forbidden_chord_splitter {
 public:
   forbidden_chord_splitter(const any_surface& surface, const patch_boundary& boundary, patch_mesh& made)
-      : surface_(surface), boundary_(boundary), made_(made), own_(joined_labels(boundary)),
+      : surface_(surface), boundary_(boundary), made_(made), chord_of_(boundary),
         frozen_(static_cast<local_id>(boundary.labels.size())) {}
 
   void run() {
@@ -86,13 +71,9 @@ public:
 
 private:
   bool is_forbidden(local_id a, local_id b) const {
-    if (a >= frozen_ || b >= frozen_)
-      return false;
-    const auto edge = sorted_vertices(std::array{boundary_.labels[static_cast<std::size_t>(a)],
-                                                 boundary_.labels[static_cast<std::size_t>(b)]});
+    const auto chord = chord_of_(a, b);
     const auto& forbidden = boundary_.forbidden_edges;
-    return std::find(forbidden.begin(), forbidden.end(), edge) != forbidden.end() &&
-           !std::binary_search(own_.begin(), own_.end(), edge);
+    return chord && std::find(forbidden.begin(), forbidden.end(), *chord) != forbidden.end();
   }
 
   /// Splits side k of triangle t; returns the side to go on with.
@@ -120,7 +101,7 @@ private:
   const any_surface& surface_;
   const patch_boundary& boundary_;
   patch_mesh& made_;
-  std::vector<std::array<local_id, 2>> own_;
+  chord_finder chord_of_;
   local_id frozen_;
   std::map<std::array<local_id, 2>, local_id> middles_;
 };

@@ -6,6 +6,7 @@
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/remesh/chords.hpp"
 
 #include <algorithm>
 #include <array>
@@ -97,24 +98,16 @@ inline void drop_unused_points(simplicial_mesh<2>& mesh, std::size_t kept) {
 /// Inner sides between points of the lines that another region might have too: their ends and their face.
 inline std::vector<std::array<local_id, 3>> forbidden_chords(const simplicial_mesh<2>& mesh,
                                                              const mesher_input<2>& input) {
-  std::vector<simplex<1>> lines = input.boundary.elements;
-  for (simplex<1>& line : lines)
-    line = sorted_vertices(line);
-  std::sort(lines.begin(), lines.end());
-  const auto of_lines = static_cast<local_id>(input.boundary.points.size());
   std::vector<std::array<local_id, 3>> chords;
-  for (std::size_t t = 0; t < mesh.elements.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto side = sorted_vertices(simplex<1>{mesh.elements[t][k], mesh.elements[t][(k + 1) % 3]});
-      if (side[1] >= of_lines || std::binary_search(lines.begin(), lines.end(), side))
-        continue;
-      const bool is_forbidden =
-          std::any_of(input.regions.begin(), input.regions.end(), [&](const surface_region& region) {
-            return region.face == mesh.tags[t] && region.forbids && region.forbids(side[0], side[1]);
-          });
-      if (is_forbidden)
-        chords.push_back({side[0], side[1], mesh.tags[t]});
-    }
+  const chord_finder chord_of(input.boundary.points.size(), input.boundary.elements);
+  chord_of.for_each(mesh.elements, [&](std::size_t t, const std::array<local_id, 2>& chord) {
+    const bool is_forbidden =
+        std::any_of(input.regions.begin(), input.regions.end(), [&](const surface_region& region) {
+          return region.face == mesh.tags[t] && region.forbids && region.forbids(chord[0], chord[1]);
+        });
+    if (is_forbidden)
+      chords.push_back({chord[0], chord[1], mesh.tags[t]});
+  });
   std::sort(chords.begin(), chords.end());
   return chords;
 }

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::detail {
@@ -33,14 +35,21 @@ inline double allowed_part_weight(const csr_graph& graph, int parts, double imba
 inline void level_parts(const csr_graph& graph, std::span<local_id> part, int parts, double imbalance) {
   const double allowed = allowed_part_weight(graph, parts, imbalance) * (1 + 1e-12);
   auto weights = part_weights(graph, part, parts);
+  std::set<std::pair<double, std::size_t>> by_weight;
+  for (std::size_t p = 0; p < weights.size(); ++p)
+    by_weight.insert({weights[p], p});
+  const auto change = [&](std::size_t p, double by) {
+    by_weight.erase({weights[p], p});
+    weights[p] += by;
+    by_weight.insert({weights[p], p});
+  };
   for (std::size_t v = 0; v < part.size(); ++v) {
     const auto from = static_cast<std::size_t>(part[v]);
     if (weights[from] <= allowed || graph.node_weights[v] <= 0)
       continue;
-    const auto to =
-        static_cast<std::size_t>(std::min_element(weights.begin(), weights.end()) - weights.begin());
-    weights[from] -= graph.node_weights[v];
-    weights[to] += graph.node_weights[v];
+    const std::size_t to = by_weight.begin()->second;
+    change(from, -graph.node_weights[v]);
+    change(to, graph.node_weights[v]);
     part[v] = static_cast<local_id>(to);
   }
 }

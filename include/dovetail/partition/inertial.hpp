@@ -5,9 +5,7 @@
 
 #include "dovetail/geometry/discrete_frame.hpp"
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/node_positions.hpp"
-#include "dovetail/partition/recursive_bisection.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -23,12 +21,8 @@ struct inertial {
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts or
   /// a node has no position.
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    detail::require_partitionable(graph, parts);
-    detail::require_imbalance(imbalance);
-    detail::require_positions(graph, "inertial");
-    std::vector<local_id> part = recursive_bisection(graph, parts, across_principal_axis);
-    detail::finish_partition(graph, part, parts, imbalance, refinement_passes);
-    return part;
+    return detail::bisect_by_place(graph, parts, "inertial", across_principal_axis,
+                                   {imbalance, refinement_passes});
   }
 
 private:

@@ -4,6 +4,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/recursive_bisection.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -30,6 +32,24 @@ inline box3 box_of_positions(const csr_graph& graph) {
   for (const vec3& p : graph.positions)
     box.include(p);
   return box;
+}
+
+/// Parameters of `bisect_by_place`.
+struct place_options {
+  double imbalance; ///< heaviest part over average part
+  int refinement_passes;
+};
+
+/// The partitioner `who` that bisects by a rule about the positions.
+template <bisection_rule Bisect>
+std::vector<local_id> bisect_by_place(const csr_graph& graph, int parts, const char* who,
+                                      const Bisect& bisect, const place_options& options) {
+  require_partitionable(graph, parts);
+  require_imbalance(options.imbalance);
+  require_positions(graph, who);
+  std::vector<local_id> part = recursive_bisection(graph, parts, bisect);
+  finish_partition(graph, part, parts, options.imbalance, options.refinement_passes);
+  return part;
 }
 
 } // namespace dovetail::detail

@@ -2,14 +2,18 @@
 /// What partitioners have in common: part weights, the weight limit, filling empty parts.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -59,29 +63,38 @@ inline void require_partitionable(const csr_graph& graph, int parts) {
                             "; weights must be finite and not negative");
 }
 
-/// Gives every empty part one node: the heaviest one of the heaviest part with at least two nodes.
+/// Gives every empty part one node: the heaviest one (ties: the first) of the heaviest part with at least two
+/// nodes. About n log n.
 inline void fill_empty_parts(const csr_graph& graph, std::span<local_id> part, int parts) {
-  std::vector<local_id> counts(static_cast<std::size_t>(parts), 0);
-  for (const local_id p : part)
-    ++counts[static_cast<std::size_t>(p)];
-  auto weights = part_weights(graph, part, parts);
-  for (std::size_t empty = 0; empty < counts.size(); ++empty) {
-    if (counts[empty] > 0)
-      continue;
-    std::size_t donor = counts.size();
-    for (std::size_t p = 0; p < counts.size(); ++p)
-      if (counts[p] > 1 && (donor == counts.size() || weights[p] > weights[donor]))
-        donor = p;
-    std::size_t given = part.size();
+  const auto members = sorted_into_rows<local_id>(static_cast<std::size_t>(parts), [&](const auto& put) {
     for (std::size_t v = 0; v < part.size(); ++v)
-      if (static_cast<std::size_t>(part[v]) == donor &&
-          (given == part.size() || graph.node_weights[v] > graph.node_weights[given]))
-        given = v;
+      put(part[v], static_cast<local_id>(v));
+  });
+  std::vector<std::vector<local_id>> left(members.size()); // of donors: what they have, the lightest first
+  std::set<std::pair<double, std::size_t>> donors;         // negated weight, part
+  const auto weights = part_weights(graph, part, parts);
+  for (std::size_t p = 0; p < members.size(); ++p)
+    if (members[p].size() > 1)
+      donors.insert({-weights[p], p});
+  for (std::size_t empty = 0; empty < members.size(); ++empty) {
+    if (!members[empty].empty())
+      continue;
+    const auto [negated_weight, donor] = *donors.begin();
+    donors.erase(donors.begin());
+    if (left[donor].empty()) {
+      append(left[donor], members[donor]);
+      sort_all(left[donor], [&](local_id a, local_id b) {
+        const auto key = [&](local_id v) {
+          return std::pair(graph.node_weights[static_cast<std::size_t>(v)], -v);
+        };
+        return key(a) < key(b);
+      });
+    }
+    const auto given = static_cast<std::size_t>(left[donor].back());
+    left[donor].pop_back();
     part[given] = static_cast<local_id>(empty);
-    --counts[donor];
-    ++counts[empty];
-    weights[donor] -= graph.node_weights[given];
-    weights[empty] += graph.node_weights[given];
+    if (left[donor].size() > 1)
+      donors.insert({negated_weight + graph.node_weights[given], donor});
   }
 }
 

@@ -5,11 +5,13 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -33,31 +35,38 @@ concept bisection_rule = requires(const B& b, const csr_graph& g, int left, int 
 };
 
 /// Splits a graph into `parts` parts of about equal weight by repeated bisection. The rule's cost times about
-/// log2(parts), plus one pass over the nodes per part.
+/// log2(parts).
 template <bisection_rule Bisect>
 std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, const Bisect& bisect) {
   std::vector<local_id> part(static_cast<std::size_t>(graph.node_count()), 0);
   struct task {
-    local_id label;
+    subgraph piece; ///< of `graph`
+    local_id first_part;
     int parts;
   };
-  std::vector<task> tasks{{0, parts}};
+  std::vector<task> tasks;
+  tasks.push_back({{graph, {}}, 0, parts});
+  tasks.back().piece.nodes.resize(part.size());
+  std::iota(tasks.back().piece.nodes.begin(), tasks.back().piece.nodes.end(), 0);
   while (!tasks.empty()) {
-    const auto [label, wanted] = tasks.back();
+    const task whole = std::move(tasks.back());
     tasks.pop_back();
-    if (wanted < 2)
+    const auto& nodes = whole.piece.nodes;
+    for (const local_id v : nodes)
+      part[static_cast<std::size_t>(v)] = whole.first_part;
+    if (whole.parts < 2 || nodes.size() < 2)
       continue;
-    const subgraph piece = induced_subgraph(graph, part, label);
-    if (piece.nodes.size() < 2)
-      continue;
-    const int first = wanted / 2;
-    const auto half = bisect(piece.graph, first, wanted - first);
-    const local_id second_label = label + first;
-    for (std::size_t k = 0; k < half.size(); ++k)
-      if (half[k] == 1)
-        part[static_cast<std::size_t>(piece.nodes[k])] = second_label;
-    tasks.push_back({label, first});
-    tasks.push_back({second_label, wanted - first});
+    const std::array shares{whole.parts / 2, whole.parts - whole.parts / 2};
+    const std::vector<local_id> half = bisect(whole.piece.graph, shares[0], shares[1]);
+    local_id first_part = whole.first_part;
+    for (const local_id side : {0, 1}) {
+      task next{induced_subgraph(whole.piece.graph, half, side), first_part,
+                shares[static_cast<std::size_t>(side)]};
+      for (local_id& v : next.piece.nodes)
+        v = nodes[static_cast<std::size_t>(v)];
+      first_part += next.parts;
+      tasks.push_back(std::move(next));
+    }
   }
   return part;
 }

@@ -4,9 +4,7 @@
 #pragma once
 
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/node_positions.hpp"
-#include "dovetail/partition/recursive_bisection.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -21,12 +19,8 @@ struct recursive_coordinate {
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts or
   /// a node has no position.
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    detail::require_partitionable(graph, parts);
-    detail::require_imbalance(imbalance);
-    detail::require_positions(graph, "recursive_coordinate");
-    std::vector<local_id> part = recursive_bisection(graph, parts, across_longest_side);
-    detail::finish_partition(graph, part, parts, imbalance, refinement_passes);
-    return part;
+    return detail::bisect_by_place(graph, parts, "recursive_coordinate", across_longest_side,
+                                   {imbalance, refinement_passes});
   }
 
 private:

@@ -7,10 +7,10 @@
 /// Comput. Graph. Image Process. 14 (1980) 227-248, driven by a priority queue as in Dijkstra's algorithm).
 #pragma once
 
-#include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/octree.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/erased.hpp"
-#include "dovetail/sizing/octree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -100,7 +100,7 @@ private:
     sizing::checked_point(domain.upper, "the domain of the gradation");
     if (domain.empty() || !(domain.diagonal() > 0))
       throw sizing_error("the domain of the gradation is empty; give the model's box");
-    return sizing::cube_around(domain);
+    return cube_around(domain);
   }
 
   /// What the field may be as small as in a box: its bound, and samples at the centre.
@@ -213,8 +213,8 @@ private:
       if (value > values_[from])
         continue;
       const origin& o = origins_[origin_of_[from]];
-      for (std::size_t k = leaves_of.begins[from]; k < leaves_of.begins[from + 1]; ++k)
-        for (const std::uint32_t to : corners_[leaves_of.leaves[k]]) {
+      for (const std::uint32_t leaf : leaves_of[from])
+        for (const std::uint32_t to : corners_[leaf]) {
           const double candidate = value_from(o, points_[to]);
           if (candidate < values_[to]) {
             values_[to] = candidate;
@@ -225,24 +225,12 @@ private:
     }
   }
 
-  struct corner_leaves {
-    std::vector<std::size_t> begins;
-    std::vector<std::uint32_t> leaves;
-  };
-  corner_leaves leaves_around_corners() const {
-    corner_leaves result;
-    result.begins.assign(points_.size() + 1, 0);
-    for (const auto& leaf : corners_)
-      for (const std::uint32_t corner : leaf)
-        ++result.begins[corner + 1];
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      result.begins[i + 1] += result.begins[i];
-    result.leaves.resize(result.begins.back());
-    auto next = result.begins;
-    for (std::uint32_t leaf = 0; leaf < corners_.size(); ++leaf)
-      for (const std::uint32_t corner : corners_[leaf])
-        result.leaves[next[corner]++] = leaf;
-    return result;
+  compressed_rows<std::uint32_t> leaves_around_corners() const {
+    return sorted_into_rows<std::uint32_t>(points_.size(), [&](const auto& put) {
+      for (std::uint32_t leaf = 0; leaf < corners_.size(); ++leaf)
+        for (const std::uint32_t corner : corners_[leaf])
+          put(corner, leaf);
+    });
   }
 
   /// Leaves whose error estimate is above the one asked for; also sets `error_` and `smallest_`.
@@ -333,7 +321,7 @@ private:
   }
 
   gradation_options options_;
-  sizing::octree tree_;
+  octree tree_;
   std::vector<corner_ids>
       corners_;                ///< per leaf, corner k at the upper end of x, y, z where bits 0, 1, 2 are set
   std::vector<double> values_; ///< per corner

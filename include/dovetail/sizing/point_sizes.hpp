@@ -2,11 +2,10 @@
 /// A field from sizes at many points: cones of limited growth around each.
 #pragma once
 
-#include "dovetail/core/median_tree.hpp"
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -55,67 +54,48 @@ private:
   class tree {
   public:
     tree(std::vector<sized_point> points, double growth)
-        : points_(std::move(points)), nodes_(build_median_tree<node>(points_, leaf_size, point_of)),
-          growth_(growth) {}
+        : points_(std::move(points)),
+          tree_(boxes_of_points(points_, [](const sized_point& p) { return p.point; }), leaf_size),
+          growth_(growth) {
+      tree_.put_in_order(points_);
+      sizes_ = tree_.reduce<double>([this](local_id k) { return at(k).size; },
+                                    [](double a, double b) { return std::min(a, b); });
+    }
 
     const std::vector<sized_point>& points() const { return points_; }
-    double value(vec3 p, double bound) const { return nodes_.empty() ? bound : visit(0, box3{p, p}, bound); }
+    double value(vec3 p, double bound) const { return least_in({p, p}, bound); }
     double least_in(const box3& box, double bound) const {
-      return nodes_.empty() ? bound : visit(0, box, bound);
+      return tree_.least(
+          bound, [&](std::size_t id) { return least_from(id, box); },
+          [&](local_id k) {
+            return at(k).size + growth_ * distance({at(k).point, at(k).point}, box);
+          });
     }
     /// Whether a smaller point's cone lies below this one's everywhere.
-    bool is_covered(const sized_point& p) const { return covered(0, p); }
+    bool is_covered(const sized_point& p) const {
+      bool covered = false;
+      tree_.for_each(
+          [&](const box3&, std::size_t id) {
+            return !covered && sizes_[id] < p.size && least_from(id, {p.point, p.point}) <= p.size;
+          },
+          [&](local_id k) {
+            covered = covered || (at(k).size < p.size &&
+                                  at(k).size + growth_ * distance(at(k).point, p.point) <= p.size);
+          });
+      return covered;
+    }
 
   private:
-    struct node : median_node {
-      double size = std::numeric_limits<double>::infinity(); ///< smallest below
-
-      void include(const sized_point& p) { size = std::min(size, p.size); }
-    };
     static constexpr std::size_t leaf_size = 6;
-    static constexpr auto point_of = [](const sized_point& p) { return p.point; };
 
-    static double gap(const box3& a, const box3& b) {
-      double squared = 0;
-      for (int k = 0; k < 3; ++k) {
-        const double out = std::max({a.lower[k] - b.upper[k], 0.0, b.lower[k] - a.upper[k]});
-        squared += out * out;
-      }
-      return std::sqrt(squared);
-    }
-    double least_from(const node& n, const box3& box) const { return n.size + growth_ * gap(n.box, box); }
-
-    double visit(std::size_t id, const box3& box, double bound) const {
-      const node& n = nodes_[id];
-      if (least_from(n, box) >= bound)
-        return bound;
-      if (n.is_leaf()) {
-        for (std::size_t i = n.first; i < n.last; ++i)
-          bound = std::min(bound, points_[i].size + growth_ * gap({points_[i].point, points_[i].point}, box));
-        return bound;
-      }
-      std::size_t near = id + 1;
-      std::size_t far = n.right;
-      if (least_from(nodes_[far], box) < least_from(nodes_[near], box))
-        std::swap(near, far);
-      return visit(far, box, visit(near, box, bound));
-    }
-
-    bool covered(std::size_t id, const sized_point& p) const {
-      const node& n = nodes_[id];
-      if (n.size >= p.size || least_from(n, {p.point, p.point}) > p.size)
-        return false;
-      if (!n.is_leaf())
-        return covered(id + 1, p) || covered(n.right, p);
-      for (std::size_t i = n.first; i < n.last; ++i)
-        if (points_[i].size < p.size &&
-            points_[i].size + growth_ * distance(points_[i].point, p.point) <= p.size)
-          return true;
-      return false;
+    const sized_point& at(local_id k) const { return points_[static_cast<std::size_t>(k)]; }
+    double least_from(std::size_t id, const box3& box) const {
+      return sizes_[id] + growth_ * distance(tree_.box(id), box);
     }
 
     std::vector<sized_point> points_;
-    std::vector<node> nodes_;
+    box_tree tree_;
+    std::vector<double> sizes_; ///< per node: the smallest below
     double growth_;
   };
 

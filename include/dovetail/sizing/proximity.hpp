@@ -2,7 +2,7 @@
 /// Sizes from how near faces are to each other: so many elements across a wall or a gap.
 #pragma once
 
-#include "dovetail/core/median_tree.hpp"
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/sizing/curvature.hpp"
 
 #include <algorithm>
@@ -26,7 +26,10 @@ namespace sizing {
 class facing_search {
 public:
   explicit facing_search(std::vector<surface_sample> samples)
-      : samples_(std::move(samples)), nodes_(build_median_tree<node>(samples_, leaf_size, point_of)) {}
+      : samples_(std::move(samples)),
+        tree_(boxes_of_points(samples_, [](const surface_sample& s) { return s.point; }), leaf_size) {
+    tree_.put_in_order(samples_);
+  }
 
   const std::vector<surface_sample>& samples() const { return samples_; }
 
@@ -34,15 +37,16 @@ public:
   /// `reach`, that looks back; `slack` is the distance between samples. Null when there is none.
   const surface_sample* find(const surface_sample& from, vec3 direction, double reach, double slack) const {
     query q{from, direction, reach, slack, nullptr};
-    if (!samples_.empty())
-      visit(0, q);
+    const auto height_of = [&](std::size_t id) {
+      return dot(tree_.box(id).center() - from.point, direction);
+    };
+    tree_.search([&](std::size_t id) { return may_hold(tree_.box(id), q); },
+                 [&](local_id k) { consider(samples_[static_cast<std::size_t>(k)], q); },
+                 [&](std::size_t a, std::size_t b) { return height_of(a) < height_of(b); });
     return q.best;
   }
 
 private:
-  struct node : median_node {
-    void include(const surface_sample&) {}
-  };
   struct query {
     const surface_sample& from;
     vec3 direction;
@@ -51,7 +55,6 @@ private:
     const surface_sample* best;
   };
   static constexpr std::size_t leaf_size = 8;
-  static constexpr auto point_of = [](const surface_sample& s) { return s.point; };
   static constexpr double looks_back =
       -0.8; ///< largest cosine between the two normals; across an edge they differ by less
   static constexpr double aside = 0.5; ///< largest offset along the plane per height
@@ -71,26 +74,6 @@ private:
     return off <= std::max(aside * highest, q.slack);
   }
 
-  void visit(std::size_t id, query& q) const {
-    const node& n = nodes_[id];
-    if (!may_hold(n.box, q))
-      return;
-    if (n.is_leaf()) {
-      for (std::size_t i = n.first; i < n.last; ++i)
-        consider(samples_[i], q);
-      return;
-    }
-    const auto height = [&](std::size_t child) {
-      return dot(nodes_[child].box.center() - q.from.point, q.direction);
-    };
-    std::size_t low = id + 1;
-    std::size_t high = n.right;
-    if (height(high) < height(low))
-      std::swap(low, high);
-    visit(low, q);
-    visit(high, q);
-  }
-
   static void consider(const surface_sample& s, query& q) {
     const vec3 away = s.point - q.from.point;
     const double along = dot(away, q.direction);
@@ -103,7 +86,7 @@ private:
   }
 
   std::vector<surface_sample> samples_;
-  std::vector<node> nodes_;
+  box_tree tree_;
 };
 
 /// The distance from a sample to the face that another one is on, near that one.

@@ -3,15 +3,13 @@
 /// growth away from both.
 #pragma once
 
-#include "dovetail/core/median_tree.hpp"
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -28,55 +26,44 @@ struct size_ball {
 class graded_balls {
 public:
   graded_balls(std::vector<size_ball> balls, double growth)
-      : balls_(std::move(balls)), nodes_(build_median_tree<node>(balls_, leaf_size, center_of)),
-        growth_(growth) {}
+      : balls_(std::move(balls)),
+        tree_(boxes_of_points(balls_, [](const size_ball& ball) { return ball.center; }), leaf_size),
+        growth_(growth) {
+    tree_.put_in_order(balls_);
+    nodes_ = tree_.reduce<node>([this](local_id k) { return of_ball(k); },
+                                [](const node& a, const node& b) {
+                                  return node{std::min(a.size, b.size), std::max(a.radius, b.radius)};
+                                });
+  }
 
   std::size_t size() const { return balls_.size(); }
 
   /// The smaller of `bound` and the field at p.
-  double operator()(vec3 p, double bound) const { return nodes_.empty() ? bound : visit(0, p, bound); }
+  double operator()(vec3 p, double bound) const {
+    const auto lower_bound = [&](std::size_t id) {
+      const double gap = std::sqrt(distance_squared(tree_.box(id), p));
+      return nodes_[id].size + growth_ * std::max(0.0, gap - nodes_[id].radius);
+    };
+    return tree_.least(bound, lower_bound, [&](local_id k) {
+      const size_ball& ball = balls_[static_cast<std::size_t>(k)];
+      return ball.size + growth_ * std::max(0.0, distance(p, ball.center) - ball.radius);
+    });
+  }
 
 private:
-  struct node : median_node {
-    double size = std::numeric_limits<double>::infinity(); ///< smallest below
-    double radius = 0;                                     ///< largest below
-
-    void include(const size_ball& ball) {
-      size = std::min(size, ball.size);
-      radius = std::max(radius, ball.radius);
-    }
+  struct node {
+    double size = 0;   ///< smallest below
+    double radius = 0; ///< largest below
   };
   static constexpr std::size_t leaf_size = 8;
 
-  static constexpr auto center_of = [](const size_ball& ball) { return ball.center; };
-
-  double lower_bound(const node& n, vec3 p) const {
-    double squared = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double out = std::max({n.box.lower[k] - p[k], 0.0, p[k] - n.box.upper[k]});
-      squared += out * out;
-    }
-    return n.size + growth_ * std::max(0.0, std::sqrt(squared) - n.radius);
-  }
-
-  double visit(std::size_t id, vec3 p, double bound) const {
-    const node& n = nodes_[id];
-    if (lower_bound(n, p) >= bound)
-      return bound;
-    if (n.is_leaf()) {
-      for (std::size_t i = n.first; i < n.last; ++i) {
-        const size_ball& ball = balls_[i];
-        bound = std::min(bound, ball.size + growth_ * std::max(0.0, distance(p, ball.center) - ball.radius));
-      }
-      return bound;
-    }
-    std::size_t near = id + 1, far = n.right;
-    if (lower_bound(nodes_[far], p) < lower_bound(nodes_[near], p))
-      std::swap(near, far);
-    return visit(far, p, visit(near, p, bound));
+  node of_ball(local_id k) const {
+    const size_ball& ball = balls_[static_cast<std::size_t>(k)];
+    return {ball.size, ball.radius};
   }
 
   std::vector<size_ball> balls_;
+  box_tree tree_;
   std::vector<node> nodes_;
   double growth_;
 };

@@ -43,15 +43,6 @@ private:
   std::uint64_t state_ = 1;
 };
 
-/// Octant k of a cube: the upper half of x, y, z where bits 0, 1, 2 are set.
-inline box3 octant_of(const box3& box, unsigned k) {
-  box3 part = box;
-  const vec3 center = box.center();
-  for (int axis = 0; axis < 3; ++axis)
-    ((k >> axis & 1U) != 0 ? part.lower : part.upper)[axis] = center[axis];
-  return part;
-}
-
 /// Integrates h^-3 over the part of a cell that is inside: one sample per octant, at random in it for a cut
 /// cell.
 template <sizing_field H>
@@ -67,7 +58,7 @@ void integrate(volume_cell& cell, const inside_surface& inside, const H& h, samp
   double squares = 0;
   int hits = 0;
   for (unsigned k = 0; k < 8; ++k) {
-    const box3 part = octant_of(cell.box, k);
+    const box3 part = octant(cell.box, k);
     const vec3 t = cut ? vec3{random.next(), random.next(), random.next()} : vec3{0.5, 0.5, 0.5};
     const vec3 p = part.lower + 0.5 * vec3{t.x * extent.x, t.y * extent.y, t.z * extent.z};
     const double size = h(p);
@@ -103,7 +94,7 @@ template <sizing_field H>
 void append_children(const volume_cell& parent, const inside_surface& inside, const H& h,
                      sample_sequence& random, double largest_unsampled, std::vector<volume_cell>& to) {
   for (unsigned k = 0; k < 8; ++k) {
-    volume_cell child{octant_of(parent.box, k)};
+    volume_cell child{octant(parent.box, k)};
     for (const local_id t : parent.triangles)
       if (inside.may_meet(t, child.box))
         child.triangles.push_back(t);

@@ -6,6 +6,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/task_model.hpp"
+#include "dovetail/remesh/chords.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
@@ -169,20 +170,9 @@ private:
 
   void collect_chords(std::size_t p,
                       std::vector<std::pair<std::array<local_id, 2>, std::size_t>>& chords) const {
-    const patch_boundary& boundary = patches_[p].boundary;
-    const auto frozen = static_cast<local_id>(boundary.labels.size());
-    std::set<std::array<local_id, 2>> own;
-    for (const auto& [a, b] : boundary.segments)
-      own.insert(sorted_vertices(std::array{boundary.labels[at(a)], boundary.labels[at(b)]}));
-    for (const simplex<2>& t : cache_.patches.at(keys_[p]).triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const local_id a = t[i], b = t[(i + 1) % 3];
-        if (a >= frozen || b >= frozen)
-          continue;
-        const auto edge = sorted_vertices(std::array{boundary.labels[at(a)], boundary.labels[at(b)]});
-        if (edge[0] != edge[1] && !own.contains(edge))
-          chords.emplace_back(edge, p);
-      }
+    chord_finder(patches_[p].boundary)
+        .for_each(cache_.patches.at(keys_[p]).triangles,
+                  [&](std::size_t, const std::array<local_id, 2>& chord) { chords.emplace_back(chord, p); });
   }
 
   remeshed_skeleton assemble() {

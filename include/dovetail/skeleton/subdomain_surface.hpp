@@ -12,33 +12,6 @@
 
 namespace dovetail {
 
-/// Which sides of the fine skeleton bound which subdomain. A side with one subdomain on both of its sides is
-/// listed twice in a row.
-struct sides_of_subdomains {
-  std::vector<std::size_t> begins{0};
-  std::vector<local_id> sides; ///< growing within a subdomain
-};
-
-/// Sorts the skeleton's sides by subdomain; linear.
-template <int D>
-sides_of_subdomains sort_by_subdomain(const simplicial_skeleton<D>& skeleton, std::size_t subdomains) {
-  sides_of_subdomains sorted;
-  sorted.begins.assign(subdomains + 1, 0);
-  const auto for_each_owner = [&](const auto& visit) {
-    for (std::size_t t = 0; t < skeleton.subdomains.size(); ++t)
-      for (const local_id s : skeleton.subdomains[t])
-        if (s != no_id)
-          visit(static_cast<std::size_t>(s), static_cast<local_id>(t));
-  };
-  for_each_owner([&](std::size_t s, local_id) { ++sorted.begins[s + 1]; });
-  for (std::size_t s = 0; s < subdomains; ++s)
-    sorted.begins[s + 1] += sorted.begins[s];
-  sorted.sides.resize(sorted.begins.back());
-  auto next = sorted.begins;
-  for_each_owner([&](std::size_t s, local_id t) { sorted.sides[next[s]++] = t; });
-  return sorted;
-}
-
 /// The closed boundary of one subdomain on points of its own, oriented outwards.
 template <int D>
 struct subdomain_sides {
@@ -50,12 +23,12 @@ struct subdomain_sides {
 template <int D>
 subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
                                          const sides_of_subdomains& sorted, local_id subdomain) {
-  const auto s = static_cast<std::size_t>(subdomain);
+  const auto sides = sorted[subdomain];
   subdomain_sides<D> made;
-  for (std::size_t k = sorted.begins[s]; k < sorted.begins[s + 1]; ++k) {
-    const auto t = static_cast<std::size_t>(sorted.sides[k]);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const auto t = static_cast<std::size_t>(sides[k]);
     simplex<D - 1> side = sides_of(skeleton)[t];
-    const bool second_passage = k > sorted.begins[s] && sorted.sides[k - 1] == sorted.sides[k];
+    const bool second_passage = k > 0 && sides[k - 1] == sides[k];
     if (skeleton.subdomains[t][0] != subdomain || second_passage)
       std::swap(side[D - 2], side[D - 1]);
     made.boundary.elements.push_back(side);

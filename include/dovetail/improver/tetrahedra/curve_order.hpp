@@ -4,6 +4,7 @@
 /// memory as rarely in a large mesh as in a small one.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -28,17 +29,12 @@ struct placed_point {
 /// Stable; by counting, digit after digit. O(points).
 inline void sort_by_place(std::vector<placed_point>& points) {
   constexpr unsigned digit_bits = 12, mask = (1U << digit_bits) - 1;
-  std::vector<placed_point> sorted(points.size());
-  std::vector<std::uint32_t> begins(mask + 2);
   for (unsigned shift = 0; shift < 3 * curve_levels; shift += digit_bits) {
-    std::fill(begins.begin(), begins.end(), 0U);
-    for (const auto& p : points)
-      ++begins[(p.place >> shift & mask) + 1];
-    for (std::size_t digit = 0; digit < mask; ++digit)
-      begins[digit + 1] += begins[digit];
-    for (const auto& p : points)
-      sorted[begins[p.place >> shift & mask]++] = p;
-    points.swap(sorted);
+    auto sorted = sorted_into_rows<placed_point>(mask + 1, [&](const auto& put) {
+      for (const auto& p : points)
+        put(p.place >> shift & mask, p);
+    });
+    points = std::move(sorted.items);
   }
 }
 
@@ -71,21 +67,19 @@ inline void rename_and_sort(simplicial_mesh<3>& mesh, const std::vector<local_id
   const auto first_of = [](const simplex<3>& v) {
     return static_cast<std::size_t>(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])));
   };
-  std::vector<std::uint32_t> begins(names.size() + 1, 0);
-  for (auto& element : mesh.elements) {
+  for (auto& element : mesh.elements)
     for (auto& v : element)
       v = names[static_cast<std::size_t>(v)];
-    ++begins[first_of(element) + 1];
-  }
-  for (std::size_t v = 0; v + 1 < begins.size(); ++v)
-    begins[v + 1] += begins[v];
-  std::vector<simplex<3>> elements(mesh.elements.size());
-  std::vector<local_id> tags(mesh.tags.size());
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const std::uint32_t to = begins[first_of(mesh.elements[e])]++;
-    elements[to] = mesh.elements[e];
-    if (!tags.empty())
-      tags[to] = mesh.tags[e];
+  const auto sorted = sorted_into_rows<std::uint32_t>(names.size(), [&](const auto& put) {
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      put(first_of(mesh.elements[e]), static_cast<std::uint32_t>(e));
+  });
+  std::vector<simplex<3>> elements;
+  std::vector<local_id> tags;
+  for (const std::uint32_t e : sorted.items) {
+    elements.push_back(mesh.elements[e]);
+    if (!mesh.tags.empty())
+      tags.push_back(mesh.tags[e]);
   }
   mesh.elements = std::move(elements);
   mesh.tags = std::move(tags);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace dovetail::sizing {
+namespace dovetail {
 
 /// The cube around a box, a little larger so that nothing lies on its faces.
 inline box3 cube_around(const box3& box) {
@@ -28,15 +28,21 @@ public:
   static constexpr int largest_depth = 20;
   using key = std::array<std::uint32_t, 3>;
 
-  explicit octree(const box3& cube) : cube_(cube) {
+  octree() : octree(box3{{0, 0, 0}, {1, 1, 1}}) {}
+  explicit octree(const box3& cube)
+      : cube_(cube), unit_((cube.upper.x - cube.lower.x) / static_cast<double>(1U << largest_depth)) {
     nodes_.push_back({});
     leaves_.push_back(0);
   }
 
   const box3& bounds() const { return cube_; }
+  std::size_t node_count() const { return nodes_.size(); }
   std::size_t leaf_count() const { return leaves_.size(); }
   std::size_t leaf(std::size_t index) const { return leaves_[index]; }
   std::size_t leaf_index(std::size_t leaf) const { return nodes_[leaf].link; }
+
+  /// Child k of an inner node.
+  std::size_t child(std::size_t node, std::size_t k) const { return nodes_[node].link + k; }
 
   /// The leaf that contains p, which must lie in `bounds()`.
   std::size_t locate(vec3 p) const {
@@ -60,9 +66,8 @@ public:
     return {n.lower[0] + (k & 1U) * width, n.lower[1] + (k >> 1 & 1U) * width, n.lower[2] + (k >> 2) * width};
   }
   vec3 corner_point(const key& at) const {
-    const double unit = (cube_.upper.x - cube_.lower.x) / static_cast<double>(1U << largest_depth);
     return cube_.lower +
-           unit * vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+           unit_ * vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
   /// Makes a leaf an inner node; nothing happens at the largest depth.
@@ -100,7 +105,7 @@ public:
           continue;
         split(leaf);
         for (std::size_t k = 0; k < 8; ++k)
-          next.push_back(nodes_[leaf].link + k);
+          next.push_back(child(leaf, k));
       }
       level.swap(next);
     }
@@ -120,7 +125,7 @@ public:
         visit(at);
       else
         for (std::size_t k = 0; k < 8; ++k)
-          pending[depth++] = nodes_[at].link + k;
+          pending[depth++] = child(at, k);
     }
   }
 
@@ -139,8 +144,9 @@ private:
   }
 
   box3 cube_;
+  double unit_; ///< the width of the smallest possible leaf
   std::vector<node_data> nodes_;
   std::vector<std::size_t> leaves_;
 };
 
-} // namespace dovetail::sizing
+} // namespace dovetail
