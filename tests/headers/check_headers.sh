@@ -13,13 +13,13 @@ shift 3
 
 failed=0
 unit=alone_${folder//./umbrella}
-trap 'rm -f "$unit".cpp' EXIT
+trap 'rm -f "$unit".cpp "$unit".o' EXIT
 for path in "$include_directory/dovetail/$folder"/*.hpp; do
   [[ -f $path ]] || continue
   header=${path#"$include_directory"/}
   printf '#include "%s"\n#include "%s"\n' "$header" "$header" >"$unit.cpp"
-  messages=$("$@" "${flags[@]}" -DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT -fsyntax-only "$unit.cpp" 2>&1 &&
-    { [[ ! -f ${path%.hpp}.ipp ]] || "$@" "${flags[@]}" -fsyntax-only "$unit.cpp" 2>&1; }) && continue
+  messages=$("$@" "${flags[@]}" -DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT -c "$unit.cpp" -o "$unit.o" 2>&1 &&
+    { [[ ! -f ${path%.hpp}.ipp ]] || "$@" "${flags[@]}" -c "$unit.cpp" -o "$unit.o" 2>&1; }) && continue
   if [[ -n ${DOVETAIL_ALLOW_MISSING_LIBRARIES:-} ]] &&
     grep -E "fatal error: .*([Nn]o such file|file not found)" <<<"$messages" | grep -qv "fatal error: '\?dovetail/"; then
     echo "$header: passed over, a library is missing"
