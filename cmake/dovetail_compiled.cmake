@@ -35,8 +35,8 @@ file(GLOB definitions CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/
   "${PROJECT_SOURCE_DIR}/include/dovetail/*/*.ipp")
 list(SORT definitions)
 set(of_occt ${definitions})
-list(FILTER of_occt INCLUDE REGEX "/occt_")
-list(FILTER definitions EXCLUDE REGEX "/occt_")
+list(FILTER of_occt INCLUDE REGEX "/(occt|builtin_models)")
+list(FILTER definitions EXCLUDE REGEX "/(occt|builtin_models)")
 
 dovetail_compiled_library(compiled LINKS dovetail DEFINITION DOVETAIL_COMPILED FILES ${definitions})
 if(TARGET dovetail_occt AND of_occt)

@@ -1,4 +1,5 @@
 #include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_triangulation.hpp"
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"

@@ -1,6 +1,9 @@
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/occt_repair.hpp"
+#include "dovetail/geometry/occt_xcaf.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepTools.hxx>
 #include <IGESControl_Writer.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <doctest/doctest.h>

@@ -1,9 +1,11 @@
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_triangulation.hpp"
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>

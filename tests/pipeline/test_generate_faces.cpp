@@ -1,6 +1,7 @@
 #include "plane_meshes.hpp"
 
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/occt_shape.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>

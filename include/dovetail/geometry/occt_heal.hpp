@@ -5,6 +5,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/occt_imprint.hpp"
 #include "dovetail/geometry/occt_open_shells.hpp"
+#include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
@@ -14,9 +15,6 @@
 #include <utility>
 
 namespace dovetail::occt {
-
-/// What of a shape is wanted: its solids, or all of its faces, whether they enclose solids or not.
-enum class wanted { solids, faces };
 
 /// Whether the faces of a solid point inwards, so that it is all of space but its inside.
 inline bool is_inside_out(const TopoDS_Solid& solid) {

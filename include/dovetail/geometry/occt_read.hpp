@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -120,16 +119,3 @@ inline attributed_shape read_shape(const std::filesystem::path& path, length_uni
 }
 
 } // namespace dovetail::occt
-
-namespace dovetail {
-
-/// Whether a file looks like STEP, IGES or BREP by its first lines; false when it cannot be opened.
-inline bool is_occt_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string head(4096, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
-  return occt::format_of_content(head) != occt::file_format::unknown;
-}
-
-} // namespace dovetail

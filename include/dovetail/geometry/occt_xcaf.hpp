@@ -2,6 +2,7 @@
 /// STEP and IGES through OCCT's extended data exchange (XCAF), which keeps names, colours and layers.
 #pragma once
 
+#include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 
 #include <BRep_Builder.hxx>
@@ -39,12 +40,6 @@
 #include <vector>
 
 namespace dovetail::occt {
-
-/// The unit in which coordinates of STEP and IGES files are given to the caller.
-enum class length_unit {
-  millimetre, ///< what CAD kernels use inside, and most viewers and meshers report
-  file        ///< the unit the file was written in
-};
 
 /// The name OCCT's readers use for a unit name found in a file, or null when it is unknown.
 inline const char* interface_unit(std::string name) {
