@@ -185,6 +185,8 @@ TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
   require_valid(result);
   CHECK(result.mesh.counts.size() < 6);
   CHECK(result.summary.children.back().get("merged_after_failure") >= 1);
+  // All but the piece that came of the last merge are found under their keys.
+  CHECK(result.summary.children.back().get("reused") == static_cast<double>(result.mesh.counts.size()) - 1);
   CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
 }
 
