@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <vector>
 
@@ -49,10 +50,13 @@ std::string values_of_field(const any_sizing& size, const box3& box) {
 
 run_identity identity_of_run(const mesh_options& options, const model_source& source) {
   run_identity identity{{"model", source.name}};
+  identity.emplace_back("build", content_of_file("/proc/self/exe"));
   if (!options.model.input.empty()) {
     identity.emplace_back("file", content_of_file(options.model.input));
     identity.emplace_back("unit", options.model.unit);
   }
+  if (std::filesystem::is_regular_file(options.model.sizing)) // not a pipe, which is read already
+    identity.emplace_back("sizing", content_of_file(options.model.sizing));
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");
