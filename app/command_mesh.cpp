@@ -160,9 +160,9 @@ private:
     if (!options_.force)
       parameters_.largest_prediction = elements_with_room(formats_, folder);
     try {
-      return generate_from_background<D>(
-          source.geometry, make_background_mesh(source.geometry, source.size, policies_, parameters_),
-          composed(policies_, parameters_));
+      return generate_mesh_from<D>(
+          make_background_mesh<D>(source.geometry, source.size, policies_, parameters_), source.geometry,
+          policies_, parameters_);
     } catch (const too_many_elements& problem) {
       throw io_error(folder.string() + ": the sizes predict about " + count_text(problem.predicted) +
                      " elements, and the disk has room for about " +

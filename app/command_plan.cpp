@@ -42,7 +42,7 @@ int plan_run(const plan_options& options) {
   lines.update("geometry", 0, 0);
   const model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
-  const mesh_plan plan = plan_background<D>(source.geometry, source.size, composed(policies, parameters));
+  const mesh_plan plan = plan_generation<D>(source.geometry, source.size, policies, parameters);
   lines.finish();
 
   plan_figures figures;

@@ -115,7 +115,7 @@ typename background_store<D>::entry background_store<D>::get(const model_source&
   const bool reused = made_.contains(mesher);
   if (!reused) {
     try {
-      made_[mesher] = make_background_mesh(source.geometry, source.size, policies, options);
+      made_[mesher] = make_background_mesh<D>(source.geometry, source.size, policies, options);
     } catch (const cancelled&) {
       throw;
     } catch (const error&) {
@@ -137,7 +137,7 @@ comparison_row run_combination(const model_source& source, const combination& po
   try {
     const auto [background, reused] = backgrounds.get(source, chosen, options);
     row.background_reused = reused;
-    const auto result = generate_from_background<D>(source.geometry, background, composed(chosen, options));
+    const auto result = generate_mesh_from<D>(background, source.geometry, chosen, options);
     if (!result.failures.empty()) {
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +
@@ -166,8 +166,7 @@ any_sizing size_for_elements(const model_source& source, double elements, const 
   for (int step = 0; step < 2; ++step) {
     const any_sizing size = keep_bounds(scaled<any_sizing>(source.size, factor));
     factor *= std::pow(
-        plan_background<D>(source.geometry, size, composed(policies, options)).predicted_elements / elements,
-        1.0 / D);
+        plan_generation<D>(source.geometry, size, policies, options).predicted_elements / elements, 1.0 / D);
   }
   return keep_bounds(scaled<any_sizing>(source.size, factor));
 }

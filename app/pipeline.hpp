@@ -4,7 +4,6 @@
 
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/pipeline/generate.hpp"
-#include "dovetail/pipeline/whole_background.hpp"
 
 namespace dovetail::app {
 
@@ -19,21 +18,18 @@ struct policies_of {
   any_simplification_rule simplifier = simplifier::paper{};
 };
 
-/// The library's parameters with these policies.
-template <int D>
-any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
-  return {policies.mesher, policies.partitioner, policies.improver, policies.executor,
-          options,         policies.simplifier};
-}
-
-/// The background mesh, which depends on neither partitioner nor improver nor simplification.
+/// The two halves of `generate`: the background mesh, which depends on neither partitioner nor improver nor
+/// simplification, and the rest.
 template <int D>
 background_result<D> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
-                                          const policies_of<D>& policies, const generate_options& options) {
-  if constexpr (D == 3)
-    if (policies.background_mesher)
-      return make_background_by(policies.background_mesher, geometry, size, composed(policies, options));
-  return make_background<D>(geometry, size, composed(policies, options));
-}
+                                          const policies_of<D>& policies, const generate_options& options);
+template <int D>
+generated<D> generate_mesh_from(const background_result<D>& background, const any_geometry& geometry,
+                                const policies_of<D>& policies, const generate_options& options);
+
+/// What would be planned, without making anything but a first surface.
+template <int D>
+mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
+                          const policies_of<D>& policies, const generate_options& options);
 
 } // namespace dovetail::app

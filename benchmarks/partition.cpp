@@ -14,6 +14,8 @@
 #include "dovetail/partition/spectral.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "timed_partitioner.hpp"

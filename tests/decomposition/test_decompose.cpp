@@ -1,3 +1,5 @@
+#include "dovetail/decomposition/apportion.hpp"
+#include "dovetail/decomposition/connectivity.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"

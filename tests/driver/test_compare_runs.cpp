@@ -1,7 +1,6 @@
 #include "compare_runs.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
-#include "surface_policies.hpp"
 
 #include "concepts/archetypes.hpp"
 
@@ -21,8 +20,9 @@ namespace {
 int backgrounds_made = 0;
 } // namespace
 
+template <>
 background_result<3> make_background_mesh(const any_geometry&, const any_sizing&,
-                                          const chosen_policies& policies, const generate_options&) {
+                                          const policies_of<3>& policies, const generate_options&) {
   ++backgrounds_made;
   if (policies.mesher.name() == "without background")
     throw geometry_error("no surface");
@@ -31,8 +31,9 @@ background_result<3> make_background_mesh(const any_geometry&, const any_sizing&
   return made;
 }
 
+template <>
 generate_result generate_mesh_from(const background_result<3>& background, const any_geometry&,
-                                   const chosen_policies& policies, const generate_options& options) {
+                                   const policies_of<3>& policies, const generate_options& options) {
   const std::string& name = policies.partitioner.name();
   if (name == "failing")
     throw partition_error("part 2 is empty");
@@ -59,7 +60,8 @@ generate_result generate_mesh_from(const background_result<3>& background, const
   return result;
 }
 
-mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const chosen_policies&,
+template <>
+mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const policies_of<3>&,
                           const generate_options&) {
   mesh_plan plan;
   plan.predicted_elements = 500 / std::pow(size({}), 3);
@@ -67,18 +69,21 @@ mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const cho
 }
 
 /// Of dimension 2 there is only a plan.
-mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const chosen_surface_policies&,
+template <>
+mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const policies_of<2>&,
                           const generate_options&) {
   mesh_plan plan;
   plan.predicted_elements = 500 / std::pow(size({}), 2);
   return plan;
 }
-background_result<2> make_background_mesh(const any_geometry&, const any_sizing&,
-                                          const chosen_surface_policies&, const generate_options&) {
+template <>
+background_result<2> make_background_mesh(const any_geometry&, const any_sizing&, const policies_of<2>&,
+                                          const generate_options&) {
   return {};
 }
-generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&,
-                                const chosen_surface_policies&, const generate_options&) {
+template <>
+generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&, const policies_of<2>&,
+                                const generate_options&) {
   generated<2> result;
   result.coarse_contract.interface_faces = 7;
   result.coarse_contract.surface_wedge.angle_deg = 51;
@@ -88,10 +93,12 @@ generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&
 std::vector<std::string> partitioner_names() {
   return {"first", "second"};
 }
-std::vector<std::string> mesher_names() {
+template <>
+std::vector<std::string> mesher_names<3>() {
   return {"only"};
 }
-std::vector<std::string> surface_mesher_names() {
+template <>
+std::vector<std::string> mesher_names<2>() {
   return {"flat"};
 }
 std::vector<std::string> improver_names() {
@@ -120,12 +127,26 @@ model_source model() {
   return {"nowhere", any_geometry(nowhere{}), [](vec3) { return 0.5; }, {}};
 }
 
-chosen_policies policies_named(const combination& names) {
-  return {any_mesher(names.mesher, archetype::mesher(0)),
-          any_partitioner(names.partitioner, archetype::partitioner(0)),
-          any_improver(names.improver, [](simplicial_mesh<3>&, const frozen_entities<3>&,
-                                          const any_sizing&) { return report{}; }),
-          any_executor("serial", parallel::serial{})};
+/// Does nothing, to either kind of elements.
+struct idle_improver {
+  template <int D>
+  report operator()(simplicial_mesh<D>&, const frozen_entities<D>&, const any_sizing&) const {
+    return {};
+  }
+};
+
+template <int D, class Mesher>
+policies_of<D> policies_with(const Mesher& mesher, const combination& names) {
+  return {any_mesher<D>(mesher, names.mesher),
+          any_partitioner(archetype::partitioner(0), names.partitioner),
+          any_improver<D>(idle_improver{}, names.improver),
+          any_executor(parallel::serial{}, "serial"),
+          {},
+          any_simplification_rule(simplifier::paper{}, names.simplifier)};
+}
+
+policies_of<3> policies_named(const combination& names) {
+  return policies_with<3>(archetype::mesher(0), names);
 }
 
 comparison_row run(const combination& names, background_store<3>& backgrounds, int* observed = nullptr) {
@@ -213,10 +234,8 @@ TEST_CASE("sizes are scaled to the number of elements asked for") {
                   command_line_error);
 }
 
-chosen_surface_policies surface_policies() {
-  const auto solid = policies_named({"first", "only", "good", "paper"});
-  return {any_surface_mesher("flat", mesher::native_surface{}), solid.partitioner, solid.improver,
-          solid.executor};
+policies_of<2> surface_policies() {
+  return policies_with<2>(mesher::native_surface{}, {"first", "flat", "good", "paper"});
 }
 
 TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements go with the size's square") {

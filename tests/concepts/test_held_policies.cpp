@@ -1,11 +1,14 @@
-#include "any_geometry.hpp"
-#include "any_policies.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
 
 #include "concepts/archetypes.hpp"
 
 #include <doctest/doctest.h>
 
-namespace dovetail::app {
+namespace dovetail {
 namespace {
 
 TEST_CASE("a held partitioner gives what the policy itself gives") {
@@ -14,7 +17,7 @@ TEST_CASE("a held partitioner gives what the policy itself gives") {
   path.neighbours = {1, 0, 2, 1};
   path.edge_weights.assign(4, 1.0);
   path.node_weights.assign(3, 1.0);
-  const any_partitioner held("archetype", archetype::partitioner(0));
+  const any_partitioner held(archetype::partitioner(0), "archetype");
   CHECK(held.name() == "archetype");
   CHECK(held(path, 3) == archetype::partitioner(0)(path, 3));
 }
@@ -23,7 +26,7 @@ TEST_CASE("a held mesher passes on its input and its traits") {
   mesher_input<3> input;
   input.boundary.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   input.material = 7;
-  const any_mesher held("archetype", archetype::mesher(0));
+  const any_mesher<3> held(archetype::mesher(0), "archetype");
   CHECK(held.actual_traits().keeps_boundary);
   CHECK_FALSE(held.actual_traits().may_crash);
   const auto result = held(input, {});
@@ -43,7 +46,7 @@ TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks
     }
     int rung;
   };
-  const auto held = any_mesher("climbing", climbing(0)).with_fallback({"archetype", archetype::mesher(0)});
+  const auto held = any_mesher<3>(climbing(0), "climbing").with_fallback({archetype::mesher(0), "archetype"});
   const auto ladder = ladder_of(held);
   REQUIRE(ladder.size() == 4);
   for (int rung = 0; rung < 3; ++rung)
@@ -61,7 +64,7 @@ TEST_CASE("a held improver works on the caller's mesh") {
     }
   };
   simplicial_mesh<3> mesh;
-  const any_improver held("marking", marking{});
+  const any_improver<3> held(marking{}, "marking");
   const report made = held(mesh, {.points = 5}, [](vec3 p) { return p.z; });
   CHECK(made.get("frozen") == 5);
   REQUIRE(mesh.points.size() == 1);
@@ -78,7 +81,7 @@ TEST_CASE("a held executor runs every task once, and knows its workers") {
     }
     int workers() const { return 3; }
   };
-  const any_executor held("backwards", backwards{});
+  const any_executor held(backwards{}, "backwards");
   CHECK(held.workers() == 3);
   const auto outcomes = held.run(4, [](std::size_t i) { return byte_buffer(i); }, {});
   REQUIRE(outcomes.size() == 4);
@@ -118,4 +121,4 @@ TEST_CASE("a held geometry forwards every query with its arguments") {
 }
 
 } // namespace
-} // namespace dovetail::app
+} // namespace dovetail

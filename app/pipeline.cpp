@@ -1,0 +1,51 @@
+#include "pipeline.hpp"
+
+#include "dovetail/pipeline/whole_background.hpp"
+
+namespace dovetail::app {
+namespace {
+
+/// The library's parameters with these policies.
+template <int D>
+any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
+  return {policies.mesher, policies.partitioner, policies.improver, policies.executor,
+          options,         policies.simplifier};
+}
+
+} // namespace
+
+template <int D>
+background_result<D> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
+                                          const policies_of<D>& policies, const generate_options& options) {
+  if constexpr (D == 3)
+    if (policies.background_mesher)
+      return make_background_by(policies.background_mesher, geometry, size, composed(policies, options));
+  return make_background<D>(geometry, size, composed(policies, options));
+}
+
+template <int D>
+generated<D> generate_mesh_from(const background_result<D>& background, const any_geometry& geometry,
+                                const policies_of<D>& policies, const generate_options& options) {
+  return generate_from_background<D>(geometry, background, composed(policies, options));
+}
+
+template <int D>
+mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
+                          const policies_of<D>& policies, const generate_options& options) {
+  return plan_background<D>(geometry, size, composed(policies, options));
+}
+
+template background_result<2> make_background_mesh(const any_geometry&, const any_sizing&,
+                                                   const policies_of<2>&, const generate_options&);
+template background_result<3> make_background_mesh(const any_geometry&, const any_sizing&,
+                                                   const policies_of<3>&, const generate_options&);
+template generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&,
+                                         const policies_of<2>&, const generate_options&);
+template generated<3> generate_mesh_from(const background_result<3>&, const any_geometry&,
+                                         const policies_of<3>&, const generate_options&);
+template mesh_plan plan_generation(const any_geometry&, const any_sizing&, const policies_of<2>&,
+                                   const generate_options&);
+template mesh_plan plan_generation(const any_geometry&, const any_sizing&, const policies_of<3>&,
+                                   const generate_options&);
+
+} // namespace dovetail::app
