@@ -54,15 +54,18 @@ TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks
   CHECK(ladder[3].name() == "archetype");
 }
 
+struct marking {
+  static constexpr improver_traits traits{};
+
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {
+    mesh.points.push_back({h({1, 2, 3}), 0, 0});
+    report made;
+    made.set("frozen", frozen.points);
+    return made;
+  }
+};
+
 TEST_CASE("a held improver works on the caller's mesh") {
-  struct marking {
-    report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {
-      mesh.points.push_back({h({1, 2, 3}), 0, 0});
-      report made;
-      made.set("frozen", frozen.points);
-      return made;
-    }
-  };
   simplicial_mesh<3> mesh;
   const any_improver<3> held(marking{}, "marking");
   const report made = held(mesh, {.points = 5}, [](vec3 p) { return p.z; });
@@ -80,6 +83,7 @@ TEST_CASE("a held executor runs every task once, and knows its workers") {
       return outcomes;
     }
     int workers() const { return 3; }
+    bool shares_process() const { return false; }
   };
   const any_executor held(backwards{}, "backwards");
   CHECK(held.workers() == 3);

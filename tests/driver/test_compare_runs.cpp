@@ -129,6 +129,8 @@ model_source model() {
 
 /// Does nothing, to either kind of elements.
 struct idle_improver {
+  static constexpr improver_traits traits{};
+
   template <int D>
   report operator()(simplicial_mesh<D>&, const frozen_entities<D>&, const any_sizing&) const {
     return {};
