@@ -6,6 +6,7 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/metis.hpp"
+#include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
 #include "timed_partitioner.hpp"
@@ -51,7 +52,7 @@ void print(const char* step, double elements, double seconds) {
 struct coarse_mesh {
   simplicial_mesh<3> mesh;
   side_table<3> sides;
-  simplification<3> simplified;
+  simplification simplified;
   double simplification_seconds = 0;
 };
 
@@ -89,10 +90,10 @@ int main(int argc, char** argv) {
   coarse.sides = build_sides(coarse.mesh);
   print("adjacency", n, adjacency_clock.seconds());
   const auto weights = predicted_elements(coarse.mesh);
-  simplify_parameters<3> parameters;
-  parameters.subdomains = parts;
+  const contraction_bound bound{.subdomains = static_cast<double>(parts)};
   const dovetail_benchmark::processor_clock simplification_clock;
-  coarse.simplified = simplify<3>(coarse.mesh, coarse.sides, {.element_weights = weights}, parameters);
+  coarse.simplified =
+      simplify<3>(coarse.mesh, coarse.sides, simplifier::paper{}, {.element_weights = weights}, bound);
   coarse.simplification_seconds = simplification_clock.seconds();
   print("simplification", n, coarse.simplification_seconds);
   std::printf("    super-elements           %d\n", coarse.simplified.super_count);

@@ -2,6 +2,7 @@
 #include "dovetail/decomposition/connected_refinement.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -43,13 +44,14 @@ std::vector<std::set<local_id>> pieces_without(const csr_graph& graph, const std
 struct partitioned_mesh {
   simplicial_mesh<3> mesh;
   side_table<3> sides;
-  simplification<3> simplified;
+  simplification simplified;
   std::vector<local_id> part;
   std::vector<double> limits;
 
   partitioned_mesh(std::uint64_t seed, int parts, double imbalance)
       : mesh(shuffled(jittered_cubes(7, 0.15, seed), seed)), sides(build_sides(mesh)),
-        simplified(simplify<3>(mesh, sides, {}, {.subdomains = static_cast<double>(parts)})),
+        simplified(
+            simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = static_cast<double>(parts)})),
         part(partition::greedy{.imbalance = 1.3, .seed = seed}(simplified.graph, parts)) {
     join(parts);
     const double total = static_cast<double>(mesh.elements.size());
