@@ -47,17 +47,17 @@ private:
   bool finished_ = false;
 };
 
-interface_figures figures_of(const interface_contract& contract) {
+interface_figures figures_of(const interface_angles& angles) {
   interface_figures figures;
-  if (contract.interface_faces > 0) {
-    figures.min_face_angle_deg = contract.face_angle.angle_deg;
-    figures.min_wedge_deg = contract.min_wedge_deg();
+  if (angles.interface_faces > 0) {
+    figures.min_face_angle_deg = angles.face_angle.angle_deg;
+    figures.min_wedge_deg = angles.min_wedge_deg();
   }
-  const auto count = [&](contract_cause cause) { return static_cast<std::int64_t>(contract.count(cause)); };
-  figures.faces = static_cast<std::int64_t>(contract.interface_faces);
-  figures.forced = count(contract_cause::forced);
-  figures.refused = count(contract_cause::refused);
-  figures.remeshing = count(contract_cause::remeshing);
+  const auto count = [&](violation_cause cause) { return static_cast<std::int64_t>(angles.count(cause)); };
+  figures.faces = static_cast<std::int64_t>(angles.interface_faces);
+  figures.forced = count(violation_cause::forced);
+  figures.refused = count(violation_cause::refused);
+  figures.remeshing = count(violation_cause::remeshing);
   return figures;
 }
 
@@ -73,8 +73,8 @@ void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   figures.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   figures.subdomains = static_cast<int>(result.mesh.counts.size());
   figures.quality = result.quality;
-  figures.interfaces = figures_of(result.fine_contract);
-  figures.coarse_interfaces = figures_of(result.coarse_contract);
+  figures.interfaces = figures_of(result.fine_angles);
+  figures.coarse_interfaces = figures_of(result.coarse_angles);
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = stage_report(summary, "intersection");
   figures.merges = static_cast<std::int64_t>(intersection.get("merges"));

@@ -212,7 +212,7 @@ raster_image picture_of_decomposition(const generated<2>& result) {
 
 raster_image picture_of_interfaces(const generated<3>& result) {
   const fine_skeleton& skeleton = result.mesh.skeleton;
-  const interface_contract& contract = result.fine_contract;
+  const interface_angles& angles = result.fine_angles;
   constexpr std::size_t few_triangles = 12000;
   raster_scene scene;
   add_outline(scene, skeleton);
@@ -234,12 +234,12 @@ raster_image picture_of_interfaces(const generated<3>& result) {
                 2.5},
                before_all));
   };
-  for (const contract_violation& violation : contract.violations) {
+  for (const angle_violation& violation : angles.violations) {
     if (violation.is_wedge()) {
       mark(violation.edge[0], violation.edge[1]);
       continue;
     }
-    const auto& triangle = skeleton.triangles[static_cast<std::size_t>(violation.triangles[0])];
+    const auto& triangle = skeleton.triangles[static_cast<std::size_t>(violation.sides[0])];
     for (std::size_t k = 0; k < 3; ++k)
       mark(triangle[k], triangle[(k + 1) % 3]);
   }
@@ -257,7 +257,7 @@ raster_image picture_of_interfaces(const generated<2>& result) {
   const vec3 from = direction_to_viewer(scene);
   const double diagonal = scene.bounds().diagonal();
   const raster_view view = view_from(from);
-  for (const contract_violation& violation : result.fine_contract.violations) {
+  for (const angle_violation& violation : result.fine_angles.violations) {
     // The vertices of lines are those of the background mesh.
     const vec3 at = result.background.surface.mesh.points[static_cast<std::size_t>(violation.edge[0])];
     for (const vec3 along : {view.right + view.up, view.right - view.up})

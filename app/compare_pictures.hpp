@@ -11,7 +11,7 @@ namespace dovetail::app {
 raster_image picture_of_decomposition(const generated<3>& result);
 raster_image picture_of_decomposition(const generated<2>& result);
 
-/// The interfaces inside the model, and the model's curves. What breaks the contract is red, as lines that
+/// The interfaces inside the model, and the model's curves. What is under the threshold is red, as lines that
 /// nothing hides; of dimension 2 a cross at a corner.
 raster_image picture_of_interfaces(const generated<3>& result);
 raster_image picture_of_interfaces(const generated<2>& result);

@@ -54,15 +54,15 @@ std::string kind_of(const error& problem) {
   return "error";
 }
 
-interface_row row_of(const interface_contract& contract) {
+interface_row row_of(const interface_angles& angles) {
   interface_row row;
-  row.faces = static_cast<std::int64_t>(contract.interface_faces);
-  row.under_threshold = static_cast<std::int64_t>(contract.violations.size());
+  row.faces = static_cast<std::int64_t>(angles.interface_faces);
+  row.under_threshold = static_cast<std::int64_t>(angles.violations.size());
   constexpr double nothing_measured = 360;
-  if (row.faces > 0 && contract.face_angle.angle_deg < nothing_measured)
-    row.min_face_angle = contract.face_angle.angle_deg;
-  if (row.faces > 0 && contract.min_wedge_deg() < nothing_measured)
-    row.min_wedge = contract.min_wedge_deg();
+  if (row.faces > 0 && angles.face_angle.angle_deg < nothing_measured)
+    row.min_face_angle = angles.face_angle.angle_deg;
+  if (row.faces > 0 && angles.min_wedge_deg() < nothing_measured)
+    row.min_wedge = angles.min_wedge_deg();
   return row;
 }
 
@@ -75,8 +75,8 @@ void add_figures(const generated<D>& result, comparison_row& row) {
   row.imbalance = pieces.imbalance;
   row.seconds = seconds_of_stages(result.summary);
   row.quality = result.quality;
-  row.coarse = row_of(result.coarse_contract);
-  row.fine = row_of(result.fine_contract);
+  row.coarse = row_of(result.coarse_angles);
+  row.fine = row_of(result.fine_angles);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct stage_seconds {
   double total = 0;
 };
 
-/// The interface contract on one skeleton. Angles in degrees; 180 where there is no interface.
+/// The interface angles on one skeleton. Angles in degrees; 180 where there is no interface.
 struct interface_figures {
   double min_face_angle_deg = 180;
   double min_wedge_deg = 180;

@@ -90,9 +90,10 @@ int main(int argc, char** argv) {
   coarse.sides = build_sides(coarse.mesh);
   print("adjacency", n, adjacency_clock.seconds());
   const auto weights = predicted_elements(coarse.mesh);
+  const contraction_bound bound{.subdomains = static_cast<double>(parts)};
   const dovetail_benchmark::processor_clock simplification_clock;
-  coarse.simplified = simplify<3>(coarse.mesh, coarse.sides, simplifier::paper{},
-                                  {.element_weights = weights}, {.subdomains = static_cast<double>(parts)});
+  coarse.simplified =
+      simplify<3>(coarse.mesh, coarse.sides, simplifier::paper{}, {.element_weights = weights}, bound);
   coarse.simplification_seconds = simplification_clock.seconds();
   print("simplification", n, coarse.simplification_seconds);
   std::printf("    super-elements           %d\n", coarse.simplified.super_count);

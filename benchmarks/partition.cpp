@@ -65,11 +65,11 @@ public:
       const auto pieces =
           decompose<3>(coarse_.mesh.volume, coarse_.sides, simplified.super_of_element, simplified.graph,
                        coarse_.mesh.volume.tags, dovetail_benchmark::timed<P>{policy, &seconds}, subdomains_);
-      const auto contract = detail::coarse_interface_contract(
-          coarse_.mesh, coarse_.sides, simplified.side_states, pieces.part_of_element, generate_options{});
+      const auto angles = detail::coarse_interface_angles(coarse_.mesh, coarse_.sides, simplified.side_states,
+                                                          pieces.part_of_element, generate_options{});
       std::printf("| %s | %s | %.0f | %zu | %.3f | %.1f | %.1f | %.2f |\n", name, simplify ? "yes" : "no",
-                  pieces.summary.get("cut_of_partitioner"), contract.interface_faces,
-                  pieces.summary.get("imbalance"), contract.face_angle.angle_deg, contract.min_wedge_deg(),
+                  pieces.summary.get("cut_of_partitioner"), angles.interface_faces,
+                  pieces.summary.get("imbalance"), angles.face_angle.angle_deg, angles.min_wedge_deg(),
                   seconds);
       std::fflush(stdout);
     }

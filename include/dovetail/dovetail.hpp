@@ -16,7 +16,7 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/decomposition/decompose.hpp"
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/aspect_ratio.hpp"
 #include "dovetail/simplification/flow_aligned.hpp"

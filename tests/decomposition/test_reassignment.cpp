@@ -20,9 +20,9 @@ std::size_t at(local_id id) {
   return static_cast<std::size_t>(id);
 }
 
-/// The pieces of a part without those that leave, from the definition, each sorted.
-std::vector<std::set<local_id>> pieces_without(const csr_graph& graph, const std::vector<local_id>& part,
-                                               const std::vector<local_id>& leaving) {
+/// The components of a part without those that leave, from the definition, each sorted.
+std::vector<std::set<local_id>> components_without(const csr_graph& graph, const std::vector<local_id>& part,
+                                                   const std::vector<local_id>& leaving) {
   std::vector<local_id> label = part;
   for (const local_id s : leaving)
     label[at(s)] = no_id;
@@ -32,12 +32,12 @@ std::vector<std::set<local_id>> pieces_without(const csr_graph& graph, const std
     if (label[v] == part[at(leaving[0])])
       all[at(components.of_node[v])].insert(static_cast<local_id>(v));
   std::vector<std::set<local_id>> beside; // those that leave were beside them
-  for (const auto& piece : all)
+  for (const auto& component : all)
     if (std::any_of(leaving.begin(), leaving.end(), [&](local_id s) {
           const auto row = graph.row(s);
-          return std::any_of(row.begin(), row.end(), [&](local_id v) { return piece.count(v) > 0; });
+          return std::any_of(row.begin(), row.end(), [&](local_id v) { return component.count(v) > 0; });
         }))
-      beside.push_back(piece);
+      beside.push_back(component);
   return beside;
 }
 
@@ -125,29 +125,30 @@ TEST_CASE("what is cut off a part agrees with its components") {
     std::vector<local_id> part(at(n), 0);
     for (int k = 0; k < n / 10; ++k)
       part[random.bits() % part.size()] = 1;
-    cut_off_pieces search(graph, part);
+    cut_off_components search(graph, part);
     for (local_id s = 0; s < n; ++s) {
       std::vector<local_id> leaving{s};
       for (const local_id other : graph.row(s))
         if (seed % 3 == 0 && part[at(other)] == part[at(s)] && leaving.size() < 3)
           leaving.push_back(other);
-      const auto pieces = pieces_without(graph, part, leaving);
-      REQUIRE(search.stays_connected(leaving) == (pieces.size() == 1));
-      const auto weight_of = [&](const std::set<local_id>& piece) {
-        return std::accumulate(piece.begin(), piece.end(), 0.0,
+      const auto components = components_without(graph, part, leaving);
+      REQUIRE(search.stays_connected(leaving) == (components.size() == 1));
+      const auto weight_of = [&](const std::set<local_id>& component) {
+        return std::accumulate(component.begin(), component.end(), 0.0,
                                [&](double sum, local_id v) { return sum + weights[at(v)]; });
       };
-      // The weight that the search is told is that of the pieces beside; others have nothing to do with it.
+      // The weight that the search is told is that of the components beside; others have nothing to do with
+      // it.
       double total = 0;
-      for (const auto& piece : pieces)
-        total += weight_of(piece);
+      for (const auto& component : components)
+        total += weight_of(component);
       for (const local_id v : leaving)
         total += weights[at(v)];
-      const auto heaviest = std::max_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
-        return weight_of(a) < weight_of(b);
-      });
+      const auto heaviest =
+          std::max_element(components.begin(), components.end(),
+                           [&](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
       std::set<local_id> expected;
-      for (auto it = pieces.begin(); it != pieces.end(); ++it)
+      for (auto it = components.begin(); it != components.end(); ++it)
         if (it != heaviest)
           expected.insert(it->begin(), it->end());
       const auto found = search.cut_off_by(leaving, total);

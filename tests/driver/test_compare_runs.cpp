@@ -47,9 +47,9 @@ generate_result generate_mesh_from(const background_result<3>& background, const
     result.failures.back().reasons = {"too thin", "still too thin"};
   }
   result.quality.elements = 300;
-  result.coarse_contract.interface_faces = policies.simplifier.name() == "none" ? 10 : 12;
-  result.coarse_contract.face_angle.angle_deg = 31;
-  result.coarse_contract.violations.resize(policies.simplifier.name() == "none" ? 4 : 0);
+  result.coarse_angles.interface_faces = policies.simplifier.name() == "none" ? 10 : 12;
+  result.coarse_angles.face_angle.angle_deg = 31;
+  result.coarse_angles.violations.resize(policies.simplifier.name() == "none" ? 4 : 0);
   report meshing;
   meshing.name = "meshing";
   meshing.seconds = 3;
@@ -85,8 +85,8 @@ template <>
 generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&, const policies_of<2>&,
                                 const generate_options&) {
   generated<2> result;
-  result.coarse_contract.interface_faces = 7;
-  result.coarse_contract.surface_wedge.angle_deg = 51;
+  result.coarse_angles.interface_faces = 7;
+  result.coarse_angles.surface_wedge.angle_deg = 51;
   return result;
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("a sheet's triangles are turned to the side of most of them") {
     if (t == 0 || random() % 4 == 0)
       std::swap(soup.triangles[t][1], soup.triangles[t][2]);
   const auto surfaces = repaired_sheet(soup);
-  const discrete::piece_measures measures(surfaces.mesh);
+  const discrete::cluster_measures measures(surfaces.mesh);
   for (std::size_t t = 0; t < surfaces.mesh.elements.size(); ++t)
     REQUIRE(measures.area_vector(t).z > 0);
 }

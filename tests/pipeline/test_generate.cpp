@@ -88,8 +88,8 @@ TEST_CASE("a drilled block is meshed whole, in pieces, with the right volume and
   require_valid(result);
   CHECK(result.mesh.counts.size() + static_cast<std::size_t>(result.summary.children[4].get("merges")) == 5);
   CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
-  CHECK(result.coarse_contract.count(contract_cause::remeshing) == 0);
-  CHECK(result.coarse_contract.min_wedge_deg() > 20);
+  CHECK(result.coarse_angles.count(violation_cause::remeshing) == 0);
+  CHECK(result.coarse_angles.min_wedge_deg() > 20);
   CHECK(result.plan.predicted_elements ==
         doctest::Approx(static_cast<double>(result.quality.elements)).epsilon(0.35));
 }

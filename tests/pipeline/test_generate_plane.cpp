@@ -48,9 +48,9 @@ TEST_CASE("a square with a hole and an inner line: area, hole and line are kept"
 
 TEST_CASE("cut lines meet no small corners, coarse and fine") {
   const auto result = mesh_plane(plane_domain(square_with_hole()), 0.02, 8);
-  CHECK(result.coarse_contract.interface_faces > 10);
-  CHECK(result.coarse_contract.violations.empty());
-  CHECK(result.fine_contract.min_wedge_deg() > 49);
+  CHECK(result.coarse_angles.interface_faces > 10);
+  CHECK(result.coarse_angles.violations.empty());
+  CHECK(result.fine_angles.min_wedge_deg() > 49);
 }
 
 TEST_CASE("the plane mesh is the same for every executor and number of workers") {

@@ -37,8 +37,8 @@ TEST_CASE("a sphere: closed, every vertex on it") {
   for (const auto& [id, p] : mesh.points)
     REQUIRE(norm(p) == doctest::Approx(2).epsilon(1e-9));
   CHECK(area_of(mesh) == doctest::Approx(16 * std::numbers::pi).epsilon(5e-3));
-  CHECK(result.coarse_contract.violations.empty());
-  CHECK(result.fine_contract.min_wedge_deg() > 48);
+  CHECK(result.coarse_angles.violations.empty());
+  CHECK(result.fine_angles.min_wedge_deg() > 48);
 }
 
 TEST_CASE("a torus and a cylinder: seams, an edge between faces") {

@@ -37,7 +37,7 @@ public:
   using error::error;
 };
 
-/// A partitioner could not satisfy its contract.
+/// A partitioner could not keep its promises.
 class partition_error : public error {
 public:
   using error::error;

@@ -123,7 +123,7 @@ private:
     const auto place = parts_.mark();
     std::vector<local_id> moved{m.super};
     if (!parts_.keeps_connected(moved)) {
-      const std::vector<local_id> cut_off = parts_.pieces_cut_off_by(moved);
+      const std::vector<local_id> cut_off = parts_.components_cut_off_by(moved);
       append(moved, cut_off);
       if (!parts_.keeps_connected(moved)) // it was all of its part
         return;

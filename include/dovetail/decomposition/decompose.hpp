@@ -8,13 +8,13 @@
 ///         simplify_coupled(surface, volume, sides,
 ///                          {.curve_edges = edges_on_cad_curves, .element_weights = weights},
 ///                          {.subdomains = parts}, {.subdomains = parts});
-///     const auto pieces =
+///     const auto parts =
 ///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,
 ///                      volume.tags, partition::metis{}, parts);
-///     const auto boundary = subdomain_boundary<3>(volume, sides, pieces.part_of_element);
+///     const auto boundary = subdomain_boundary<3>(volume, sides, parts.part_of_element);
 ///     const auto origins = triangle_origins(boundary, simplified.volume.side_states);
-///     const auto contract =
-///         check_interface_contract({volume.points, boundary.sides, boundary.subdomains, origins});
+///     const auto angles =
+///         measure_interface_angles({volume.points, boundary.sides, boundary.subdomains, origins});
 #pragma once
 
 #include "dovetail/core/report.hpp"

@@ -25,11 +25,11 @@ std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const si
 
 /// The subdomains behind and in front of each surface triangle. Throws `mesh_error` when a surface triangle
 /// is not a side of the volume.
-triangle_subdomains induced_pieces(const background_mesh& mesh, const side_table<3>& sides,
-                                   const std::vector<local_id>& subdomain_of_element);
+triangle_subdomains induced_subdomains(const background_mesh& mesh, const side_table<3>& sides,
+                                       const std::vector<local_id>& subdomain_of_element);
 
 /// The pieces of a surface that is itself decomposed (D = 2): the part of each triangle, nothing in front.
-triangle_subdomains own_pieces(const std::vector<local_id>& part_of_triangle);
+triangle_subdomains own_subdomains(const std::vector<local_id>& part_of_triangle);
 
 /// The skeleton of a surface cut into pieces; `faces` are the interface faces that end on it (none for D =
 /// 2). O(n log n). Throws `mesh_error` when the surface mesh contradicts itself.

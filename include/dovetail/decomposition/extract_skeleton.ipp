@@ -72,24 +72,24 @@ private:
 
 /// Whether a surface edge bounds regions: on a curve, at a change of CAD face or subdomains, or not manifold.
 inline bool bounds_regions(const surface_edges& edges, std::size_t side, const surface_mesh& surface,
-                           const triangle_subdomains& pieces) {
+                           const triangle_subdomains& subdomains) {
   const auto [first, second] = edges.sides().elements[side];
   if (edges.on_curve(side) || !edges.sides().is_interior(static_cast<local_id>(side)))
     return true;
   const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
-  return pieces[a] != pieces[b] || surface.mesh.tags[a] != surface.mesh.tags[b];
+  return subdomains[a] != subdomains[b] || surface.mesh.tags[a] != surface.mesh.tags[b];
 }
 
 inline std::vector<skeleton_region> connected_regions(const surface_mesh& surface, const surface_edges& edges,
                                                       const std::vector<bool>& is_line,
-                                                      const triangle_subdomains& pieces) {
+                                                      const triangle_subdomains& subdomains) {
   const auto& elements = surface.mesh.elements;
   std::vector<bool> seen(elements.size(), false);
   std::vector<skeleton_region> regions;
   for (std::size_t start = 0; start < elements.size(); ++start) {
     if (seen[start])
       continue;
-    skeleton_region region{surface.mesh.tags[start], pieces[start]};
+    skeleton_region region{surface.mesh.tags[start], subdomains[start]};
     seen[start] = true;
     region.triangles.push_back(static_cast<local_id>(start));
     for (std::size_t next = 0; next < region.triangles.size(); ++next) {
@@ -171,14 +171,15 @@ interface_faces(const background_mesh& mesh, const side_table<3>& sides,
   return faces;
 }
 
-DOVETAIL_INLINE triangle_subdomains induced_pieces(const background_mesh& mesh, const side_table<3>& sides,
-                                                   const std::vector<local_id>& subdomain_of_element) {
-  triangle_subdomains pieces;
-  pieces.reserve(mesh.surface.mesh.elements.size());
+DOVETAIL_INLINE triangle_subdomains induced_subdomains(const background_mesh& mesh,
+                                                       const side_table<3>& sides,
+                                                       const std::vector<local_id>& subdomain_of_element) {
+  triangle_subdomains subdomains;
+  subdomains.reserve(mesh.surface.mesh.elements.size());
   for (const simplex<2>& triangle : mesh.surface.mesh.elements) {
     const local_id side = find_side<3>(sides, triangle);
     if (side == no_id)
-      throw mesh_error("surface triangle " + std::to_string(pieces.size()) +
+      throw mesh_error("surface triangle " + std::to_string(subdomains.size()) +
                        " is not a side of the coarse volume mesh");
     const auto& elements = sides.elements[static_cast<std::size_t>(side)];
     const auto subdomain = [&](local_id e) {
@@ -186,21 +187,21 @@ DOVETAIL_INLINE triangle_subdomains induced_pieces(const background_mesh& mesh, 
     };
     const bool first_is_behind = same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
     const std::array both{subdomain(elements[0]), subdomain(elements[1])};
-    pieces.push_back(first_is_behind ? both : std::array{both[1], both[0]});
+    subdomains.push_back(first_is_behind ? both : std::array{both[1], both[0]});
   }
-  return pieces;
+  return subdomains;
 }
 
-DOVETAIL_INLINE triangle_subdomains own_pieces(const std::vector<local_id>& part_of_triangle) {
-  triangle_subdomains pieces;
-  pieces.reserve(part_of_triangle.size());
+DOVETAIL_INLINE triangle_subdomains own_subdomains(const std::vector<local_id>& part_of_triangle) {
+  triangle_subdomains subdomains;
+  subdomains.reserve(part_of_triangle.size());
   for (const local_id part : part_of_triangle)
-    pieces.push_back({part, no_id});
-  return pieces;
+    subdomains.push_back({part, no_id});
+  return subdomains;
 }
 
 DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
-                                                 const triangle_subdomains& pieces,
+                                                 const triangle_subdomains& subdomains,
                                                  std::vector<skeleton_face> faces) {
   const detail::surface_edges edges(surface);
   const auto edges_of_faces = detail::face_edges(faces);
@@ -208,7 +209,7 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
   std::vector<bool> is_line(edges.sides().size());
   for (std::size_t side = 0; side < is_line.size(); ++side) {
     const auto key = sorted_vertices(edges.sides().vertices[side]);
-    is_line[side] = detail::bounds_regions(edges, side, surface, pieces) ||
+    is_line[side] = detail::bounds_regions(edges, side, surface, subdomains) ||
                     std::binary_search(edges_of_faces.begin(), edges_of_faces.end(), key);
     if (is_line[side])
       skeleton.lines.push_back(edges.line(side));
@@ -219,7 +220,7 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
       skeleton.lines.push_back({.vertices = edge});
   sort_all(skeleton.lines, [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
 
-  skeleton.regions = detail::connected_regions(surface, edges, is_line, pieces);
+  skeleton.regions = detail::connected_regions(surface, edges, is_line, subdomains);
   detail::find_fixed_points(skeleton.regions, surface, skeleton.lines, faces);
   skeleton.faces = std::move(faces);
   return skeleton;
@@ -227,7 +228,7 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
 
 DOVETAIL_INLINE coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
                                                  const std::vector<local_id>& subdomain_of_element) {
-  return extract_skeleton(mesh.surface, induced_pieces(mesh, sides, subdomain_of_element),
+  return extract_skeleton(mesh.surface, induced_subdomains(mesh, sides, subdomain_of_element),
                           interface_faces(mesh, sides, subdomain_of_element));
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Fills what lies between two pieces of a part that touch in an edge only.
+/// Fills what lies between two stretches of a part that touch in an edge only.
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
@@ -125,7 +125,7 @@ private:
           continue;
         std::vector<local_id> group{s};
         if (!parts_.keeps_connected(group)) {
-          const std::vector<local_id> cut_off = parts_.pieces_cut_off_by(group);
+          const std::vector<local_id> cut_off = parts_.components_cut_off_by(group);
           append(group, cut_off);
           if (!parts_.is_light(parts_.weight_of(cut_off), g.part) || !parts_.keeps_connected(group))
             continue;

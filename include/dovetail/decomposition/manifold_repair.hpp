@@ -120,7 +120,7 @@ private:
     for (change& candidate : changes) {
       if (parts_.keeps_connected(candidate.supers))
         return std::move(candidate);
-      std::vector<local_id> all = parts_.pieces_cut_off_by(candidate.supers);
+      std::vector<local_id> all = parts_.components_cut_off_by(candidate.supers);
       if (!parts_.is_light(parts_.weight_of(all), candidate.to))
         continue;
       append(all, candidate.supers);

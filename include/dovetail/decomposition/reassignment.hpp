@@ -5,7 +5,7 @@
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/boundary_defects.hpp"
-#include "dovetail/decomposition/cut_off_pieces.hpp"
+#include "dovetail/decomposition/cut_off_components.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
@@ -68,7 +68,7 @@ public:
         weights_(part_weights(graph, part, static_cast<int>(limits_.size()))), sizes_(limits_.size(), 0),
         foreign_neighbours_(part.size(), 0), place_in_border_(part.size(), no_id), borders_(limits_.size()),
         points_(points_of_supers()), counted_(mesh.points.size()), is_counted_(mesh.points.size(), 0),
-        pieces_(graph, part) {
+        components_(graph, part) {
     for (local_id s = 0; s < super_count(); ++s) {
       ++sizes_[index(part_of(s))];
       join_border_if_there(s);
@@ -220,11 +220,11 @@ public:
   /// Does the part of these super-elements (which are all of one part) stay connected and non-empty without
   /// them? Mostly a few steps.
   bool keeps_connected(std::span<const local_id> supers) {
-    return sizes_[index(part_of(supers[0]))] > supers.size() && pieces_.stays_connected(supers);
+    return sizes_[index(part_of(supers[0]))] > supers.size() && components_.stays_connected(supers);
   }
-  /// What the part of these super-elements falls into without them, but for its heaviest piece.
-  std::vector<local_id> pieces_cut_off_by(std::span<const local_id> supers) {
-    return pieces_.cut_off_by(supers, weight_of_part(part_of(supers[0])));
+  /// What the part of these super-elements falls into without them, but for its heaviest component.
+  std::vector<local_id> components_cut_off_by(std::span<const local_id> supers) {
+    return components_.cut_off_by(supers, weight_of_part(part_of(supers[0])));
   }
 
 private:
@@ -321,7 +321,7 @@ private:
   compressed_rows<local_id> points_;     ///< per super-element
   std::vector<defect_count> counted_;    ///< per point: its defects, where `is_counted_`
   std::vector<std::uint8_t> is_counted_; ///< per point
-  cut_off_pieces pieces_;
+  cut_off_components components_;
   std::vector<std::pair<local_id, local_id>> trail_; ///< (super-element, part it came from)
   partition_standing standing_;                      ///< but for the excess, which is found when asked for
 };

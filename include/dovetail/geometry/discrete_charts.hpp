@@ -1,11 +1,11 @@
 /// @file
-/// Cuts surfaces into smooth patches along feature edges, and patches into charts, pieces that can be
+/// Cuts surfaces into smooth patches along feature edges, and patches into charts, clusters that can be
 /// projected onto a plane without a fold.
 #pragma once
 
+#include "dovetail/geometry/discrete_cluster_measures.hpp"
 #include "dovetail/geometry/discrete_contours.hpp"
 #include "dovetail/geometry/discrete_loops.hpp"
-#include "dovetail/geometry/discrete_piece_measures.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
@@ -88,35 +88,35 @@ private:
     return static_cast<std::size_t>(neighbours_[t][i]);
   }
 
-  /// Floods over triangle pairs that `joined`; numbers the pieces in the order of their first triangles.
+  /// Floods over triangle pairs that `joined`; numbers the clusters in the order of their first triangles.
   template <class Joined>
-  std::vector<local_id> pieces(Joined&& joined) const {
-    std::vector<local_id> piece(neighbours_.size(), no_id);
+  std::vector<local_id> clusters(Joined&& joined) const {
+    std::vector<local_id> cluster(neighbours_.size(), no_id);
     std::vector<std::size_t> pending;
     local_id count = 0;
-    for (std::size_t seed = 0; seed < piece.size(); ++seed) {
-      if (piece[seed] != no_id)
+    for (std::size_t seed = 0; seed < cluster.size(); ++seed) {
+      if (cluster[seed] != no_id)
         continue;
-      piece[seed] = count;
+      cluster[seed] = count;
       pending.assign(1, seed);
       while (!pending.empty()) {
         const std::size_t t = pending.back();
         pending.pop_back();
         for (std::size_t i = 0; i < 3; ++i) {
           const std::size_t next = across(t, i);
-          if (next != nowhere && piece[next] == no_id && joined(t, next)) {
-            piece[next] = count;
+          if (next != nowhere && cluster[next] == no_id && joined(t, next)) {
+            cluster[next] = count;
             pending.push_back(next);
           }
         }
       }
       ++count;
     }
-    return piece;
+    return cluster;
   }
 
   void find_smooth_patches(double feature_angle) {
-    s_.smooth_of = pieces([&](std::size_t t, std::size_t next) {
+    s_.smooth_of = clusters([&](std::size_t t, std::size_t next) {
       if (s_.patch_of[t] != s_.patch_of[next])
         return false;
       return is_sliver(t) || is_sliver(next) ||
@@ -264,7 +264,8 @@ private:
           (*values_[t])[i] = 0;
   }
 
-  /// The pieces of the charts on both sides of their contours; small ones join the other side when asked to.
+  /// The clusters of the charts on both sides of their contours; small ones join the other side when asked
+  /// to.
   void renumber_charts(bool tidy) {
     std::vector<char> side(triangles().size(), 0);
     for (std::size_t t = 0; t < side.size(); ++t)
@@ -274,24 +275,24 @@ private:
       return s_.chart_of[t] == s_.chart_of[next] && side[t] == side[next];
     };
     if (tidy) {
-      const auto piece = pieces(joined);
-      std::vector<double> piece_area(1 +
-                                     static_cast<std::size_t>(*std::max_element(piece.begin(), piece.end())));
+      const auto cluster = clusters(joined);
+      std::vector<double> cluster_area(
+          1 + static_cast<std::size_t>(*std::max_element(cluster.begin(), cluster.end())));
       std::vector<double> chart_area(members_.size());
-      for (std::size_t t = 0; t < piece.size(); ++t) {
-        piece_area[static_cast<std::size_t>(piece[t])] += norm(area_vector(t));
+      for (std::size_t t = 0; t < cluster.size(); ++t) {
+        cluster_area[static_cast<std::size_t>(cluster[t])] += norm(area_vector(t));
         chart_area[static_cast<std::size_t>(s_.chart_of[t])] += norm(area_vector(t));
       }
-      for (std::size_t t = 0; t < piece.size(); ++t)
-        if (values_[t] && piece_area[static_cast<std::size_t>(piece[t])] <
+      for (std::size_t t = 0; t < cluster.size(); ++t)
+        if (values_[t] && cluster_area[static_cast<std::size_t>(cluster[t])] <
                               0.02 * chart_area[static_cast<std::size_t>(s_.chart_of[t])])
           side[t] = side[t] ? 0 : 1;
     }
-    s_.chart_of = pieces(joined);
+    s_.chart_of = clusters(joined);
   }
 
   charted_surface s_;
-  piece_measures measures_; ///< of s_.mesh, as it is now
+  cluster_measures measures_; ///< of s_.mesh, as it is now
   double cone_;
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<std::vector<std::size_t>> members_; ///< per chart: its triangles

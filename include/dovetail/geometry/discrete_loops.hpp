@@ -1,5 +1,5 @@
 /// @file
-/// The boundary loops of a piece of a triangulated surface, in space and in a plane.
+/// The boundary loops of a cluster of a triangulated surface, in space and in a plane.
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"

@@ -75,18 +75,18 @@ private:
     return joined;
   }
 
-  bool can_be_one(const std::vector<std::size_t>& piece, local_id a, local_id b) {
-    const chart_frame frame = measures_.frame_of(piece);
-    if (!measures_.within_cone(piece, frame.n, cosine_))
+  bool can_be_one(const std::vector<std::size_t>& cluster, local_id a, local_id b) {
+    const chart_frame frame = measures_.frame_of(cluster);
+    if (!measures_.within_cone(cluster, frame.n, cosine_))
       return false;
-    for (const std::size_t t : piece) // as if merged, and back
+    for (const std::size_t t : cluster) // as if merged, and back
       s_.chart_of[t] = a;
-    const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, piece,
+    const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, cluster,
                                       [&](std::size_t t, std::size_t i) { return across(t, i); });
     const bool simple = loops_are_simple(loops, s_.mesh.points, frame);
     const std::size_t of_a = members_[static_cast<std::size_t>(a)].size();
-    for (std::size_t k = of_a; k < piece.size(); ++k)
-      s_.chart_of[piece[k]] = b;
+    for (std::size_t k = of_a; k < cluster.size(); ++k)
+      s_.chart_of[cluster[k]] = b;
     return simple;
   }
 
@@ -100,9 +100,9 @@ private:
     for (const border& one : borders()) {
       if (merged[one.a] || merged[one.b])
         continue;
-      std::vector<std::size_t> piece = members_[one.a];
-      piece.insert(piece.end(), members_[one.b].begin(), members_[one.b].end());
-      if (!can_be_one(piece, static_cast<local_id>(one.a), static_cast<local_id>(one.b)))
+      std::vector<std::size_t> cluster = members_[one.a];
+      cluster.insert(cluster.end(), members_[one.b].begin(), members_[one.b].end());
+      if (!can_be_one(cluster, static_cast<local_id>(one.a), static_cast<local_id>(one.b)))
         continue;
       merged[one.a] = merged[one.b] = 1;
       pairs.emplace_back(one.a, one.b);
@@ -127,13 +127,13 @@ private:
       members[static_cast<std::size_t>(id)].push_back(t);
     }
     s_.frames.clear();
-    for (const auto& piece : members)
-      s_.frames.push_back(measures_.frame_of(piece));
+    for (const auto& cluster : members)
+      s_.frames.push_back(measures_.frame_of(cluster));
     s_.mesh.tags = s_.chart_of;
   }
 
   charted_surface s_;
-  piece_measures measures_;
+  cluster_measures measures_;
   double cosine_;
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<std::vector<std::size_t>> members_;

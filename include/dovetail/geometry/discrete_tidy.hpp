@@ -207,7 +207,7 @@ private:
   }
 
   charted_surface s_;
-  piece_measures measures_;
+  cluster_measures measures_;
   std::vector<char> on_rim_;                 ///< per vertex
   std::vector<std::vector<std::size_t>> at_; ///< per vertex: its triangles
   std::vector<char> removed_;
@@ -217,7 +217,7 @@ private:
 
 /// Can every chart be projected: one plane domain, no triangle turned over? O(n log n).
 inline bool charts_can_be_projected(const charted_surface& s) {
-  const piece_measures measures(s.mesh);
+  const cluster_measures measures(s.mesh);
   const auto neighbours = element_neighbours(build_sides<2>(s.mesh));
   std::vector<std::vector<std::size_t>> members(s.frames.size());
   for (std::size_t t = 0; t < s.chart_of.size(); ++t)
@@ -324,14 +324,14 @@ private:
     s_.chart_of[t] = to;
   }
   bool is_plane_domain(local_id c) const {
-    const auto& piece = members_[static_cast<std::size_t>(c)];
-    const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, piece,
+    const auto& cluster = members_[static_cast<std::size_t>(c)];
+    const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, cluster,
                                       [&](std::size_t t, std::size_t i) { return across(t, i); });
-    return loops_are_simple(loops, s_.mesh.points, measures_.frame_of(piece));
+    return loops_are_simple(loops, s_.mesh.points, measures_.frame_of(cluster));
   }
 
   charted_surface s_;
-  piece_measures measures_;
+  cluster_measures measures_;
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<std::vector<std::size_t>> members_;
 };

@@ -25,8 +25,8 @@ struct greedy {
     detail::require_imbalance(imbalance);
     if (parts == 1)
       return std::vector<local_id>(graph.node_weights.size(), 0);
-    const auto grow_and_refine = [this](const csr_graph& piece, int left, int right) {
-      return detail::bisect(piece, static_cast<double>(left) / (left + right), imbalance);
+    const auto grow_and_refine = [this](const csr_graph& whole, int left, int right) {
+      return detail::bisect(whole, static_cast<double>(left) / (left + right), imbalance);
     };
     return partition_by_levels(
         graph, parts, {.imbalance = imbalance, .seed = seed, .coarse_nodes_per_part = coarse_nodes_per_part},

@@ -1,5 +1,5 @@
 /// @file
-/// Recursive inertial bisection: cuts across the axis along which a piece is longest, after H. D. Simon,
+/// Recursive inertial bisection: cuts across the axis along which the nodes spread most, after H. D. Simon,
 /// "Partitioning of unstructured problems for parallel processing" (1991).
 #pragma once
 

@@ -35,7 +35,7 @@ struct metis {
     detail::require_imbalance(imbalance);
     if (parts == 1)
       return std::vector<local_id>(graph.node_weights.size(), 0);
-    if (detail::is_too_small_for_multilevel(graph, parts)) // METIS runs into empty pieces and prints about it
+    if (detail::is_too_small_for_multilevel(graph, parts)) // METIS runs into empty parts and prints about it
       return greedy{.imbalance = imbalance, .seed = static_cast<std::uint64_t>(seed)}(graph, parts);
     std::vector<local_id> part = call(graph, parts);
     detail::finish_partition(graph, part, parts, imbalance, 0);

@@ -40,29 +40,29 @@ template <bisection_rule Bisect>
 std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, const Bisect& bisect) {
   std::vector<local_id> part(static_cast<std::size_t>(graph.node_count()), 0);
   struct task {
-    subgraph piece; ///< of `graph`
+    subgraph members; ///< of `graph`
     local_id first_part;
     int parts;
   };
   std::vector<task> tasks;
   tasks.push_back({{graph, {}}, 0, parts});
-  tasks.back().piece.nodes.resize(part.size());
-  std::iota(tasks.back().piece.nodes.begin(), tasks.back().piece.nodes.end(), 0);
+  tasks.back().members.nodes.resize(part.size());
+  std::iota(tasks.back().members.nodes.begin(), tasks.back().members.nodes.end(), 0);
   while (!tasks.empty()) {
     const task whole = std::move(tasks.back());
     tasks.pop_back();
-    const auto& nodes = whole.piece.nodes;
+    const auto& nodes = whole.members.nodes;
     for (const local_id v : nodes)
       part[static_cast<std::size_t>(v)] = whole.first_part;
     if (whole.parts < 2 || nodes.size() < 2)
       continue;
     const std::array shares{whole.parts / 2, whole.parts - whole.parts / 2};
-    const std::vector<local_id> half = bisect(whole.piece.graph, shares[0], shares[1]);
+    const std::vector<local_id> half = bisect(whole.members.graph, shares[0], shares[1]);
     local_id first_part = whole.first_part;
     for (const local_id side : {0, 1}) {
-      task next{induced_subgraph(whole.piece.graph, half, side), first_part,
+      task next{induced_subgraph(whole.members.graph, half, side), first_part,
                 shares[static_cast<std::size_t>(side)]};
-      for (local_id& v : next.piece.nodes)
+      for (local_id& v : next.members.nodes)
         v = nodes[static_cast<std::size_t>(v)];
       first_part += next.parts;
       tasks.push_back(std::move(next));

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/corner_contract.hpp"
+#include "dovetail/decomposition/corner_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
@@ -53,42 +53,41 @@ simplification simplify_background(const simplicial_background<D>& mesh, const s
   return std::move(coupled.volume);
 }
 
-inline interface_contract coarse_interface_contract(const simplicial_background<3>& mesh,
-                                                    const side_table<3>& sides,
-                                                    std::span<const side_state> side_states,
-                                                    std::span<const local_id> subdomain_of_element,
-                                                    const generate_options& options) {
+inline interface_angles coarse_interface_angles(const simplicial_background<3>& mesh,
+                                                const side_table<3>& sides,
+                                                std::span<const side_state> side_states,
+                                                std::span<const local_id> subdomain_of_element,
+                                                const generate_options& options) {
   const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
   const auto origins = triangle_origins(boundary, side_states);
-  return check_interface_contract(
+  return measure_interface_angles(
       {span_of(mesh.volume.points), span_of(boundary.sides), span_of(boundary.subdomains), span_of(origins)},
       options.interface_angle_deg);
 }
 
-inline interface_contract coarse_interface_contract(const simplicial_background<2>& mesh,
-                                                    const side_table<2>& sides,
-                                                    std::span<const side_state> side_states,
-                                                    std::span<const local_id> subdomain_of_element,
-                                                    const generate_options& options) {
-  return check_corner_contract({mesh.surface.mesh, sides, side_states, subdomain_of_element},
+inline interface_angles coarse_interface_angles(const simplicial_background<2>& mesh,
+                                                const side_table<2>& sides,
+                                                std::span<const side_state> side_states,
+                                                std::span<const local_id> subdomain_of_element,
+                                                const generate_options& options) {
+  return measure_corner_angles({mesh.surface.mesh, sides, side_states, subdomain_of_element},
                                options.surface_angle_deg);
 }
 
-inline interface_contract fine_interface_contract(const realized<3>& skeleton,
-                                                  const simplicial_background<3>&, const side_table<3>&,
-                                                  std::span<const side_state>,
-                                                  const generate_options& options) {
-  return check_interface_contract({span_of(skeleton.fine.points), span_of(skeleton.fine.triangles),
+inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
+                                              const side_table<3>&, std::span<const side_state>,
+                                              const generate_options& options) {
+  return measure_interface_angles({span_of(skeleton.fine.points), span_of(skeleton.fine.triangles),
                                    span_of(skeleton.fine.subdomains), span_of(skeleton.origins)},
                                   options.interface_angle_deg);
 }
 
 /// Between the first edges of the lines at each vertex.
-inline interface_contract fine_interface_contract(const realized<2>& skeleton,
-                                                  const simplicial_background<2>& mesh,
-                                                  const side_table<2>& sides,
-                                                  std::span<const side_state> side_states,
-                                                  const generate_options& options) {
+inline interface_angles fine_interface_angles(const realized<2>& skeleton,
+                                              const simplicial_background<2>& mesh,
+                                              const side_table<2>& sides,
+                                              std::span<const side_state> side_states,
+                                              const generate_options& options) {
   const auto leaves = [&](local_id side, local_id vertex) {
     const auto& ends = sides.vertices[static_cast<std::size_t>(side)];
     const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
@@ -96,7 +95,7 @@ inline interface_contract fine_interface_contract(const realized<2>& skeleton,
     const auto& points = skeleton.lines.points;
     return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
   };
-  return check_corner_contract({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
+  return measure_corner_angles({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
                                options.surface_angle_deg);
 }
 

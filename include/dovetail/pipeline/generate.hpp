@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -24,8 +24,8 @@ struct generated {
   simplicial_background<D> background;
   std::vector<local_id> subdomain_of_element; ///< of the background mesh
   mesh_plan plan;
-  interface_contract coarse_contract; ///< of the coarse skeleton, before merges
-  interface_contract fine_contract;
+  interface_angles coarse_angles; ///< of the coarse skeleton, before merges
+  interface_angles fine_angles;
   quality_statistics quality;
   std::vector<piece_failure> failures;
   report summary; ///< children: background, simplification, partition, skeleton, intersection, meshing

@@ -96,16 +96,16 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   const stopwatch partition_clock;
   auto pieces = decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
                              detail::materials_of(coarse), given.partition_it, result.plan.subdomains);
-  result.coarse_contract = detail::coarse_interface_contract(coarse, sides, simplified.side_states,
-                                                             pieces.part_of_element, options);
+  result.coarse_angles =
+      detail::coarse_interface_angles(coarse, sides, simplified.side_states, pieces.part_of_element, options);
   pieces.summary.seconds = partition_clock.seconds();
 
   report partition_summary = pieces.summary;
   auto [skeleton, meshed] = detail::realize_and_mesh<D>(model, coarse, sides, simplified.side_states,
                                                         std::move(pieces), weights, background.size, given);
   result.subdomain_of_element = skeleton.subdomain_of_element;
-  result.fine_contract =
-      detail::fine_interface_contract(skeleton, coarse, sides, simplified.side_states, options);
+  result.fine_angles =
+      detail::fine_interface_angles(skeleton, coarse, sides, simplified.side_states, options);
   result.quality = meshed.quality;
   result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);

@@ -36,7 +36,7 @@ struct generate_options {
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
-  /// Angles of interfaces and between them under these are counted as violations of the interface contract
+  /// Angles of interfaces and between them under these are counted as violations of the interface angles
   /// (in D = 3 and D = 2); what keeps such interfaces from being chosen is the simplification's rule.
   double interface_angle_deg = 30;
   double surface_angle_deg = 50;

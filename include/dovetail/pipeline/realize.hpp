@@ -3,7 +3,7 @@
 /// crossings suppressed by merging, to a fixpoint (paper, sections 3.5 and 3.6).
 #pragma once
 
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
@@ -24,7 +24,7 @@ struct realized<3> {
   coarse_skeleton coarse;
   std::vector<local_id> subdomain_of_element;  ///< of the background mesh, after merges
   std::vector<local_id> material_of_subdomain; ///< after merges
-  std::vector<triangle_origin> origins;        ///< per fine triangle, for the interface contract
+  std::vector<triangle_origin> origins;        ///< per fine triangle, for the interface angles
   any_sizing size;                             ///< the field given, smaller where CAD regions came too close
   content_key field;                           ///< of `size`
   report skeleton_summary;

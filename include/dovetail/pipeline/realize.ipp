@@ -4,7 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/intersection/suppression.hpp"
@@ -184,7 +184,7 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
                                     const any_parameters<2>& given) {
   const stopwatch clock;
   realized<2> result;
-  result.coarse = extract_skeleton(mesh.surface, own_pieces(subdomain_of_element));
+  result.coarse = extract_skeleton(mesh.surface, own_subdomains(subdomain_of_element));
   result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size,
                                given.run_tasks, given.options.on_progress);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);

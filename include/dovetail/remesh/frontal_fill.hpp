@@ -137,8 +137,8 @@ private:
     if (folds(t, f))
       return no_id;
     const local_id v = s_.add_vertex(xy, f, size);
-    for (const local_id piece : s_.table.split_triangle(t, v))
-      flips.push(3 * piece + 2);
+    for (const local_id made : s_.table.split_triangle(t, v))
+      flips.push(3 * made + 2);
     flips.make_delaunay(s_);
     return v;
   }

@@ -1,5 +1,5 @@
 /// @file
-/// The input and output of the patch remesher: one piece of a surface with a planar parameter domain.
+/// The input and output of the patch remesher: one part of a surface with a planar parameter domain.
 #pragma once
 
 #include "dovetail/core/bytes.hpp"

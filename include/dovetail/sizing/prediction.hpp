@@ -42,7 +42,7 @@ struct element_prediction {
 
 namespace sizing {
 
-/// A piece of the integration domain with its integral of h^-D and the error estimated for it.
+/// A cell of the integration domain with its integral of h^-D and the error estimated for it.
 template <int D>
 struct integration_cell {
   std::array<vec3, D + 1> corners;

@@ -180,14 +180,14 @@ inline simplex<2> key_order(const skeleton_face& face) {
 }
 
 /// An interface face as a patch: the straight triangle, with the edges that lie on the CAD surface curved.
-struct face_patch {
+struct interface_face_patch {
   remesh::triangle_surface surface;
   skeleton_patch patch;
 };
 
 /// Builds the patch of an interface face.
-inline face_patch interface_patch(const skeleton_face& face, std::span<const vec3> coarse_points,
-                                  const numbered_lines& lines) {
+inline interface_face_patch interface_patch(const skeleton_face& face, std::span<const vec3> coarse_points,
+                                            const numbered_lines& lines) {
   const simplex<2> key = key_order(face);
   std::array<vec3, 3> corners;
   std::array<std::vector<vec3>, 3> sides;

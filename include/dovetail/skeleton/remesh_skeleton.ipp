@@ -124,7 +124,7 @@ private:
     if (is_region(p))
       return remesher_(remesh::model_surface{&model, skeleton_.regions[p].cad_face}, patches_[p].boundary,
                        size_);
-    const face_patch face = interface_patch(face_of(p), coarse_points_, lines_);
+    const interface_face_patch face = interface_patch(face_of(p), coarse_points_, lines_);
     patch_boundary boundary = face.patch.boundary;
     boundary.forbidden_edges = patches_[p].boundary.forbidden_edges;
     return remesher_(face.surface, boundary, size_);

@@ -1,5 +1,5 @@
 /// @file
-/// The interface contract: no small face angle on an interface, no small wedge beside one. Measured on the
+/// The interface angles: no small face angle on an interface, no small wedge beside one. Measured on the
 /// coarse or on the fine skeleton; what is below the threshold is listed with its cause.
 #pragma once
 
@@ -25,7 +25,7 @@
 namespace dovetail {
 
 /// Why an angle is below the threshold.
-enum class contract_cause : std::uint8_t {
+enum class violation_cause : std::uint8_t {
   forced,    ///< all its triangles are fixed by the CAD
   refused,   ///< one of its triangles lies on a coarse side that the bound refused to remove
   remeshing, ///< neither: it came up after the coarse decomposition, by curving or refining
@@ -39,7 +39,7 @@ enum class triangle_origin : std::uint8_t {
 };
 
 /// The triangles of all subdomain boundaries, each held once; spans of equal length but `points`.
-struct contract_input {
+struct interface_angles_input {
   std::span<const vec3> points;
   std::span<const simplex<2>> triangles;
   std::span<const std::array<local_id, 2>> subdomains; ///< oriented outwards of [0]; [1] may be no_id
@@ -47,32 +47,32 @@ struct contract_input {
 };
 
 /// An angle under the threshold.
-struct contract_violation {
+struct angle_violation {
   double angle_deg = 0;
-  contract_cause cause = contract_cause::refused;
-  std::array<local_id, 2> triangles{no_id, no_id}; ///< the triangle itself, or the two that make the wedge
-  std::array<local_id, 2> edge{no_id, no_id};      ///< a wedge's ridge; no_id for the angle of a face
-  local_id subdomain = no_id;                      ///< the subdomain a wedge lies in
+  violation_cause cause = violation_cause::refused;
+  std::array<local_id, 2> sides{no_id, no_id}; ///< the triangle itself, or the two that make the wedge
+  std::array<local_id, 2> edge{no_id, no_id};  ///< a wedge's ridge; no_id for the angle of a face
+  local_id subdomain = no_id;                  ///< the subdomain a wedge lies in
 
   bool is_wedge() const { return edge[0] != no_id; }
 };
 
 /// A minimum and where it occurs.
-struct contract_minimum {
+struct least_angle {
   double angle_deg = 360; ///< 360 when there is nothing to measure
-  std::array<local_id, 2> triangles{no_id, no_id};
+  std::array<local_id, 2> sides{no_id, no_id};
   std::array<local_id, 2> edge{no_id, no_id};
 };
 
-struct interface_contract {
+struct interface_angles {
   std::size_t interface_faces = 0;
-  contract_minimum face_angle;                ///< of interface triangles
-  contract_minimum interface_wedge;           ///< between two interface triangles
-  contract_minimum surface_wedge;             ///< between an interface triangle and one of the CAD
-  std::vector<contract_violation> violations; ///< by growing angle
+  least_angle face_angle;                  ///< of interface triangles
+  least_angle interface_wedge;             ///< between two interface triangles
+  least_angle surface_wedge;               ///< between an interface triangle and one of the CAD
+  std::vector<angle_violation> violations; ///< by growing angle
 
   double min_wedge_deg() const { return std::min(interface_wedge.angle_deg, surface_wedge.angle_deg); }
-  std::size_t count(contract_cause cause) const {
+  std::size_t count(violation_cause cause) const {
     return static_cast<std::size_t>(
         std::count_if(violations.begin(), violations.end(), [&](const auto& v) { return v.cause == cause; }));
   }
@@ -80,9 +80,9 @@ struct interface_contract {
 
 namespace detail {
 
-inline void sort_by_angle(std::vector<contract_violation>& violations) {
-  sort_all(violations, [](const contract_violation& a, const contract_violation& b) {
-    return std::tuple(a.angle_deg, a.triangles, a.edge) < std::tuple(b.angle_deg, b.triangles, b.edge);
+inline void sort_by_angle(std::vector<angle_violation>& violations) {
+  sort_all(violations, [](const angle_violation& a, const angle_violation& b) {
+    return std::tuple(a.angle_deg, a.sides, a.edge) < std::tuple(b.angle_deg, b.sides, b.edge);
   });
 }
 
@@ -97,15 +97,15 @@ std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>&
 std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
                                               std::span<const std::uint8_t> from_refused = {});
 
-/// Measures the contract. About linear in the number of triangles. Throws `usage_error` when the spans do not
-/// match.
-interface_contract check_interface_contract(const contract_input& input, double threshold_deg = 30);
+/// Measures the interface angles. About linear in the number of triangles. Throws `usage_error` when the
+/// spans do not match.
+interface_angles measure_interface_angles(const interface_angles_input& input, double threshold_deg = 30);
 
-/// The contract as counters of a report, and one warning with the worst place of each cause.
-report summarize(const interface_contract& contract, const std::string& name);
+/// The angles as counters of a report, and one warning with the worst place of each cause.
+report summarize(const interface_angles& angles, const std::string& name);
 
 } // namespace dovetail
 
 #ifndef DOVETAIL_COMPILED
-#include "dovetail/decomposition/interface_contract.ipp"
+#include "dovetail/decomposition/interface_angles.ipp"
 #endif

@@ -1,5 +1,5 @@
 /// @file
-/// Normals and frames of pieces of a triangulated surface.
+/// Normals and frames of clusters of a triangulated surface.
 #pragma once
 
 #include "dovetail/geometry/discrete_frame.hpp"
@@ -14,10 +14,10 @@ namespace dovetail::discrete {
 
 inline constexpr double radians_per_degree = std::numbers::pi / 180;
 
-/// Normals and frames of pieces of a mesh. Slivers, whose normals are rounding, do not count.
-class piece_measures {
+/// Normals and frames of clusters of a mesh. Slivers, whose normals are rounding, do not count.
+class cluster_measures {
 public:
-  explicit piece_measures(const simplicial_mesh<2>& mesh) : mesh_(&mesh) {
+  explicit cluster_measures(const simplicial_mesh<2>& mesh) : mesh_(&mesh) {
     box3 box;
     for (const vec3& p : mesh.points)
       box.include(p);
@@ -42,21 +42,21 @@ public:
   }
 
   /// The frame along the mean normal, its origin at the mean point.
-  chart_frame frame_of(const std::vector<std::size_t>& piece) const {
+  chart_frame frame_of(const std::vector<std::size_t>& cluster) const {
     vec3 normal;
     vec3 center;
     double area = 0;
-    for (const std::size_t t : piece) {
+    for (const std::size_t t : cluster) {
       const vec3 n = area_vector(t);
       normal += n;
       area += norm(n);
       center += norm(n) * centroid(t);
     }
-    return frame_along(center / area, norm(normal) > 1e-9 * area ? normal : area_vector(piece.front()));
+    return frame_along(center / area, norm(normal) > 1e-9 * area ? normal : area_vector(cluster.front()));
   }
 
-  bool within_cone(const std::vector<std::size_t>& piece, vec3 axis, double cosine) const {
-    return std::all_of(piece.begin(), piece.end(), [&](std::size_t t) {
+  bool within_cone(const std::vector<std::size_t>& cluster, vec3 axis, double cosine) const {
+    return std::all_of(cluster.begin(), cluster.end(), [&](std::size_t t) {
       return is_sliver(t) || dot(normalized(area_vector(t)), axis) >= cosine;
     });
   }

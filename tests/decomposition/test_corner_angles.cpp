@@ -1,4 +1,4 @@
-#include "dovetail/decomposition/corner_contract.hpp"
+#include "dovetail/decomposition/corner_angles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -22,8 +22,8 @@ struct square {
     for (std::size_t s = 0; s < sides.size(); ++s)
       states.push_back(sides.is_interior(static_cast<local_id>(s)) ? side_state::kept : side_state::fixed);
   }
-  interface_contract check(const std::vector<local_id>& part, double threshold_deg) const {
-    return check_corner_contract({mesh, sides, states, part}, threshold_deg);
+  interface_angles check(const std::vector<local_id>& part, double threshold_deg) const {
+    return measure_corner_angles({mesh, sides, states, part}, threshold_deg);
   }
 };
 
@@ -65,9 +65,9 @@ TEST_CASE("a corner at a refused side is the bound's doing") {
     if (state == side_state::kept)
       state = side_state::refused;
   for (const auto& each : s.check({0, 0, 1, 1}, 50).violations)
-    CHECK(each.cause == contract_cause::refused);
+    CHECK(each.cause == violation_cause::refused);
   for (const auto& each : square().check({0, 0, 1, 1}, 50).violations)
-    CHECK(each.cause == contract_cause::remeshing);
+    CHECK(each.cause == violation_cause::remeshing);
 }
 
 TEST_CASE("between fine lines, a corner is as they leave the vertex") {
@@ -81,7 +81,7 @@ TEST_CASE("between fine lines, a corner is as they leave the vertex") {
       along = {std::sqrt(3.0), 1, 0};
     return along;
   };
-  const auto found = check_corner_contract({s.mesh, s.sides, s.states, part, leaves}, 50);
+  const auto found = measure_corner_angles({s.mesh, s.sides, s.states, part, leaves}, 50);
   CHECK(found.surface_wedge.angle_deg == doctest::Approx(30));
   CHECK(found.surface_wedge.edge[0] == 0);
 }

@@ -1,18 +1,18 @@
 /// @file
-/// The interface contract of D = 2: no small corner at a line that cuts a CAD face. Measured on the coarse
+/// The interface angles of D = 2: no small corner at a line that cuts a CAD face. Measured on the coarse
 /// mesh, through its triangles, or between the first edges of the fine lines.
 #pragma once
 
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 
 #include <functional>
 #include <span>
 
 namespace dovetail {
 
-/// A decomposed surface. In the result, `triangles` are sides of `mesh`, and the first of `edge` is the
+/// A decomposed surface. In the result, `sides` are sides of `mesh`, and the first of `edge` is the
 /// vertex.
-struct corner_contract_input {
+struct corner_angles_input {
   const simplicial_mesh<2>& mesh;
   const side_table<2>& sides; ///< `build_sides(mesh)`
   std::span<const side_state> side_states;
@@ -21,11 +21,11 @@ struct corner_contract_input {
   std::function<vec3(local_id side, local_id vertex)> leaves = {};
 };
 
-/// Measures the contract of D = 2. Linear in the mesh.
-interface_contract check_corner_contract(const corner_contract_input& input, double threshold_deg = 50);
+/// Measures the interface angles of D = 2. Linear in the mesh.
+interface_angles measure_corner_angles(const corner_angles_input& input, double threshold_deg = 50);
 
 } // namespace dovetail
 
 #ifndef DOVETAIL_COMPILED
-#include "dovetail/decomposition/corner_contract.ipp"
+#include "dovetail/decomposition/corner_angles.ipp"
 #endif

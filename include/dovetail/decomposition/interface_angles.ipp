@@ -1,12 +1,12 @@
 /// @file
-/// What `interface_contract.hpp` declares.
+/// What `interface_angles.hpp` declares.
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -28,17 +28,17 @@ namespace dovetail {
 
 namespace detail {
 
-class contract_checker {
+class interface_checker {
 public:
-  contract_checker(const contract_input& input, double threshold_deg)
+  interface_checker(const interface_angles_input& input, double threshold_deg)
       : in_(input), threshold_(threshold_deg - rounding_deg) {
     if (in_.subdomains.size() != in_.triangles.size() || in_.origins.size() != in_.triangles.size())
-      throw usage_error("interface contract: " + std::to_string(in_.triangles.size()) + " triangles, but " +
+      throw usage_error("interface angles: " + std::to_string(in_.triangles.size()) + " triangles, but " +
                         std::to_string(in_.subdomains.size()) + " pairs of subdomains and " +
                         std::to_string(in_.origins.size()) + " origins");
   }
 
-  interface_contract run() {
+  interface_angles run() {
     measure_faces();
     for_each_group<2>(
         in_.triangles.size() * 3, in_.points.size(),
@@ -68,10 +68,10 @@ private:
   bool is_refused(local_id t) const {
     return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
   }
-  contract_cause cause_of(local_id a, local_id b) const {
+  violation_cause cause_of(local_id a, local_id b) const {
     if (is_cad(a) && is_cad(b))
-      return contract_cause::forced;
-    return is_refused(a) || is_refused(b) ? contract_cause::refused : contract_cause::remeshing;
+      return violation_cause::forced;
+    return is_refused(a) || is_refused(b) ? violation_cause::refused : violation_cause::remeshing;
   }
   vec3 at(local_id v) const { return in_.points[static_cast<std::size_t>(v)]; }
 
@@ -135,7 +135,7 @@ private:
   }
 
   void note_wedge(const std::array<local_id, 2>& edge, const flap& a, const flap& b, double angle) {
-    contract_minimum& minimum =
+    least_angle& minimum =
         is_cad(a.triangle) || is_cad(b.triangle) ? found_.surface_wedge : found_.interface_wedge;
     if (angle < minimum.angle_deg)
       minimum = {angle, {a.triangle, b.triangle}, edge};
@@ -144,9 +144,9 @@ private:
           {angle, cause_of(a.triangle, b.triangle), {a.triangle, b.triangle}, edge, a.after});
   }
 
-  const contract_input& in_;
+  const interface_angles_input& in_;
   double threshold_;
-  interface_contract found_;
+  interface_angles found_;
   std::vector<flap> flaps_; ///< scratch
 };
 
@@ -173,34 +173,34 @@ DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const fine_skeleto
   return origins;
 }
 
-DOVETAIL_INLINE interface_contract check_interface_contract(const contract_input& input,
-                                                            double threshold_deg) {
-  return detail::contract_checker(input, threshold_deg).run();
+DOVETAIL_INLINE interface_angles measure_interface_angles(const interface_angles_input& input,
+                                                          double threshold_deg) {
+  return detail::interface_checker(input, threshold_deg).run();
 }
 
-DOVETAIL_INLINE report summarize(const interface_contract& contract, const std::string& name) {
+DOVETAIL_INLINE report summarize(const interface_angles& angles, const std::string& name) {
   report summary;
   summary.name = name;
-  summary.set("faces", static_cast<double>(contract.interface_faces));
-  summary.set("min_face_angle_deg", contract.face_angle.angle_deg);
-  summary.set("min_wedge_deg", contract.min_wedge_deg());
-  summary.set("min_interface_wedge_deg", contract.interface_wedge.angle_deg);
-  summary.set("min_surface_wedge_deg", contract.surface_wedge.angle_deg);
+  summary.set("faces", static_cast<double>(angles.interface_faces));
+  summary.set("min_face_angle_deg", angles.face_angle.angle_deg);
+  summary.set("min_wedge_deg", angles.min_wedge_deg());
+  summary.set("min_interface_wedge_deg", angles.interface_wedge.angle_deg);
+  summary.set("min_surface_wedge_deg", angles.surface_wedge.angle_deg);
   constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
   for (std::size_t c = 0; c < causes.size(); ++c) {
-    const auto cause = static_cast<contract_cause>(c);
-    summary.set(causes[c], static_cast<double>(contract.count(cause)));
-    const auto worst = std::find_if(contract.violations.begin(), contract.violations.end(),
-                                    [&](const contract_violation& v) { return v.cause == cause; });
-    if (worst == contract.violations.end())
+    const auto cause = static_cast<violation_cause>(c);
+    summary.set(causes[c], static_cast<double>(angles.count(cause)));
+    const auto worst = std::find_if(angles.violations.begin(), angles.violations.end(),
+                                    [&](const angle_violation& v) { return v.cause == cause; });
+    if (worst == angles.violations.end())
       continue;
     summary.warnings.push_back(
-        std::to_string(contract.count(cause)) + " angles below the threshold (" + causes[c] +
+        std::to_string(angles.count(cause)) + " angles below the threshold (" + causes[c] +
         "), the smallest " + std::to_string(worst->angle_deg) + " degrees " +
-        (worst->is_wedge() ? "between triangles " + std::to_string(worst->triangles[0]) + " and " +
-                                 std::to_string(worst->triangles[1]) + " at edge (" +
+        (worst->is_wedge() ? "between triangles " + std::to_string(worst->sides[0]) + " and " +
+                                 std::to_string(worst->sides[1]) + " at edge (" +
                                  std::to_string(worst->edge[0]) + ", " + std::to_string(worst->edge[1]) + ")"
-                           : "in triangle " + std::to_string(worst->triangles[0])));
+                           : "in triangle " + std::to_string(worst->sides[0])));
   }
   return summary;
 }

@@ -1,4 +1,4 @@
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -87,18 +87,18 @@ TEST_CASE("angles measured on the skeleton are those measured through the elemen
       const std::vector<side_state> states(sides.size(), side_state::kept);
       const auto origins = triangle_origins(boundary, states);
       const double threshold = 50;
-      const auto contract =
-          check_interface_contract({mesh.points, boundary.sides, boundary.subdomains, origins}, threshold);
+      const auto angles =
+          measure_interface_angles({mesh.points, boundary.sides, boundary.subdomains, origins}, threshold);
       const measured expected = wedges_from_elements(mesh, part, threshold);
-      CHECK(contract.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
-      CHECK(contract.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
+      CHECK(angles.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
+      CHECK(angles.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
       std::size_t wedges = 0;
       std::size_t faces = 0;
-      for (const contract_violation& v : contract.violations) {
+      for (const angle_violation& v : angles.violations) {
         wedges += v.is_wedge() ? 1 : 0;
         faces += v.is_wedge() ? 0 : 1;
         CHECK(v.angle_deg < threshold);
-        CHECK(v.cause == contract_cause::remeshing); // nothing was fixed or refused
+        CHECK(v.cause == violation_cause::remeshing); // nothing was fixed or refused
       }
       CHECK(wedges == expected.below);
       std::size_t expected_faces = 0;
@@ -107,12 +107,12 @@ TEST_CASE("angles measured on the skeleton are those measured through the elemen
         const auto [a, b] = sides.elements[s];
         if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
           continue;
-        const auto angles = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
-        const double angle = *std::min_element(angles.begin(), angles.end());
+        const auto corner = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
+        const double angle = *std::min_element(corner.begin(), corner.end());
         smallest = std::min(smallest, angle);
         expected_faces += angle < threshold ? 1 : 0;
       }
-      CHECK(contract.face_angle.angle_deg == smallest);
+      CHECK(angles.face_angle.angle_deg == smallest);
       CHECK(faces == expected_faces);
     }
   }
@@ -131,20 +131,20 @@ TEST_CASE("the place and the cause of a violation are named") {
     if (sides.is_interior(static_cast<local_id>(s)))
       states[s] = side_state::refused;
   const auto origins = triangle_origins(boundary, states);
-  const auto contract =
-      check_interface_contract({mesh.points, boundary.sides, boundary.subdomains, origins}, 30);
-  CHECK(contract.interface_faces == 1);
-  CHECK(contract.face_angle.angle_deg == doctest::Approx(45));
-  CHECK(contract.interface_wedge.angle_deg == 360); // none
-  REQUIRE(contract.violations.size() == 3);         // the wedges of the flat element at the interface's edges
-  for (const auto& v : contract.violations) {
+  const auto angles =
+      measure_interface_angles({mesh.points, boundary.sides, boundary.subdomains, origins}, 30);
+  CHECK(angles.interface_faces == 1);
+  CHECK(angles.face_angle.angle_deg == doctest::Approx(45));
+  CHECK(angles.interface_wedge.angle_deg == 360); // none
+  REQUIRE(angles.violations.size() == 3);         // the wedges of the flat element at the interface's edges
+  for (const auto& v : angles.violations) {
     CHECK(v.is_wedge());
     CHECK(v.subdomain == 1);
-    CHECK(v.cause == contract_cause::refused);
+    CHECK(v.cause == violation_cause::refused);
   }
-  CHECK(contract.surface_wedge.angle_deg == contract.violations[0].angle_deg);
-  CHECK(contract.surface_wedge.edge == std::array<local_id, 2>{1, 2});
-  CHECK(contract.surface_wedge.angle_deg ==
+  CHECK(angles.surface_wedge.angle_deg == angles.violations[0].angle_deg);
+  CHECK(angles.surface_wedge.edge == std::array<local_id, 2>{1, 2});
+  CHECK(angles.surface_wedge.angle_deg ==
         doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
@@ -158,9 +158,9 @@ TEST_CASE("the summary has the counters of the driver's report and names the wor
   for (const bool known : {false, true}) {
     const auto origins = triangle_origins(skeleton, known ? std::span<const std::uint8_t>(refused)
                                                           : std::span<const std::uint8_t>());
-    const auto contract =
-        check_interface_contract({skeleton.points, skeleton.triangles, skeleton.subdomains, origins});
-    const report summary = summarize(contract, "interfaces");
+    const auto angles =
+        measure_interface_angles({skeleton.points, skeleton.triangles, skeleton.subdomains, origins});
+    const report summary = summarize(angles, "interfaces");
     CHECK(summary.get("faces") == 1);
     CHECK(summary.get("min_face_angle_deg") == doctest::Approx(45));
     CHECK(summary.get("min_wedge_deg") == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
@@ -174,5 +174,5 @@ TEST_CASE("the summary has the counters of the driver's report and names the wor
 TEST_CASE("spans of different length are refused") {
   const std::vector<vec3> points{{0, 0, 0}};
   const std::vector<simplex<2>> triangles{{0, 0, 0}};
-  CHECK_THROWS_AS(check_interface_contract({points, triangles, {}, {}}), usage_error);
+  CHECK_THROWS_AS(measure_interface_angles({points, triangles, {}, {}}), usage_error);
 }

@@ -1,10 +1,10 @@
 /// @file
-/// What `corner_contract.hpp` declares.
+/// What `corner_angles.hpp` declares.
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/decomposition/corner_contract.hpp"
-#include "dovetail/decomposition/interface_contract.hpp"
+#include "dovetail/decomposition/corner_angles.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 
@@ -22,10 +22,10 @@ namespace detail {
 /// Measures the corners that lines cut out of each part.
 class corner_checker {
 public:
-  corner_checker(const corner_contract_input& input, double threshold_deg)
+  corner_checker(const corner_angles_input& input, double threshold_deg)
       : in_(input), threshold_(threshold_deg - rounding_deg) {}
 
-  interface_contract run() {
+  interface_angles run() {
     for (std::size_t s = 0; s < in_.sides.size(); ++s)
       found_.interface_faces += is_cut(static_cast<local_id>(s)) ? 1 : 0;
     const ridge_table<2> vertices = build_ridges(in_.mesh, in_.sides);
@@ -94,13 +94,12 @@ private:
     if (is_fixed(from) && is_fixed(to)) // also the end of a line inside a part; a cut does not end there
       return;
     const double angle = angle_of(run, to, vertex);
-    const contract_minimum here{angle, {from, to}, {vertex, no_id}};
-    contract_minimum& minimum =
-        is_fixed(from) || is_fixed(to) ? found_.surface_wedge : found_.interface_wedge;
+    const least_angle here{angle, {from, to}, {vertex, no_id}};
+    least_angle& minimum = is_fixed(from) || is_fixed(to) ? found_.surface_wedge : found_.interface_wedge;
     if (angle < minimum.angle_deg)
       minimum = here;
     if (angle < threshold_)
-      found_.violations.push_back({angle, cause_of(from, to), here.triangles, here.edge,
+      found_.violations.push_back({angle, cause_of(from, to), here.sides, here.edge,
                                    in_.part_of_element[static_cast<std::size_t>(run.element)]});
   }
 
@@ -112,20 +111,20 @@ private:
     return run.angle > 180 ? 360 - between : between;
   }
 
-  contract_cause cause_of(local_id a, local_id b) const {
-    return state(a) == side_state::refused || state(b) == side_state::refused ? contract_cause::refused
-                                                                              : contract_cause::remeshing;
+  violation_cause cause_of(local_id a, local_id b) const {
+    return state(a) == side_state::refused || state(b) == side_state::refused ? violation_cause::refused
+                                                                              : violation_cause::remeshing;
   }
 
-  const corner_contract_input& in_;
+  const corner_angles_input& in_;
   double threshold_;
-  interface_contract found_;
+  interface_angles found_;
 };
 
 } // namespace detail
 
-DOVETAIL_INLINE interface_contract check_corner_contract(const corner_contract_input& input,
-                                                         double threshold_deg) {
+DOVETAIL_INLINE interface_angles measure_corner_angles(const corner_angles_input& input,
+                                                       double threshold_deg) {
   return detail::corner_checker(input, threshold_deg).run();
 }
 
