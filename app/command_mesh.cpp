@@ -192,11 +192,11 @@ private:
 
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
     const stopwatch output;
-    std::vector<io::piecewise_writer<D>> by_pieces;
+    std::vector<io::any_piecewise_writer<D>> by_pieces;
     std::vector<const output_format<D>*> in_one_file;
     for (const auto& format : formats_)
-      if (format.begin)
-        by_pieces.push_back(format.begin);
+      if (format.files)
+        by_pieces.push_back(format.files);
       else
         in_one_file.push_back(&format);
     const auto finished =

@@ -19,13 +19,6 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
-template <int D>
-io::piecewise_writer<D> vtu_files(int pieces) {
-  return [writer = io::vtu_writer{.pieces = pieces}](const auto& mesh, const auto& unfinished) {
-    return writer.begin(mesh, unfinished);
-  };
-}
-
 template <int D, class Writer>
 output_format<D> in_one_file(const std::string& name, double bytes_per_element, Writer writer) {
   return {name, bytes_per_element, {}, [writer](const auto& mesh, const auto& folder, bool release) {
@@ -41,7 +34,7 @@ output_format<D> format_of(const std::string& name, int pieces);
 template <>
 output_format<2> format_of<2>(const std::string& name, int pieces) {
   if (name == "vtu")
-    return {name, 45, vtu_files<2>(pieces)};
+    return {name, 45, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
     return in_one_file<2>(name, 45, io::msh_surface_writer{});
   throw command_line_error("--format: there is no '" + name + "' for triangles; there are: vtu, msh, none");
@@ -50,7 +43,7 @@ output_format<2> format_of<2>(const std::string& name, int pieces) {
 template <>
 output_format<3> format_of<3>(const std::string& name, int pieces) {
   if (name == "vtu")
-    return {name, 50, vtu_files<3>(pieces)};
+    return {name, 50, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
     return in_one_file<3>(name, 48, io::msh_writer{});
   if (name == "msh-partitioned")

@@ -19,7 +19,7 @@ struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of points
   /// Of a format in files of whole pieces.
-  io::piecewise_writer<D> begin = {};
+  io::any_piecewise_writer<D> files = {};
   /// Of a format in one file. With `release`, pieces are given up when they are read for the last time.
   std::function<report(const distributed_simplicial_mesh<D>&, const std::filesystem::path& folder,
                        bool release)>

@@ -39,7 +39,7 @@ struct finished_mesh {
 /// `cancelled`. Memory: the skeleton, one work array of its size, and one piece per worker.
 template <int D>
 finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
-                          const std::vector<piecewise_writer<D>>& writers,
+                          const std::vector<any_piecewise_writer<D>>& writers,
                           const std::filesystem::path& folder, const any_executor& run_tasks,
                           const finishing_options& options = {});
 

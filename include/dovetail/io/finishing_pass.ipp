@@ -254,7 +254,7 @@ private:
 
 template <int D>
 finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
-                          const std::vector<piecewise_writer<D>>& writers,
+                          const std::vector<any_piecewise_writer<D>>& writers,
                           const std::filesystem::path& folder, const any_executor& run_tasks,
                           const finishing_options& options) {
   const stopwatch clock;
@@ -263,10 +263,10 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
     unfinished.emplace(folder);
   const std::filesystem::path path = unfinished ? unfinished->path() : folder;
   std::vector<piecewise_output<D>> outputs;
-  for (const auto& begin : writers) {
+  for (const auto& writer : writers) {
     const auto of_writer = detail::folder_of(path, outputs.size());
     make_folder(of_writer);
-    outputs.push_back(begin(mesh, of_writer));
+    outputs.push_back(writer.begin(mesh, of_writer));
   }
   const bool resumable = options.release && mesh.release;
   if (unfinished)
@@ -283,11 +283,11 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
 
 #ifdef DOVETAIL_COMPILED
 template finished_mesh finish_mesh<2>(const distributed_simplicial_mesh<2>& mesh,
-                                      const std::vector<piecewise_writer<2>>& writers,
+                                      const std::vector<any_piecewise_writer<2>>& writers,
                                       const std::filesystem::path& folder, const any_executor& run_tasks,
                                       const finishing_options& options);
 template finished_mesh finish_mesh<3>(const distributed_simplicial_mesh<3>& mesh,
-                                      const std::vector<piecewise_writer<3>>& writers,
+                                      const std::vector<any_piecewise_writer<3>>& writers,
                                       const std::filesystem::path& folder, const any_executor& run_tasks,
                                       const finishing_options& options);
 #endif

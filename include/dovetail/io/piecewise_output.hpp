@@ -9,12 +9,14 @@
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace dovetail::io {
@@ -39,10 +41,33 @@ struct piecewise_output {
   std::function<report(const std::filesystem::path& folder)> finish;
 };
 
-/// A writer behind one type.
+/// Any writer of files of whole pieces behind one type: what has a `begin(mesh, unfinished)`, as the concept
+/// `piecewise_mesh_writer` says. May hold nothing.
 template <int D>
-using piecewise_writer = std::function<piecewise_output<D>(const distributed_simplicial_mesh<D>&,
-                                                           const std::filesystem::path& unfinished)>;
+class any_piecewise_writer {
+public:
+  any_piecewise_writer() = default;
+  template <class W>
+    requires requires(const W& writer, const distributed_simplicial_mesh<D>& mesh,
+                      const std::filesystem::path& unfinished) {
+      { writer.begin(mesh, unfinished) } -> std::same_as<piecewise_output<D>>;
+    }
+  any_piecewise_writer(W writer) // NOLINT: converts, as std::function does
+      : begin_([held = std::move(writer)](const distributed_simplicial_mesh<D>& mesh,
+                                          const std::filesystem::path& unfinished) {
+          return held.begin(mesh, unfinished);
+        }) {}
+
+  explicit operator bool() const { return static_cast<bool>(begin_); }
+  piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                            const std::filesystem::path& unfinished) const {
+    return begin_(mesh, unfinished);
+  }
+
+private:
+  std::function<piecewise_output<D>(const distributed_simplicial_mesh<D>&, const std::filesystem::path&)>
+      begin_;
+};
 
 /// Where files are until all of a mesh are complete: the folder "unfinished" in theirs. It goes with its
 /// content at the end, unless it is kept.
@@ -86,11 +111,11 @@ inline std::uint64_t move_file(const std::filesystem::path& from, const std::fil
 
 /// Writes all files one after the other, here.
 template <int D>
-report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const piecewise_writer<D>& begin,
+report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_piecewise_writer<D>& writer,
                        const std::filesystem::path& folder) {
   const stopwatch clock;
   const unfinished_folder unfinished(folder);
-  const piecewise_output<D> output = begin(mesh, unfinished.path());
+  const piecewise_output<D> output = writer.begin(mesh, unfinished.path());
   for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
     const piece_file<D> file = output.open(f);
     for (local_id p = output.bounds[f]; p < output.bounds[f + 1]; ++p)

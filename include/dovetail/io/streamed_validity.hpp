@@ -78,7 +78,7 @@ public:
     elements_ += mesh.elements.size();
     const validity inside = check_validity(mesh, {.isolated_points = true});
     if (!inside.valid()) {
-      faults_ += (faults_.empty() ? "" : "; ") + name + ": " + inside.text();
+      add_fault(inside_, name + ": " + inside.text());
       return;
     }
     const auto table = build_sides(mesh);
@@ -120,9 +120,12 @@ public:
   /// are at different places. O(boundaries, log for sorting).
   std::string faults() {
     join_points();
-    if (faults_.empty())
-      compare_points(), compare_sides();
-    return faults_;
+    if (!inside_.empty())
+      return inside_;
+    std::string found;
+    compare_points(found);
+    compare_sides(found);
+    return found;
   }
 
   std::uint64_t elements() const { return elements_; }
@@ -140,19 +143,20 @@ private:
     vec3 at;
   };
 
-  void add_fault(std::int64_t count, const std::string& what, global_id first) {
+  static void add_fault(std::string& to, const std::string& what) { to += (to.empty() ? "" : "; ") + what; }
+  static void add_fault(std::string& to, std::int64_t count, const std::string& what, global_id first) {
     if (count > 0)
-      faults_ += (faults_.empty() ? "" : "; ") + std::to_string(count) + " x " + what + " (point " +
-                 std::to_string(first) + ")";
+      add_fault(to, std::to_string(count) + " x " + what + " (point " + std::to_string(first) + ")");
   }
   template <class Wrong>
-  void count_points(const std::vector<numbered_point>& points, const std::string& what, const Wrong& wrong) {
+  static void count_points(std::string& found, const std::vector<numbered_point>& points,
+                           const std::string& what, const Wrong& wrong) {
     std::int64_t count = 0;
     global_id first = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (wrong(i) && count++ == 0)
         first = points[i].id;
-    add_fault(count, what, first);
+    add_fault(found, count, what, first);
   }
 
   void join_points() {
@@ -168,12 +172,12 @@ private:
     shared_ = std::move(distinct);
   }
 
-  void compare_points() {
+  void compare_points(std::string& found) {
     if (!inner_.disjoint())
-      faults_ = "a point is inside two pieces";
-    count_points(shared_, "point inside one piece that another has",
+      add_fault(found, "a point is inside two pieces");
+    count_points(found, shared_, "point inside one piece that another has",
                  [&](std::size_t i) { return inner_.contains(shared_[i].id); });
-    count_points(unused_, "isolated point", [&](std::size_t i) {
+    count_points(found, unused_, "isolated point", [&](std::size_t i) {
       const auto at = std::lower_bound(shared_.begin(), shared_.end(), unused_[i].id,
                                        [](const numbered_point& p, global_id id) { return p.id < id; });
       return !inner_.contains(unused_[i].id) && (at == shared_.end() || at->id != unused_[i].id);
@@ -182,11 +186,11 @@ private:
     sort_all(by_place, [](const numbered_point& a, const numbered_point& b) {
       return std::tuple(a.at.x, a.at.y, a.at.z, a.id) < std::tuple(b.at.x, b.at.y, b.at.z, b.id);
     });
-    count_points(by_place, "coincident point",
+    count_points(found, by_place, "coincident point",
                  [&](std::size_t i) { return i > 0 && by_place[i].at == by_place[i - 1].at; });
   }
 
-  void compare_sides() {
+  void compare_sides(std::string& found) {
     sort_all(sides_, [](const side& a, const side& b) { return a.ids < b.ids; });
     std::int64_t crowded = 0, misoriented = 0;
     global_id first_crowded = 0, first_misoriented = 0;
@@ -199,8 +203,8 @@ private:
       if (elements == 2 && end == i + 2 && sides_[i].turned == sides_[i + 1].turned && misoriented++ == 0)
         first_misoriented = sides_[i].ids[0];
     }
-    add_fault(crowded, "non-manifold side", first_crowded);
-    add_fault(misoriented, "misoriented side", first_misoriented);
+    add_fault(found, crowded, "non-manifold side", first_crowded);
+    add_fault(found, misoriented, "misoriented side", first_misoriented);
   }
 
   std::vector<side> sides_;
@@ -208,7 +212,7 @@ private:
   std::vector<numbered_point> unused_; ///< of no element of their piece
   number_ranges inner_;
   std::uint64_t elements_ = 0;
-  std::string faults_;
+  std::string inside_; ///< faults inside pieces
 };
 
 } // namespace dovetail::io

@@ -256,8 +256,7 @@ struct vtu_writer {
   /// subdomain.
   template <int D>
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {
-    return write_piecewise<D>(
-        mesh, [this](const auto& given, const auto& unfinished) { return begin(given, unfinished); }, folder);
+    return write_piecewise<D>(mesh, *this, folder);
   }
 
   /// The files as tasks for `finish_mesh`: a VTU file takes the pieces of its subdomains.
