@@ -200,6 +200,8 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   pieces.gone.erase(7);
   pieces.notes.erase(7);
   CHECK_THROWS_WITH_AS(finish(pieces.mesh(), 8), doctest::Contains("mesh_0000.vtu"), usage_error);
+  CHECK_THROWS_WITH_AS(io::finish_mesh<3>(pieces.mesh(), {}, folder / "out", parallel::serial{}),
+                       doctest::Contains("mesh_0000.vtu"), usage_error);
 
   pieces.loads.clear();
   const auto finished = finish(pieces.mesh(), 4);

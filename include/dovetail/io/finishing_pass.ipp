@@ -149,7 +149,7 @@ private:
     for (const auto& output : outputs_)
       for (auto [f, end] = files_of(output, range); f < end; ++f)
         expected.push_back(path_of(output, f));
-    const bool ours = first && !first->text.empty() &&
+    const bool ours = release_ && first && !first->text.empty() &&
                       std::equal(first->files.begin(), first->files.end(), expected.begin(), expected.end(),
                                  [](const auto& file, const auto& path) { return file.path == path; });
     for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
