@@ -75,7 +75,6 @@ std::optional<int> measure_streamed(const stats_options& options) {
   io::number_ranges points;
   if (!io::for_each_piece_file(options.mesh, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto&) {
         quality.merge(measure_quality(piece.mesh), quality.elements);
-        points.begin_part();
         for (const global_id id : piece.node_ids)
           points.add(id);
       }))

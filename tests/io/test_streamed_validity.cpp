@@ -131,6 +131,22 @@ TEST_CASE("faults between pieces are found") {
   apart.add(other, "other");
   CHECK(apart.faults() == "3 x coincident point (point 6)");
 
+  // A point inside one piece is a corner of another.
+  io::streamed_validity pierced;
+  io::loaded_mesh around = one;
+  around.mesh.points.push_back({0.2, 0.2, 0.2});
+  around.mesh.elements = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
+  around.mesh.tags = {0, 0, 0, 0};
+  around.node_ids = {0, 1, 2, 3, 9};
+  io::loaded_mesh inside = one;
+  inside.mesh.points = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {0.2, 0.2, 0.2}};
+  inside.node_ids = {6, 7, 8, 9};
+  pierced.add(around, "around");
+  CHECK(pierced.faults() == "");
+  CHECK(pierced.points() == 5);
+  pierced.add(inside, "inside");
+  CHECK(pierced.faults() == "1 x point inside one piece that another has (point 9)");
+
   // One number for two places.
   io::streamed_validity torn;
   other.node_ids = {0, 7, 8, 9};
@@ -143,17 +159,14 @@ TEST_CASE("faults between pieces are found") {
 TEST_CASE("numbers as ranges") {
   io::number_ranges numbers;
   CHECK(numbers.count() == 0);
-  numbers.begin_part();
   for (const global_id id : {5, 6, 7, 20})
     numbers.add(id);
-  numbers.begin_part();
   for (const global_id id : {0, 8, 9})
     numbers.add(id);
   CHECK(numbers.disjoint());
   CHECK(numbers.count() == 7);
   CHECK(numbers.contains(7));
   CHECK_FALSE(numbers.contains(10));
-  numbers.begin_part();
   for (const global_id id : {6, 7, 8, 10})
     numbers.add(id);
   CHECK_FALSE(numbers.disjoint());

@@ -18,7 +18,7 @@
 
 namespace dovetail::io {
 
-/// A set of numbers as ranges, given in ascending parts.
+/// Numbers as ranges: little memory where they come in ascending runs.
 class number_ranges {
 public:
   struct range {
@@ -26,15 +26,14 @@ public:
     global_id last; ///< included
   };
 
-  void begin_part() { part_ = ranges_.size(); }
-  /// The next number of a part, larger than the one before.
+  /// One more number; no range is needed for the one after the last.
   void add(global_id id) {
-    if (ranges_.size() > part_ && ranges_.back().last + 1 == id)
+    if (!ranges_.empty() && ranges_.back().last + 1 == id)
       ranges_.back().last = id;
     else
       ranges_.push_back({id, id});
   }
-  /// Sorts the ranges; true when no number is in two parts. O(ranges log).
+  /// Sorts the ranges; true when no number was added twice. O(ranges log).
   bool disjoint() {
     sort_all(ranges_, [](const range& a, const range& b) { return a.first < b.first; });
     for (std::size_t i = 1; i < ranges_.size(); ++i)
@@ -64,7 +63,6 @@ public:
 
 private:
   std::vector<range> ranges_;
-  std::size_t part_ = 0; ///< where the ranges of the present part begin
 };
 
 /// `check_validity` of tetrahedra in several files. Inside a piece it is that function; between pieces, sides
@@ -106,7 +104,6 @@ public:
       found.elements = table.is_boundary(static_cast<local_id>(s)) ? 1 : 2;
       sides_.push_back(found);
     }
-    inner_.begin_part();
     for (std::size_t v = 0; v < place.size(); ++v) {
       const auto id = piece.node_ids[v];
       if (place[v] == within)
