@@ -5,11 +5,15 @@
 
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "dovetail/io/streamed_validity.hpp"
 #include "dovetail/io/zlib.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
 
+#include <cstdint>
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace dovetail::app {
@@ -30,25 +34,52 @@ std::string faults_of(const simplicial_mesh<2>& mesh) {
          " and " + std::to_string(pairs.front().second) + (pairs.size() > 1 ? ", ...)" : ")");
 }
 
-template <int D>
-int check_mesh(const simplicial_mesh<D>& mesh, const std::string& file) {
-  if (const std::string faults = faults_of(mesh); !faults.empty()) {
+int print_validity(const std::string& faults, const std::string& file, int dimension, std::uint64_t elements,
+                   std::uint64_t points) {
+  if (!faults.empty()) {
     complain(file + ": not a valid mesh: " + faults);
     return exit_failure;
   }
-  std::printf("%s: a valid mesh of %zu %s and %zu vertices\n", file.c_str(), mesh.elements.size(),
-              D == 3 ? "tetrahedra" : "triangles", mesh.points.size());
+  std::printf("%s: a valid mesh of %llu %s and %llu vertices\n", file.c_str(),
+              static_cast<unsigned long long>(elements), dimension == 3 ? "tetrahedra" : "triangles",
+              static_cast<unsigned long long>(points));
   return exit_ok;
 }
 
-template <int D>
-int print_quality(const simplicial_mesh<D>& mesh, const stats_options& options) {
-  const quality_statistics quality = measure_quality(mesh);
-  std::printf("%s: %zu vertices\n%s", options.mesh.c_str(), mesh.points.size(),
-              quality_text(quality, D).c_str());
+int print_quality(const quality_statistics& quality, std::uint64_t points, int dimension,
+                  const stats_options& options) {
+  std::printf("%s: %llu vertices\n%s", options.mesh.c_str(), static_cast<unsigned long long>(points),
+              quality_text(quality, dimension).c_str());
   if (!options.report.empty())
-    write_quality_report(quality, static_cast<std::int64_t>(mesh.points.size()), {}, options.report);
+    write_quality_report(quality, static_cast<std::int64_t>(points), {}, options.report);
   return exit_ok;
+}
+
+/// Of tetrahedra in several files, one in memory at a time.
+std::optional<int> check_streamed(const std::string& file) {
+  io::streamed_validity found;
+  if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
+        found.add(piece, path.filename().string());
+      }))
+    return std::nullopt;
+  try {
+    const std::string faults = found.faults();
+    return print_validity(faults, file, 3, found.elements(), found.points());
+  } catch (const input_error& problem) {
+    throw input_error(file + ": " + problem.what());
+  }
+}
+
+std::optional<int> measure_streamed(const stats_options& options) {
+  quality_statistics quality;
+  io::number_ranges points;
+  if (!io::for_each_piece_file(options.mesh, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto&) {
+        quality.merge(measure_quality(piece.mesh), quality.elements);
+        for (const global_id id : piece.node_ids)
+          points.add(id);
+      }))
+    return std::nullopt;
+  return print_quality(quality, points.count(), 3, options);
 }
 
 /// Calls `f` with the mesh in the file: tetrahedra, or triangles where it has none.
@@ -61,11 +92,19 @@ int with_mesh_of(const std::string& file, const F& f) {
 } // namespace
 
 int run_check(const check_options& options) {
-  return with_mesh_of(options.mesh, [&](const auto& mesh) { return check_mesh(mesh, options.mesh); });
+  if (const auto result = check_streamed(options.mesh))
+    return *result;
+  return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {
+    return print_validity(faults_of(mesh), options.mesh, D, mesh.elements.size(), mesh.points.size());
+  });
 }
 
 int run_stats(const stats_options& options) {
-  return with_mesh_of(options.mesh, [&](const auto& mesh) { return print_quality(mesh, options); });
+  if (const auto result = measure_streamed(options))
+    return *result;
+  return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {
+    return print_quality(measure_quality(mesh), mesh.points.size(), D, options);
+  });
 }
 
 } // namespace dovetail::app

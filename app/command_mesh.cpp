@@ -1,6 +1,5 @@
 #include "commands.hpp"
 #include "failure.hpp"
-#include "mesh_digest.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
 #include "run_figures.hpp"
@@ -9,6 +8,8 @@
 #include "stage_figures.hpp"
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
+
+#include "dovetail/io/finishing_pass.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -130,6 +131,8 @@ public:
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const output_folder folder(options_.out);
+    if (!options_.resume)
+      io::unfinished_folder::remove(folder.path());
     run_spool store(folder.path() / "spool", identity_of_run(options_, source), options_.resume);
     parameters_.store = store.get();
     parameters_.failure_folder = folder.path() / "failed";
@@ -189,12 +192,25 @@ private:
 
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
     const stopwatch output;
-    for (const auto& format : formats_) {
-      show(("writing " + format.name).c_str());
-      figures_.details.children.push_back(format.write(mesh, folder));
+    std::vector<io::any_piecewise_writer<D>> by_pieces;
+    std::vector<const output_format<D>*> in_one_file;
+    for (const auto& format : formats_)
+      if (format.files)
+        by_pieces.push_back(format.files);
+      else
+        in_one_file.push_back(&format);
+    const auto finished =
+        io::finish_mesh<D>(mesh, by_pieces, folder, policies_.executor,
+                           {.release = in_one_file.empty(), .on_progress = parameters_.on_progress});
+    figures_.mesh_hash = finished.hash;
+    figures_.quality = finished.quality;
+    figures_.peak_rss_bytes =
+        std::max(figures_.peak_rss_bytes, static_cast<std::uint64_t>(finished.summary.get("peak_rss_bytes")));
+    figures_.details.children.push_back(finished.summary);
+    for (const auto* format : in_one_file) {
+      show(("writing " + format->name).c_str());
+      figures_.details.children.push_back(format->write(mesh, folder, format == in_one_file.back()));
     }
-    show("hash");
-    figures_.mesh_hash = parallel_mesh_hash(mesh, policies_.executor);
     figures_.seconds.output = output.seconds();
     if (!formats_.empty())
       figures_.out = options_.out;

@@ -8,6 +8,7 @@
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,15 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
+template <int D, class Writer>
+output_format<D> in_one_file(const std::string& name, double bytes_per_element, Writer writer) {
+  return {name, bytes_per_element, {}, [writer](const auto& mesh, const auto& folder, bool release) {
+            auto last = writer;
+            last.release = release;
+            return last(mesh, folder);
+          }};
+}
+
 template <int D>
 output_format<D> format_of(const std::string& name, int pieces);
 
@@ -26,7 +36,7 @@ output_format<2> format_of<2>(const std::string& name, int pieces) {
   if (name == "vtu")
     return {name, 45, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
-    return {name, 45, io::msh_surface_writer{}};
+    return in_one_file<2>(name, 45, io::msh_surface_writer{});
   throw command_line_error("--format: there is no '" + name + "' for triangles; there are: vtu, msh, none");
 }
 
@@ -35,9 +45,9 @@ output_format<3> format_of<3>(const std::string& name, int pieces) {
   if (name == "vtu")
     return {name, 50, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
-    return {name, 48, io::msh_writer{}};
+    return in_one_file<3>(name, 48, io::msh_writer{});
   if (name == "msh-partitioned")
-    return {name, 48, io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"}};
+    return in_one_file<3>(name, 48, io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"});
   throw command_line_error("--format: there is no '" + name +
                            "'; there are: vtu, msh, msh-partitioned, none");
 }
@@ -94,10 +104,10 @@ void check_can_create(const std::filesystem::path& file) {
 
 template <int D>
 double bytes_per_element(const std::vector<output_format<D>>& formats) {
-  double bytes = spool_bytes_per_element;
+  double bytes = 0;
   for (const auto& format : formats)
     bytes += format.bytes_per_element;
-  return bytes;
+  return std::max(bytes, spool_bytes_per_element); // the spool shrinks while the last format grows
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <filesystem>
@@ -17,7 +18,12 @@ template <int D>
 struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of points
-  std::function<report(const distributed_simplicial_mesh<D>&, const std::filesystem::path& folder)> write;
+  /// Of a format in files of whole pieces.
+  io::any_piecewise_writer<D> files = {};
+  /// Of a format in one file. With `release`, pieces are given up when they are read for the last time.
+  std::function<report(const distributed_simplicial_mesh<D>&, const std::filesystem::path& folder,
+                       bool release)>
+      write = {};
 };
 
 /// The formats of the names; the default one when there are none; none for "none". Throws

@@ -45,5 +45,6 @@
 // Files.
 #include "dovetail/io/distributed_statistics.hpp"
 #include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/vtu_writer.hpp"

@@ -279,6 +279,14 @@ struct writer : copyable_only {
 };
 // end
 
+// for piecewise_mesh_writer
+struct piecewise_writer : copyable_only {
+  using copyable_only::copyable_only;
+  report operator()(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
+  io::piecewise_output<3> begin(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
+};
+// end
+
 // for mesh_reader
 struct reader : copyable_only {
   using copyable_only::copyable_only;

@@ -50,6 +50,9 @@ static_assert(!surface_improver<archetype::improver>);
 static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);
 static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
+static_assert(piecewise_mesh_writer<archetype::piecewise_writer> &&
+              !piecewise_mesh_writer<archetype::writer>);
+static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, archetype::piecewise_writer>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
 static_assert(graph<archetype::path> && !weighted_graph<archetype::path>);

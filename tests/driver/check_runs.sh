@@ -123,6 +123,45 @@ resume() {
 
 interrupt KILL
 resume
+
+# Killed while files are written: what is complete is neither made nor written again.
+written=("${long[@]/none/vtu}")
+kill_finishing() {
+  what="dovetail ${written[*]}, killed while it writes"
+  for ((try = 0; try < 5; ++try)); do
+    rm -rf "$sandbox/work"
+    mkdir "$sandbox/work"
+    cd "$sandbox/work" || exit 1
+    "$driver" "${written[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null &
+    local process=$!
+    while kill -0 $process 2>/dev/null && ! compgen -G "out/unfinished/0/mesh_*.vtu" >/dev/null; do sleep 0.01; done
+    kill -KILL $process 2>/dev/null
+    wait $process 2>/dev/null
+    cd "$OLDPWD" || exit 1
+    [[ -d $sandbox/work/out/spool ]] && return
+  done
+  fault "it was never killed in time"
+}
+kill_finishing
+complete=$(cd "$sandbox/work/out/unfinished/0" && ls mesh_*.vtu | wc -l)
+((complete > 0 && complete < 12)) || fault "$complete complete files"
+long=("${written[@]}")
+resume
+grep -q '"taken_over": [1-9]' "$sandbox/work/report.json" || fault "no file was taken over"
+[[ ! -e $sandbox/work/out/unfinished ]] || fault "unfinished files are left"
+expect_same_files() { # folder of another run
+  diff -r "$sandbox/work/out" "$1" || fault "other files than in one go"
+}
+mv "$sandbox/work/out" "$inputs/resumed"
+expect_success "${long[@]}"
+expect_same_files "$inputs/resumed"
+
+# So it is when such a file has gone: its piece is made again.
+kill_finishing
+rm "$(compgen -G "$sandbox/work/out/unfinished/0/mesh_*.vtu" | head -n 1)"
+resume
+expect_same_files "$inputs/resumed"
+
 interrupt INT
 ((status == 130)) || fault "exit code after Ctrl-C is $status"
 grep -q -- "--resume" "$sandbox/stderr" || fault "nothing is said about --resume"

@@ -78,6 +78,13 @@ public:
     bytes(digits, static_cast<std::size_t>(end - digits));
   }
 
+  /// Goes on writing at an offset from the beginning: for arrays of known size whose values come in turns.
+  void seek(std::uint64_t offset) {
+    flush();
+    if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0)
+      fail("cannot move in");
+  }
+
   /// Bytes written so far.
   std::uint64_t size() const { return size_; }
   const std::filesystem::path& path() const { return path_; }

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
+#include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <concepts>
@@ -31,6 +32,28 @@ template <class W>
 concept mesh_writer = std::copy_constructible<W> &&
     requires(const W& w, const distributed_mesh& mesh, const std::filesystem::path& folder) {
   { w(mesh, folder) } -> std::same_as<report>;
+};
+
+/// The role `piecewise_mesh_writer`: a `mesh_writer` whose files hold whole pieces, so that several workers
+/// can write them.
+///
+/// Valid expression for `const W& w`, `const distributed_mesh& mesh`, `const std::filesystem::path&
+/// unfinished`: `w.begin(mesh, unfinished)` -> io::piecewise_output<3>.
+///
+/// Semantics: prepares the files, which will be in the folder `unfinished` until all are complete. Nothing is
+/// loaded; each piece is given once to the file that takes it (`piecewise_output::open`), in any worker. The
+/// bytes of a file depend on the mesh alone. `mesh` outlives the output. `w(mesh, folder)` gives the same
+/// files.
+///
+/// Complexity: linear in the skeleton.
+///
+/// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
+///
+/// Models: io::vtu_writer.
+template <class W>
+concept piecewise_mesh_writer = mesh_writer<W> &&
+    requires(const W& w, const distributed_mesh& mesh, const std::filesystem::path& unfinished) {
+  { w.begin(mesh, unfinished) } -> std::same_as<io::piecewise_output<3>>;
 };
 
 /// The role `mesh_reader`: a file becomes a mesh.

@@ -143,10 +143,10 @@ void check_shared_points(const simplicial_piece<D>& piece, const simplicial_skel
 /// The boundary sides of the piece against those of the skeleton. Where sheets meet in D = 2, every element
 /// has a boundary side of its own.
 template <int D>
-void check_boundary(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
-                    std::span<const local_id> listed, subdomain_faults& faults) {
-  auto expected = expected_sides<D>(skeleton, listed, piece.subdomain);
-  const auto table = build_sides(piece.mesh);
+void check_boundary(const simplicial_piece<D>& piece, const side_table<D>& table,
+                    const simplicial_skeleton<D>& skeleton, std::span<const local_id> listed,
+                    subdomain_faults& faults) {
+  const auto expected = expected_sides<D>(skeleton, listed, piece.subdomain);
   std::vector<oriented_side<D>> found;
   for (std::size_t s = 0; s < table.size(); ++s) {
     const auto id = static_cast<local_id>(s);
@@ -198,9 +198,11 @@ subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_
                              std::span<const local_id> listed) {
   subdomain_faults faults;
   faults.subdomain = piece.subdomain;
-  faults.inside = check_validity(piece.mesh, {.closed_boundary = D == 3, .non_manifold_sides = D == 2});
+  const auto table = build_sides(piece.mesh);
+  faults.inside =
+      check_validity(piece.mesh, table, {.closed_boundary = D == 3, .non_manifold_sides = D == 2});
   detail::check_shared_points(piece, skeleton, faults);
-  detail::check_boundary(piece, skeleton, listed, faults);
+  detail::check_boundary(piece, table, skeleton, listed, faults);
   for (std::size_t e = 0; D == 3 && e < piece.mesh.tags.size(); ++e)
     if (piece.mesh.tags[e] != piece.material)
       faults.add(seam_fault::wrong_material, static_cast<local_id>(e));

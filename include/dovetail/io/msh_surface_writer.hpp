@@ -21,6 +21,8 @@ namespace dovetail::io {
 /// node and element numbers are the global ones plus 1, those of curve elements follow.
 struct msh_surface_writer {
   std::string stem = "mesh";
+  bool release =
+      false; ///< gives up each piece when it is read for the last time; a resumed run makes it again
 
   /// Loads every piece three times. Memory: the skeleton and one loaded piece.
   report operator()(const distributed_simplicial_mesh<2>& mesh, const std::filesystem::path& folder) const {
@@ -131,8 +133,8 @@ private:
     out.end("Nodes");
   }
 
-  static void write_elements(msh_encoder& out, const distributed_simplicial_mesh<2>& mesh,
-                             const global_numbering& numbers, const std::vector<block>& blocks) {
+  void write_elements(msh_encoder& out, const distributed_simplicial_mesh<2>& mesh,
+                      const global_numbering& numbers, const std::vector<block>& blocks) const {
     const auto edges = curve_edges(mesh.skeleton);
     const auto triangles = static_cast<std::uint64_t>(numbers.elements());
     std::size_t curve_blocks = 0;
@@ -144,8 +146,11 @@ private:
     std::uint64_t id = 0;
     simplicial_piece<2> piece;
     for (const block& b : blocks) {
-      if (piece.subdomain != b.piece)
+      if (piece.subdomain != b.piece) {
         piece = mesh.load(b.piece);
+        if (release && mesh.release)
+          mesh.release(b.piece, {});
+      }
       out.integer(2), out.integer(b.face + 1), out.integer(static_cast<int>(msh_type::triangle)),
           out.count(b.triangles);
       for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)

@@ -230,8 +230,9 @@ struct ghost_elements {
   }
 };
 
-/// Returns the ghosts, if they are wanted: they are collected on the way.
-inline ghost_elements write_elements(msh_encoder& out, const msh_document& document) {
+/// Returns the ghosts, if they are wanted: they are collected on the way. This is the last reading of a
+/// piece.
+inline ghost_elements write_elements(msh_encoder& out, const msh_document& document, bool release) {
   const auto& mesh = document.mesh;
   const auto& filing = document.filing();
   const auto subdomains = document.subdomains_of_volumes();
@@ -275,6 +276,8 @@ inline ghost_elements write_elements(msh_encoder& out, const msh_document& docum
             out, msh_tag(id++),
             {global_point(piece, document.numbers, e[0]), global_point(piece, document.numbers, e[1]),
              global_point(piece, document.numbers, e[2]), global_point(piece, document.numbers, e[3])});
+      if (release && mesh.release)
+        mesh.release(s, {});
     }
   }
   out.end("Elements");
@@ -305,6 +308,8 @@ struct msh_writer {
   bool ghosts = false; ///< with `partitioned`: one layer of elements that touch another partition in a point
   bool binary = true;
   std::string stem = "mesh";
+  bool release = false; ///< gives up each piece when it is read for the last time; after a failure, or when
+                        ///< the program is stopped, a resumed run makes these pieces again
 
   /// Every piece is loaded twice, once for its nodes and once for its elements. Memory: the skeleton with
   /// several times its size in work arrays, one piece, and the ghosts.
@@ -322,7 +327,7 @@ struct msh_writer {
       detail::write_partitioned_entities(out, document.parts, document.patches, mesh.counts.size(),
                                          document.ghost_tags);
     detail::write_nodes(out, document);
-    const auto ghost_layer = detail::write_elements(out, document);
+    const auto ghost_layer = detail::write_elements(out, document, release);
     if (!document.ghost_tags.empty())
       detail::write_ghosts(out, ghost_layer);
     file.commit();

@@ -32,9 +32,10 @@ class appended_layout {
 public:
   explicit appended_layout(output_file& file) : file_(file) {}
 
-  /// The XML element of the next array, of `tuples` times `components` values of type T.
+  /// The XML element of the next array, of `tuples` times `components` values of type T. Returns where its
+  /// first value is, from the beginning of the appended section.
   template <class T>
-  void array(std::string_view name, std::uint64_t tuples, int components = 1) {
+  std::uint64_t array(std::string_view name, std::uint64_t tuples, int components = 1) {
     file_.text("<DataArray type=\"");
     file_.text(vtk_type<T>);
     file_.text("\" Name=\"");
@@ -44,7 +45,9 @@ public:
     file_.text("\" format=\"appended\" offset=\"");
     file_.number(next_);
     file_.text("\"/>\n");
-    next_ += sizeof(std::uint64_t) + tuples * static_cast<std::uint64_t>(components) * sizeof(T);
+    const std::uint64_t values = next_ + sizeof(std::uint64_t);
+    next_ = values + tuples * static_cast<std::uint64_t>(components) * sizeof(T);
+    return values;
   }
 
 private:

@@ -254,23 +254,28 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
   }
 }
 
-inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
-                        loaded_mesh& mesh) {
+/// The files that a PVTU file names. Throws `input_error`.
+inline std::vector<std::filesystem::path> pvtu_sources(const std::filesystem::path& file,
+                                                       const xml_element& root) {
   const auto* grid = root.child("PUnstructuredGrid");
   if (grid == nullptr)
     throw input_error(file.string() + ": there is no <PUnstructuredGrid>");
-  bool found = false;
-  for (const auto& piece : grid->children) {
-    if (piece.name != "Piece")
-      continue;
-    found = true;
-    const auto path = file.parent_path() / xml_unescaped(piece.attribute("Source"));
+  std::vector<std::filesystem::path> sources;
+  for (const auto& piece : grid->children)
+    if (piece.name == "Piece")
+      sources.push_back(file.parent_path() / xml_unescaped(piece.attribute("Source")));
+  if (sources.empty())
+    throw input_error(file.string() + ": there is no <Piece>");
+  return sources;
+}
+
+inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
+                        loaded_mesh& mesh) {
+  for (const auto& path : pvtu_sources(file, root)) {
     const auto content = read_file(path);
     const auto piece_root = xml_parser(content, path.string()).parse();
     append_vtu(path, piece_root, expand, mesh);
   }
-  if (!found)
-    throw input_error(file.string() + ": there is no <Piece>");
 }
 
 } // namespace detail

@@ -6,11 +6,14 @@
 /// of piece p has id (elements of pieces before p) + e.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,12 +86,27 @@ struct piece_counts {
   global_id elements = 0;
 };
 
+/// What its store keeps in place of a piece that it has given up.
+struct piece_note {
+  struct file {
+    std::string path; ///< absolute
+    std::uint64_t bytes = 0;
+  };
+  std::vector<file> files; ///< where the piece is now; when one of them is missing, so is the piece
+  byte_buffer text;        ///< for whoever gave the piece up
+};
+
 /// A whole mesh without holding it: what writers, checks and statistics stream over.
 template <int D>
 struct distributed_simplicial_mesh {
   simplicial_skeleton<D> skeleton;
   std::vector<piece_counts> counts;
   std::function<simplicial_piece<D>(local_id)> load; ///< loads piece p; pure
+  /// Gives up the storage of piece p, which is not loaded again. A resumed run takes the files of the note
+  /// for the piece; without any, it makes the piece again. May be called in a worker; empty: not possible.
+  std::function<void(local_id, const piece_note&)> release = {};
+  /// The note of a piece that was given up and is in its files; may be empty.
+  std::function<std::optional<piece_note>(local_id)> released = {};
 
   std::vector<std::string> material_names; ///< per material
   std::vector<std::string> face_names;     ///< per CAD face; may be empty strings

@@ -254,28 +254,49 @@ inline void check_closed(const simplicial_mesh<3>& mesh, const side_table<3>& si
       });
 }
 
+/// `sides()` is called when references are known to be right.
+template <int D, class Sides>
+validity check_all(const simplicial_mesh<D>& mesh, const Sides& sides, const validity_options& allowed) {
+  fault_collector faults;
+  check_references(mesh, faults);
+  if (faults.has(mesh_fault::missing_point))
+    return faults.result();
+  check_points(mesh, allowed, faults);
+  if (!faults.has(mesh_fault::non_finite_point))
+    check_elements(mesh, faults);
+  check_duplicates(mesh, faults);
+  if (faults.has(mesh_fault::repeated_vertex))
+    return faults.result();
+  const side_table<D>& table = sides();
+  check_sides(mesh, table, allowed, faults);
+  if constexpr (D == 3)
+    if (allowed.closed_boundary)
+      check_closed(mesh, table, faults);
+  return faults.result();
+}
+
 } // namespace detail
 
 /// Checks a mesh, D = 2 or 3. When references are broken only those are reported, since nothing else can be
 /// asked then. About linear, but for one sort of the points.
 template <int D>
 validity check_validity(const simplicial_mesh<D>& mesh, const validity_options& allowed = {}) {
-  detail::fault_collector faults;
-  detail::check_references(mesh, faults);
-  if (faults.has(mesh_fault::missing_point))
-    return faults.result();
-  detail::check_points(mesh, allowed, faults);
-  if (!faults.has(mesh_fault::non_finite_point))
-    detail::check_elements(mesh, faults);
-  detail::check_duplicates(mesh, faults);
-  if (faults.has(mesh_fault::repeated_vertex))
-    return faults.result();
-  const side_table<D> sides = build_sides(mesh);
-  detail::check_sides(mesh, sides, allowed, faults);
-  if constexpr (D == 3)
-    if (allowed.closed_boundary)
-      detail::check_closed(mesh, sides, faults);
-  return faults.result();
+  side_table<D> sides;
+  return detail::check_all(
+      mesh,
+      [&]() -> const side_table<D>& {
+        sides = build_sides(mesh);
+        return sides;
+      },
+      allowed);
+}
+
+/// The same, where the sides of the mesh are known: `build_sides(mesh)`.
+template <int D>
+validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                        const validity_options& allowed = {}) {
+  return detail::check_all(
+      mesh, [&]() -> const side_table<D>& { return sides; }, allowed);
 }
 
 } // namespace dovetail

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -56,6 +57,9 @@ struct meshed_pieces {
   quality_statistics quality;          ///< of all pieces together
   /// A finished piece; `io_error` when its file is damaged.
   std::function<simplicial_piece<D>(local_id)> load;
+  std::function<void(local_id, const piece_note&)>
+      release; ///< of `distributed_simplicial_mesh`, with a spool
+  std::function<std::optional<piece_note>(local_id)> released;
   report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
                   ///< "peak_rss_bytes", and the sums over workers "mesher_seconds" and "improver_seconds"
 };

@@ -21,6 +21,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -76,7 +77,44 @@ public:
     return piece;
   }
 
+  /// Gives up a piece, in a worker. In D = 2 finished pieces are compared with each other, so that a resumed
+  /// run needs them all and no note is kept.
+  void release(local_id subdomain, const piece_note& note) const {
+    const content_key key = keys_.at(static_cast<std::size_t>(subdomain));
+    if (D == 3 && !note.files.empty()) {
+      byte_writer bytes;
+      encode(bytes, summary_of(store_->get(key)));
+      dovetail::encode(bytes, note);
+      store_->keep(key_of_note(key), bytes.take());
+    }
+    store_->release(key);
+  }
+  std::optional<piece_note> released(local_id subdomain) const {
+    const auto found = find_released(keys_.at(static_cast<std::size_t>(subdomain)));
+    if (!found)
+      return std::nullopt;
+    byte_reader bytes(*found);
+    decode_summary(bytes);
+    return decode_note(bytes);
+  }
+  /// The summary, and behind it the note, of a piece that was given up and is in the files of the note.
+  std::optional<byte_buffer> find_released(content_key key) const {
+    auto found = store_->find(key_of_note(key));
+    if (!found)
+      return std::nullopt;
+    byte_reader bytes(*found);
+    decode_summary(bytes);
+    const auto files = decode_note(bytes).files;
+    const bool there = std::all_of(files.begin(), files.end(), [](const piece_note::file& file) {
+      std::error_code missing;
+      return std::filesystem::file_size(file.path, missing) == file.bytes && !missing;
+    });
+    return there ? std::move(found) : std::nullopt;
+  }
+
 private:
+  static content_key key_of_note(content_key key) { return key_maker(key)(std::int64_t{1}).key(); }
+
   std::shared_ptr<entity_store> store_;
   std::vector<content_key> keys_;
   std::vector<std::vector<local_id>> skeleton_points_;
@@ -110,6 +148,10 @@ public:
     summarize();
     result_.summary.seconds = clock.seconds();
     result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
+    if (shelf_->store().is_shared()) {
+      result_.release = [shelf = shelf_](local_id s, const piece_note& note) { shelf->release(s, note); };
+      result_.released = [shelf = shelf_](local_id s) { return shelf->released(s); };
+    }
     return std::move(result_);
   }
 
@@ -158,6 +200,8 @@ private:
       entity_store& store = shelf_->store();
       piece_receipt receipt{.key = key_of(input, options_.field)};
       auto finished = store.find(receipt.key);
+      if (!finished)
+        finished = shelf_->find_released(receipt.key);
       receipt.reused = finished.has_value();
       if (!finished)
         finished = attempt(subdomain, input, rung);

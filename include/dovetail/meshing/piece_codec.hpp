@@ -7,8 +7,10 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace dovetail {
 
@@ -42,6 +44,25 @@ inline report decode_report(byte_reader& from) {
   for (auto left = from.value<std::uint64_t>(); left > 0; --left)
     r.children.push_back(decode_report(from));
   return r;
+}
+
+inline void encode(byte_writer& to, const piece_note& note) {
+  to.value<std::uint64_t>(note.files.size());
+  for (const piece_note::file& file : note.files) {
+    to.text(file.path);
+    to.value(file.bytes);
+  }
+  to.array(note.text);
+}
+
+inline piece_note decode_note(byte_reader& from) {
+  piece_note note;
+  for (auto left = from.value<std::uint64_t>(); left > 0; --left) {
+    std::string path = from.text();
+    note.files.push_back({std::move(path), from.value<std::uint64_t>()});
+  }
+  note.text = from.array<std::byte>();
+  return note;
 }
 
 /// Tags are stored only where they differ from the piece's material.

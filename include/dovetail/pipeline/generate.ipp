@@ -61,6 +61,8 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
   for (const piece_summary& piece : meshed.pieces)
     mesh.counts.push_back(piece.counts);
   mesh.load = meshed.load;
+  mesh.release = meshed.release;
+  mesh.released = meshed.released;
   for (const auto& solid : model.topology().solids)
     mesh.material_names.push_back(solid.name);
   for (const auto& face : model.topology().faces) {

@@ -1,0 +1,295 @@
+/// @file
+/// What `finishing_pass.hpp` declares.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/finishing_pass.hpp"
+#include "dovetail/io/mesh_hash.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dovetail::io {
+
+namespace detail {
+
+/// What a task says of its pieces.
+struct finished_pieces {
+  mesh_hasher hash;
+  quality_statistics quality;
+};
+
+/// Errors travel beside the result, and are thrown again by the parent.
+enum class finishing_reply : std::uint8_t { finished, not_written, no_mesh };
+
+/// Writers have a folder each, since some of their files may have the same names.
+inline std::filesystem::path folder_of(const std::filesystem::path& unfinished, std::size_t writer) {
+  return unfinished / std::to_string(writer);
+}
+
+template <int D>
+class finishing_tasks {
+public:
+  finishing_tasks(const distributed_simplicial_mesh<D>& mesh, std::vector<piecewise_output<D>> outputs,
+                  const std::filesystem::path& unfinished, bool release)
+      : mesh_(mesh), outputs_(std::move(outputs)), unfinished_(unfinished), numbers_(number_globally(mesh)),
+        sides_(mesh), release_(release && mesh.release) {
+    bounds_.resize(mesh.counts.size() + 1);
+    std::iota(bounds_.begin(), bounds_.end(), 0);
+    for (const auto& output : outputs_) {
+      std::vector<local_id> common;
+      std::set_intersection(bounds_.begin(), bounds_.end(), output.bounds.begin(), output.bounds.end(),
+                            std::back_inserter(common));
+      bounds_ = std::move(common);
+      for (const auto& write : output.others)
+        others_.push_back(&write);
+    }
+  }
+
+  finished_mesh run(const any_executor& run_tasks, const finishing_options& options) {
+    std::vector<finished_pieces> found(ranges());
+    std::vector<std::size_t> left; // ranges, and behind them the other files
+    for (std::size_t r = 0; r < ranges(); ++r)
+      if (!take_over(r, found[r]))
+        left.push_back(r);
+    finished_mesh result;
+    result.summary.set("tasks", static_cast<double>(ranges() + others_.size()));
+    result.summary.set("taken_over", static_cast<double>(ranges() - left.size()));
+    for (std::size_t k = 0; k < others_.size(); ++k)
+      left.push_back(ranges() + k);
+
+    run_options tasks;
+    tasks.order = largest_first(left);
+    tasks.limit_seconds = options.limit_seconds * static_cast<double>(most_pieces());
+    tasks.on_progress = options.on_progress;
+    tasks.stage = "finishing";
+    const auto outcomes = run_tasks.run(
+        left.size(), [&](std::size_t k) { return reply(left[k]); }, tasks);
+    double peak = 0;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const auto done = accept(left[k], outcomes[k]);
+      if (left[k] < ranges())
+        found[left[k]] = done;
+      peak = std::max(peak, static_cast<double>(outcomes[k].peak_rss_bytes));
+    }
+    result.summary.set("peak_rss_bytes", peak);
+
+    mesh_hasher hash;
+    hash_skeleton(hash, mesh_.skeleton);
+    for (const auto& pieces : found) {
+      hash.merge(pieces.hash);
+      result.quality.merge(pieces.quality, 0);
+    }
+    result.hash = hash.value();
+    return result;
+  }
+
+  void finish(const std::filesystem::path& folder, report& summary) const {
+    for (const auto& output : outputs_)
+      summary.children.push_back(output.finish(folder));
+  }
+
+private:
+  std::size_t ranges() const { return bounds_.size() - 1; }
+  std::string name_of(std::size_t range) const {
+    const auto [first, last] = std::pair(bounds_[range], bounds_[range + 1] - 1);
+    return first == last ? "subdomain " + std::to_string(first)
+                         : "subdomains " + std::to_string(first) + " to " + std::to_string(last);
+  }
+  local_id most_pieces() const {
+    local_id most = 1;
+    for (std::size_t r = 0; r < ranges(); ++r)
+      most = std::max(most, bounds_[r + 1] - bounds_[r]);
+    return most;
+  }
+
+  /// Files without pieces, then the ranges of most elements; ties by number.
+  std::vector<std::size_t> largest_first(const std::vector<std::size_t>& tasks) const {
+    std::vector<std::size_t> order(tasks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto size = [&](std::size_t k) {
+      if (tasks[k] >= ranges())
+        return numbers_.elements();
+      const auto at = [&](std::size_t bound) { return static_cast<std::size_t>(bounds_[bound]); };
+      return numbers_.first_element[at(tasks[k] + 1)] - numbers_.first_element[at(tasks[k])];
+    };
+    stable_sort_all(order, [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+    return order;
+  }
+
+  /// The files of an output that take the pieces of a range.
+  std::pair<std::size_t, std::size_t> files_of(const piecewise_output<D>& output, std::size_t range) const {
+    const auto at = [&](local_id bound) {
+      return static_cast<std::size_t>(std::lower_bound(output.bounds.begin(), output.bounds.end(), bound) -
+                                      output.bounds.begin());
+    };
+    return {at(bounds_[range]), at(bounds_[range + 1])};
+  }
+
+  std::string path_of(const piecewise_output<D>& output, std::size_t file) const {
+    return (folder_of(unfinished_, static_cast<std::size_t>(&output - outputs_.data())) / output.names[file])
+        .string();
+  }
+
+  /// Takes the result of a range whose pieces an earlier run gave up; false when there is none.
+  bool take_over(std::size_t range, finished_pieces& found) const {
+    if (!mesh_.released)
+      return false;
+    const auto first = mesh_.released(bounds_[range]);
+    std::vector<std::string> expected;
+    for (const auto& output : outputs_)
+      for (auto [f, end] = files_of(output, range); f < end; ++f)
+        expected.push_back(path_of(output, f));
+    const bool ours = release_ && first && !first->text.empty() &&
+                      std::equal(first->files.begin(), first->files.end(), expected.begin(), expected.end(),
+                                 [](const auto& file, const auto& path) { return file.path == path; });
+    for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
+      const auto note = mesh_.released(p);
+      if (note && !ours)
+        throw usage_error("subdomain " + std::to_string(p) + " is already in " + note->files.front().path +
+                          "; resume with the formats of the earlier run");
+      if (!note && ours)
+        mesh_.release(p, {first->files, {}});
+    }
+    if (ours)
+      found = byte_reader(first->text).value<finished_pieces>();
+    return ours;
+  }
+
+  /// Runs in the worker, as all below.
+  byte_buffer reply(std::size_t task) const {
+    byte_writer bytes;
+    try {
+      finished_pieces done;
+      if (task < ranges())
+        done = finish_range(task);
+      else
+        (*others_[task - ranges()])();
+      bytes.value(finishing_reply::finished);
+      bytes.value(done);
+    } catch (const io_error& problem) {
+      bytes.value(finishing_reply::not_written);
+      bytes.text(problem.what());
+    } catch (const mesh_error& problem) {
+      bytes.value(finishing_reply::no_mesh);
+      bytes.text(problem.what());
+    }
+    return bytes.take();
+  }
+  finished_pieces finish_range(std::size_t range) const {
+    finished_pieces done;
+    piece_note note;
+    std::vector<std::size_t> next; // file of each output
+    std::vector<piece_file<D>> open(outputs_.size());
+    for (const auto& output : outputs_)
+      next.push_back(files_of(output, range).first);
+    for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
+      const auto piece = load_checked(mesh_, p);
+      const auto faults = check_piece<D>(piece, mesh_.skeleton, sides_[p]);
+      if (!faults.valid())
+        throw mesh_error("the mesh does not conform: " + faults.text());
+      done.quality.merge(measure_quality(piece.mesh), numbers_.first_element[static_cast<std::size_t>(p)]);
+      hash_piece(done.hash, piece, numbers_);
+      for (std::size_t k = 0; k < outputs_.size(); ++k) {
+        const auto& output = outputs_[k];
+        if (p == output.bounds[next[k]])
+          open[k] = output.open(next[k]);
+        open[k].add(piece);
+        if (p + 1 < output.bounds[next[k] + 1])
+          continue;
+        const auto bytes = open[k].close();
+        note.files.push_back({path_of(output, next[k]++), bytes});
+      }
+    }
+    if (release_)
+      give_up(range, std::move(note), done);
+    return done;
+  }
+  void give_up(std::size_t range, piece_note note, const finished_pieces& done) const {
+    byte_writer text;
+    text.value(done);
+    note.text = text.take();
+    for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
+      mesh_.release(p, note);
+      note.text.clear();
+    }
+  }
+
+  /// Back in the parent.
+  finished_pieces accept(std::size_t task, const task_outcome& outcome) const {
+    if (!outcome.ok)
+      throw io_error((task < ranges() ? name_of(task) : std::string("the skeleton")) +
+                     " could not be written: " + outcome.failure);
+    byte_reader bytes(outcome.result);
+    switch (bytes.value<finishing_reply>()) {
+    case finishing_reply::not_written:
+      throw io_error(bytes.text());
+    case finishing_reply::no_mesh:
+      throw mesh_error(bytes.text());
+    default:
+      return bytes.value<finished_pieces>();
+    }
+  }
+
+  const distributed_simplicial_mesh<D>& mesh_;
+  const std::vector<piecewise_output<D>> outputs_;
+  const std::filesystem::path& unfinished_;
+  const global_numbering numbers_;
+  const sides_by_subdomain<D> sides_;
+  const bool release_;
+  std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1
+  std::vector<const std::function<void()>*> others_;
+};
+
+} // namespace detail
+
+template <int D>
+finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
+                          const std::vector<any_piecewise_writer<D>>& writers,
+                          const std::filesystem::path& folder, const any_executor& run_tasks,
+                          const finishing_options& options) {
+  const stopwatch clock;
+  std::optional<unfinished_folder> unfinished;
+  if (!writers.empty())
+    unfinished.emplace(folder);
+  const std::filesystem::path path = unfinished ? unfinished->path() : folder;
+  std::vector<piecewise_output<D>> outputs;
+  for (const auto& writer : writers) {
+    const auto of_writer = detail::folder_of(path, outputs.size());
+    make_folder(of_writer);
+    outputs.push_back(writer.begin(mesh, of_writer));
+  }
+  const bool resumable = options.release && mesh.release;
+  if (unfinished)
+    unfinished->keep(resumable);
+  detail::finishing_tasks<D> tasks(mesh, std::move(outputs), path, resumable && unfinished);
+  finished_mesh result = tasks.run(run_tasks, options);
+  tasks.finish(folder, result.summary);
+  if (unfinished)
+    unfinished->keep(false);
+  result.summary.name = "finishing";
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+#ifdef DOVETAIL_COMPILED
+template finished_mesh finish_mesh<2>(const distributed_simplicial_mesh<2>& mesh,
+                                      const std::vector<any_piecewise_writer<2>>& writers,
+                                      const std::filesystem::path& folder, const any_executor& run_tasks,
+                                      const finishing_options& options);
+template finished_mesh finish_mesh<3>(const distributed_simplicial_mesh<3>& mesh,
+                                      const std::vector<any_piecewise_writer<3>>& writers,
+                                      const std::filesystem::path& folder, const any_executor& run_tasks,
+                                      const finishing_options& options);
+#endif
+
+} // namespace dovetail::io

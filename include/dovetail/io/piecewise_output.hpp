@@ -1,0 +1,132 @@
+/// @file
+/// Output that is made piece by piece: some workers write files of whole pieces under temporary names, and
+/// when all are complete they get their final ones.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/io/global_numbering.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+/// A file that takes pieces. It is complete after `close`; without it, nothing is left.
+template <int D>
+struct piece_file {
+  std::function<void(const simplicial_piece<D>&)> add; ///< the next piece
+  std::function<std::uint64_t()> close;                ///< returns the bytes of the file
+};
+
+/// The files of one format in the making, in a folder for unfinished files. All but `finish` may be called
+/// in any worker, in any order.
+template <int D>
+struct piecewise_output {
+  std::vector<local_id>
+      bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number
+  std::vector<std::string> names;                 ///< of these files
+  std::function<piece_file<D>(std::size_t)> open; ///< file f
+  std::vector<std::function<void()>> others = {}; ///< each writes a file that takes no pieces
+  /// Writes what names the files, and moves all to their folder.
+  std::function<report(const std::filesystem::path& folder)> finish;
+};
+
+/// Any writer of files of whole pieces behind one type: what has a `begin(mesh, unfinished)`, as the concept
+/// `piecewise_mesh_writer` says. May hold nothing.
+template <int D>
+class any_piecewise_writer {
+public:
+  any_piecewise_writer() = default;
+  template <class W>
+    requires requires(const W& writer, const distributed_simplicial_mesh<D>& mesh,
+                      const std::filesystem::path& unfinished) {
+      { writer.begin(mesh, unfinished) } -> std::same_as<piecewise_output<D>>;
+    }
+  any_piecewise_writer(W writer) // NOLINT: converts, as std::function does
+      : begin_([held = std::move(writer)](const distributed_simplicial_mesh<D>& mesh,
+                                          const std::filesystem::path& unfinished) {
+          return held.begin(mesh, unfinished);
+        }) {}
+
+  explicit operator bool() const { return static_cast<bool>(begin_); }
+  piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                            const std::filesystem::path& unfinished) const {
+    return begin_(mesh, unfinished);
+  }
+
+private:
+  std::function<piecewise_output<D>(const distributed_simplicial_mesh<D>&, const std::filesystem::path&)>
+      begin_;
+};
+
+/// Where files are until all of a mesh are complete: the folder "unfinished" in theirs. It goes with its
+/// content at the end, unless it is kept.
+class unfinished_folder {
+public:
+  explicit unfinished_folder(const std::filesystem::path& folder)
+      : path_(std::filesystem::absolute(folder) / "unfinished") {
+    make_folder(path_);
+  }
+  unfinished_folder(const unfinished_folder&) = delete;
+  unfinished_folder& operator=(const unfinished_folder&) = delete;
+  ~unfinished_folder() {
+    if (!kept_)
+      remove(path_.parent_path());
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+  void keep(bool kept) { kept_ = kept; }
+
+  /// Removes what a killed run has left in a folder.
+  static void remove(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder / "unfinished", ignored);
+  }
+
+private:
+  std::filesystem::path path_;
+  bool kept_ = false;
+};
+
+/// Gives a complete file its final place, on the same disk. Returns its bytes.
+inline std::uint64_t move_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code failure;
+  const auto bytes = std::filesystem::file_size(from, failure);
+  if (!failure)
+    std::filesystem::rename(from, to, failure);
+  if (failure)
+    throw io_error("cannot rename the finished file to " + to.string() + ": " + failure.message());
+  return bytes;
+}
+
+/// Writes all files one after the other, here.
+template <int D>
+report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_piecewise_writer<D>& writer,
+                       const std::filesystem::path& folder) {
+  const stopwatch clock;
+  const unfinished_folder unfinished(folder);
+  const piecewise_output<D> output = writer.begin(mesh, unfinished.path());
+  for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
+    const piece_file<D> file = output.open(f);
+    for (local_id p = output.bounds[f]; p < output.bounds[f + 1]; ++p)
+      file.add(load_checked(mesh, p));
+    file.close();
+  }
+  for (const auto& write : output.others)
+    write();
+  report summary = output.finish(folder);
+  summary.seconds = clock.seconds();
+  return summary;
+}
+
+} // namespace dovetail::io

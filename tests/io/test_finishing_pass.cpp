@@ -1,0 +1,226 @@
+#include "dovetail/io/concepts.hpp"
+#include "dovetail/io/distributed_statistics.hpp"
+#include "dovetail/io/finishing_pass.hpp"
+#include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "io/scratch_folder.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace dovetail;
+
+static_assert(piecewise_mesh_writer<io::vtu_writer> && !piecewise_mesh_writer<io::msh_writer>);
+
+namespace {
+
+const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
+
+io::vtu_writer vtu(int pieces = 0, const std::string& stem = "mesh") {
+  return {.pieces = pieces, .stem = stem};
+}
+
+/// Writes where there is no folder.
+struct lost_writer {
+  io::piecewise_output<3> begin(const distributed_mesh& mesh, const std::filesystem::path& unfinished) const {
+    return io::vtu_writer{}.begin(mesh, unfinished / "no_such_folder");
+  }
+};
+
+std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> content;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    content[entry.path().filename().string()] =
+        entry.is_directory() ? "a folder" : testing::file_content(entry.path());
+  return content;
+}
+
+/// The cubes with one piece changed.
+distributed_mesh spoilt(local_id which, const std::function<void(mesh_piece&)>& spoil) {
+  auto mesh = cubes.distributed();
+  mesh.load = [load = mesh.load, which, spoil](local_id p) {
+    auto piece = load(p);
+    if (p == which)
+      spoil(piece);
+    return piece;
+  };
+  return mesh;
+}
+
+/// Pieces that can be given up, as in a spool.
+struct store {
+  std::map<local_id, piece_note> notes = {};
+  std::set<local_id> gone = {};
+  std::vector<local_id> loads = {};
+
+  distributed_mesh mesh() {
+    auto result = cubes.distributed();
+    result.load = [this, load = result.load](local_id p) {
+      loads.push_back(p);
+      if (gone.contains(p))
+        throw io_error("the piece was given up");
+      return load(p);
+    };
+    result.release = [this](local_id p, const piece_note& note) {
+      gone.insert(p);
+      if (!note.files.empty())
+        notes[p] = note;
+    };
+    result.released = [this](local_id p) {
+      return notes.contains(p) ? std::optional(notes.at(p)) : std::nullopt;
+    };
+    return result;
+  }
+};
+
+} // namespace
+
+TEST_CASE("hash, statistics and files are the same by every executor") {
+  const testing::scratch_folder folder("finish_executors");
+  const auto mesh = cubes.distributed();
+  const auto expected = io::measure_distributed(mesh);
+  for (const int pieces : {0, 3, 1}) {
+    const auto name = std::to_string(pieces);
+    io::vtu_writer{.pieces = pieces}(mesh, folder / name);
+    const auto files = content_of(folder / name);
+    const auto check = [&](const any_executor& run_tasks) {
+      const auto finished = io::finish_mesh<3>(mesh, {vtu(pieces)}, folder / (name + "by tasks"), run_tasks);
+      CHECK(finished.hash == expected.hash);
+      CHECK(finished.quality.elements == expected.elements);
+      CHECK(finished.quality.min_wedge_deg == expected.quality.min_wedge_deg);
+      CHECK(finished.quality.worst_element == expected.quality.worst_element);
+      CHECK(finished.quality.min_wedges.bins == expected.quality.min_wedges.bins);
+      REQUIRE(finished.summary.children.size() == 1);
+      CHECK(finished.summary.children[0].get("files") == static_cast<double>(files.size()));
+      CHECK(content_of(folder / (name + "by tasks")) == files);
+    };
+    check(parallel::serial{});
+    for (const int workers : {1, 2, 4})
+      check(parallel::processes{.worker_count = workers});
+    check(parallel::threads{.worker_count = 3});
+  }
+}
+
+TEST_CASE("a piece is loaded once, whatever is written of it") {
+  const testing::scratch_folder folder("finish_once");
+  store pieces;
+  for (const auto& writers : {std::vector<io::any_piecewise_writer<3>>{},
+                              {vtu(3)},
+                              {vtu(1)},
+                              {vtu(4), vtu(2, "again"), vtu(0, "third")}}) {
+    pieces.loads.clear();
+    const auto finished = io::finish_mesh<3>(pieces.mesh(), writers, folder, parallel::serial{});
+    CHECK(pieces.loads.size() == 8);
+    CHECK(std::set<local_id>(pieces.loads.begin(), pieces.loads.end()).size() == 8);
+    CHECK(finished.hash == io::mesh_hash(cubes.distributed()));
+    CHECK(pieces.gone.empty());
+    double bytes = 0;
+    for (const auto& summary : finished.summary.children)
+      bytes += summary.get("bytes");
+    CHECK((bytes > 0) == !writers.empty());
+  }
+  for (const std::string stem : {"mesh", "again", "third"})
+    CHECK(std::filesystem::exists(folder / (stem + ".pvtu")));
+  CHECK_FALSE(std::filesystem::exists(folder / "unfinished"));
+}
+
+TEST_CASE("a piece that does not fit is an error that names it, and the files stay as they were") {
+  const testing::scratch_folder folder("finish_faults");
+  io::vtu_writer{.pieces = 2}(cubes.distributed(), folder);
+  const auto before = content_of(folder);
+  const auto refused = [&](const distributed_mesh& mesh, const char* place) {
+    CAPTURE(place);
+    for (const any_executor& run_tasks :
+         {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 2})}) {
+      CHECK_THROWS_WITH_AS(io::finish_mesh<3>(mesh, {vtu()}, folder, run_tasks), doctest::Contains(place),
+                           mesh_error);
+      CHECK_THROWS_WITH_AS(io::finish_mesh<3>(mesh, {}, folder, run_tasks), doctest::Contains("subdomain 3"),
+                           mesh_error);
+      CHECK(content_of(folder) == before);
+    }
+  };
+  refused(spoilt(3, [](mesh_piece& p) { p.mesh.points[7].y = std::nextafter(p.mesh.points[7].y, 2.0); }),
+          "moved skeleton point (first: ");
+  auto open = spoilt(3, [](mesh_piece& p) { p.mesh.elements.pop_back(), p.mesh.tags.pop_back(); });
+  --open.counts[3].elements;
+  refused(open, "boundary side that is not in the skeleton (first: ");
+  refused(spoilt(3, [](mesh_piece& p) { std::swap(p.mesh.elements[17][0], p.mesh.elements[17][1]); }),
+          "inverted element (17)");
+  refused(spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
+  auto lost = cubes.distributed();
+  for (std::size_t t = 0; t < lost.skeleton.triangles.size(); ++t)
+    if (lost.skeleton.subdomains[t] == std::array<local_id, 2>{3, no_id}) {
+      std::swap(lost.skeleton.triangles[t][0], lost.skeleton.triangles[t][1]);
+      refused(lost, ("missing skeleton side (first: " + std::to_string(t)).c_str());
+      break;
+    }
+}
+
+TEST_CASE("a folder that cannot be written is an io_error from every executor") {
+  const testing::scratch_folder folder("finish_unwritable");
+  testing::write_content(folder / "file", "x");
+  for (const any_executor& run_tasks :
+       {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 2})})
+    CHECK_THROWS_WITH_AS(io::finish_mesh<3>(cubes.distributed(), {vtu()}, folder / "file", run_tasks),
+                         doctest::Contains("file"), io_error);
+  CHECK_THROWS_WITH_AS(io::finish_mesh<3>(cubes.distributed(), {lost_writer{}}, folder,
+                                          parallel::processes{.worker_count = 2}),
+                       doctest::Contains("no_such_folder/"), io_error);
+}
+
+TEST_CASE("pieces are given up once their files are complete, and a second run goes on from there") {
+  const testing::scratch_folder folder("finish_resumed");
+  io::vtu_writer{.pieces = 4}(cubes.distributed(), folder / "expected");
+  store pieces;
+  auto mesh = pieces.mesh();
+  mesh.load = [load = mesh.load](local_id p) {
+    if (p == 5)
+      throw io_error("a damaged file");
+    return load(p);
+  };
+  const auto finish = [&](const distributed_mesh& given, int files) {
+    return io::finish_mesh<3>(given, {vtu(files)}, folder / "out", parallel::serial{}, {.release = true});
+  };
+  CHECK_THROWS_WITH_AS(finish(mesh, 4), "a damaged file", io_error);
+  CHECK(pieces.gone == std::set<local_id>{0, 1, 2, 3, 6, 7});
+  CHECK(content_of(folder / "out").size() == 1); // the folder of unfinished files
+
+  // Killed between two pieces of a file.
+  pieces.gone.erase(7);
+  pieces.notes.erase(7);
+  CHECK_THROWS_WITH_AS(finish(pieces.mesh(), 8), doctest::Contains("mesh_0000.vtu"), usage_error);
+  CHECK_THROWS_WITH_AS(io::finish_mesh<3>(pieces.mesh(), {}, folder / "out", parallel::serial{}),
+                       doctest::Contains("mesh_0000.vtu"), usage_error);
+
+  pieces.loads.clear();
+  const auto finished = finish(pieces.mesh(), 4);
+  CHECK(finished.hash == io::mesh_hash(cubes.distributed()));
+  CHECK(finished.quality.elements == 6 * 8 * 8 * 8);
+  CHECK(finished.summary.get("taken_over") == 3);
+  CHECK(pieces.loads == std::vector<local_id>{4, 5});
+  CHECK(pieces.gone.size() == 8);
+  CHECK(content_of(folder / "out") == content_of(folder / "expected"));
+}
+
+TEST_CASE("the MSH writer gives up each piece when it has read it for the last time") {
+  const testing::scratch_folder folder("finish_msh");
+  store pieces;
+  io::msh_writer{}(pieces.mesh(), folder);
+  CHECK(pieces.gone.empty());
+  pieces.loads.clear();
+  io::msh_writer{.release = true}(pieces.mesh(), folder);
+  CHECK(pieces.loads.size() == 16);
+  CHECK(pieces.gone.size() == 8);
+  CHECK(pieces.notes.empty());
+}
