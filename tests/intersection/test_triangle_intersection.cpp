@@ -1,4 +1,7 @@
 #include "dovetail/intersection/crossing_triangles.hpp"
+#include "dovetail/intersection/single_sheet.hpp"
+#include "dovetail/intersection/triangle_separation.hpp"
+#include "dovetail/mesh/triangle_intersection.hpp"
 
 #include <doctest/doctest.h>
 

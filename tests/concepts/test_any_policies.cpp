@@ -1,10 +1,10 @@
+#include "archetypes.hpp"
+
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
-
-#include "concepts/archetypes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -55,8 +55,7 @@ TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks
 }
 
 struct marking {
-  static constexpr improver_traits traits{};
-
+  static constexpr improver_traits traits{.thread_safe = true};
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {
     mesh.points.push_back({h({1, 2, 3}), 0, 0});
     report made;
@@ -68,10 +67,37 @@ struct marking {
 TEST_CASE("a held improver works on the caller's mesh") {
   simplicial_mesh<3> mesh;
   const any_improver<3> held(marking{}, "marking");
+  CHECK(held.actual_traits().thread_safe);
   const report made = held(mesh, {.points = 5}, [](vec3 p) { return p.z; });
   CHECK(made.get("frozen") == 5);
   REQUIRE(mesh.points.size() == 1);
   CHECK(mesh.points[0].x == 3);
+}
+
+/// Tells what it may not move.
+struct telling {
+  static constexpr improver_traits traits{};
+  report operator()(simplicial_mesh<2>&, const frozen_entities<2>& frozen, const any_sizing&) const {
+    report made;
+    made.set("frozen", frozen.points);
+    return made;
+  }
+};
+
+TEST_CASE("an improver that is told no surface moves vertices in planes only") {
+  static_assert(!surface_improver<telling> && surface_improver<any_improver<2>>);
+  const any_improver<2> held(telling{});
+  simplicial_mesh<2> mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {3, 8}};
+  const auto frozen_on = [&](const surface_host& host) {
+    return held(mesh, {.points = 2}, {}, host).get("frozen");
+  };
+  CHECK(frozen_on({}) == 2);
+  surface_host host{[](local_id, vec3 p, vec2) { return host_point{p, {0, 0, 1}, {}}; }};
+  CHECK(frozen_on(host) == 4);
+  host.plane_normal = [](local_id) { return vec3{0, 0, 1}; };
+  CHECK(frozen_on(host) == 2);
+  host.plane_normal = [](local_id face) { return face == 3 ? vec3{0, 0, 1} : vec3{}; };
+  CHECK(frozen_on(host) == 4);
 }
 
 TEST_CASE("a held executor runs every task once, and knows its workers") {
@@ -83,10 +109,11 @@ TEST_CASE("a held executor runs every task once, and knows its workers") {
       return outcomes;
     }
     int workers() const { return 3; }
-    bool shares_process() const { return false; }
+    bool shares_process() const { return true; }
   };
   const any_executor held(backwards{}, "backwards");
   CHECK(held.workers() == 3);
+  CHECK(runs_in_threads(held));
   const auto outcomes = held.run(4, [](std::size_t i) { return byte_buffer(i); }, {});
   REQUIRE(outcomes.size() == 4);
   for (std::size_t i = 0; i < 4; ++i)
@@ -122,6 +149,13 @@ TEST_CASE("a held geometry forwards every query with its arguments") {
   CHECK(held.project_to_curve(4, {1, 0, 0}, 0.5) == 5.5);
   CHECK(held.bounds().upper == vec3{1, 2, 3});
   CHECK(held.thread_safe());
+  CHECK_FALSE(held.plane_of_face(0).has_value());
+  struct with_plane : echo {
+    std::optional<surface_frame> plane_of_face(local_id f) const {
+      return surface_frame{{double(f), 0, 0}, {}, {}};
+    }
+  };
+  CHECK(any_geometry(with_plane{}).plane_of_face(4)->point.x == 4);
 }
 
 } // namespace
