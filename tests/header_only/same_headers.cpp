@@ -1,2 +1,2 @@
 // Includes what test_entry_points.cpp includes, and nothing else.
-#include "all_headers.hpp"
+#include "entry_points.hpp"
