@@ -1,10 +1,13 @@
 #!/usr/bin/python3
-"""What it costs to include a header: the compiler's time and memory, parsed and checked only, median of repeats.
+"""What it costs to compile: processor time and memory, median of repeats. A header is parsed and checked only;
+a program is compiled at -O2, header-only and with the compiled libraries.
 
-  headers.py [--compiler g++] [--repeats 3] [--at-most-megabytes N] [HEADER...]
+  headers.py [--compiler g++] [--repeats 3] [--flags FILE] [--way header-only|compiled] [--at-most-megabytes N]
+             [HEADER|PROGRAM...]
 
-HEADER is a path under include/ (default: the umbrella and the stages it includes). With a limit, ends with an
-error when a header needs more memory than that.
+HEADER is a path under include/, PROGRAM one of a .cpp file (default: the umbrella, the headers it includes, and the
+first example). FILE has one flag a line; without it Open CASCADE is taken from /usr/include/opencascade. With a
+limit, ends with an error when a compilation needs more memory than that.
 """
 import argparse
 import os
@@ -15,25 +18,25 @@ import subprocess
 import sys
 import tempfile
 
-INCLUDE = pathlib.Path(__file__).resolve().parent.parent / "include"
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INCLUDE = ROOT / "include"
 UMBRELLA = "dovetail/dovetail.hpp"
+EXAMPLE = str(ROOT / "examples/01_mesh_a_cad_file.cpp")
+FLAGS = ["-std=c++20", f"-I{INCLUDE}", "-isystem/usr/include/opencascade", "-DTETLIBRARY"]
+WAYS = {"header-only": [], "compiled": ["-DDOVETAIL_COMPILED", "-DDOVETAIL_COMPILED_OCCT"]}
 
 
-def included_by_umbrella():
-    return re.findall(r'#include "(.*)"', (INCLUDE / UMBRELLA).read_text())
+def default_units():
+    return [UMBRELLA, *re.findall(r'#include "(.*)"', (INCLUDE / UMBRELLA).read_text()), EXAMPLE]
 
 
-def cost(compiler, header):
+def cost(command):
     """Seconds of processor time and megabytes (10^6 bytes) of one compilation."""
-    with tempfile.TemporaryDirectory() as folder:
-        unit = pathlib.Path(folder) / "unit.cpp"
-        unit.write_text(f'#include "{header}"\n')
-        command = [compiler, "-std=c++20", f"-I{INCLUDE}", "-fsyntax-only", str(unit)]
-        process = subprocess.Popen(command)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
+    process = subprocess.Popen(command)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
-        sys.exit(f"{header} does not compile")
+        sys.exit(f"{command[-1]} does not compile")
     # The driver's peak is its child's: wait4 counts a process with those it waited for.
     return usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024 / 1e6
 
@@ -42,17 +45,29 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     arguments.add_argument("--compiler", default="g++")
     arguments.add_argument("--repeats", type=int, default=3)
+    arguments.add_argument("--flags", type=pathlib.Path)
+    arguments.add_argument("--way", choices=WAYS)
     arguments.add_argument("--at-most-megabytes", type=float)
-    arguments.add_argument("headers", nargs="*")
+    arguments.add_argument("units", nargs="*")
     given = arguments.parse_args()
+    flags = given.flags.read_text().split() if given.flags else FLAGS
     too_heavy = []
-    print("| header | seconds | MB |\n|---|---|---|")
-    for header in given.headers or [UMBRELLA, *included_by_umbrella()]:
-        runs = [cost(given.compiler, header) for _ in range(given.repeats)]
-        seconds, megabytes = (statistics.median(column) for column in zip(*runs))
-        print(f"| {header} | {seconds:.2f} | {megabytes:.0f} |", flush=True)
-        if given.at_most_megabytes and megabytes > given.at_most_megabytes:
-            too_heavy.append(header)
+    print("| compiled | seconds | MB |\n|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        header_unit = pathlib.Path(folder) / "unit.cpp"
+        for unit in given.units or default_units():
+            is_program = unit.endswith(".cpp")
+            header_unit.write_text(f'#include "{unit}"\n')
+            source = unit if is_program else str(header_unit)
+            what = ["-O2", "-c", "-o", os.path.join(folder, "unit.o")] if is_program else ["-fsyntax-only"]
+            for way in [given.way] if given.way else WAYS:
+                command = [given.compiler, *flags, *WAYS[way], *what, source]
+                runs = [cost(command) for _ in range(given.repeats)]
+                seconds, megabytes = (statistics.median(column) for column in zip(*runs))
+                name = f"{os.path.basename(unit) if is_program else unit}, {way}"
+                print(f"| {name} | {seconds:.1f} | {megabytes:.0f} |", flush=True)
+                if given.at_most_megabytes and megabytes > given.at_most_megabytes:
+                    too_heavy.append(name)
     if too_heavy:
         sys.exit(f"more than {given.at_most_megabytes:.0f} MB: {', '.join(too_heavy)}")
 

@@ -1,5 +1,5 @@
 # Installs the headers, one export set per component (so that a missing third party never breaks another component),
-# the configuration and version files, the Find modules, and the driver.
+# the configuration and version files, the Find modules, and of the driver and the compiled libraries what was built.
 include(CMakePackageConfigHelpers)
 set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/dovetail")
 
@@ -15,14 +15,14 @@ foreach(component IN LISTS dovetail_components)
 endforeach()
 
 foreach(name IN LISTS dovetail_compiled_targets)
-  install(TARGETS dovetail_${name} EXPORT dovetail_${name} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS dovetail_${name} EXPORT dovetail_${name} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" OPTIONAL)
   install(EXPORT dovetail_${name} NAMESPACE dovetail::
     FILE dovetail-${name}-targets.cmake DESTINATION "${config_directory}")
 endforeach()
 
 configure_package_config_file(
   "${PROJECT_SOURCE_DIR}/cmake/dovetailConfig.cmake.in" "${PROJECT_BINARY_DIR}/dovetailConfig.cmake"
-  INSTALL_DESTINATION "${config_directory}")
+  INSTALL_DESTINATION "${config_directory}" PATH_VARS CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 
@@ -39,5 +39,5 @@ install(FILES
   DESTINATION "${config_directory}")
 
 if(TARGET dovetail_driver)
-  install(TARGETS dovetail_driver RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(TARGETS dovetail_driver RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" OPTIONAL)
 endif()

@@ -1,7 +1,8 @@
 /// @file
 /// The pipeline's stages in their order. Beside it, include what you choose: a geometry (occt_model,
 /// discrete_model, plane_domain, implicit_model), adapters of libraries (TetGen, METIS, Gmsh, ...), readers
-/// and further writers. It must stay cheap to include: at most 450 MB with g++ 12, which a test checks.
+/// and further writers. It must stay cheap to include: with the compiled library at most
+/// 450 MB with g++ 12, which a test checks.
 #pragma once
 
 // The sizes.

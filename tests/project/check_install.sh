@@ -1,30 +1,47 @@
 #!/bin/bash
-# Installs the library to a fresh prefix and builds and runs a separate project against it.
-#   check_install.sh <cmake> <source directory> <work directory> <compiler>
+# Installs the library and builds and runs a separate project against it: header-only, from a build of which nothing was
+# made, and against the compiled libraries of a build that has them.
+#   check_install.sh <cmake> <source directory> <work directory> <compiler> [<build directory with compiled libraries>]
 set -euo pipefail
 cmake=$1
 source_directory=$2
 work=$3
 compiler=$4
+compiled_build=${5:-}
+consumer=$source_directory/tests/project/consumer
 
 rm -rf "$work"
 mkdir -p "$work"
-"$cmake" -S "$source_directory" -B "$work/build" -DCMAKE_CXX_COMPILER="$compiler" -DDOVETAIL_BUILD_APP=OFF \
-  -DDOVETAIL_BUILD_TESTS=OFF -DDOVETAIL_BUILD_EXAMPLES=OFF -DDOVETAIL_BUILD_BENCHMARKS=OFF \
-  -DCMAKE_INSTALL_PREFIX="$work/prefix"
-"$cmake" --install "$work/build"
 
-# Moved, so that no path of the first place may be left in it.
-mv "$work/prefix" "$work/elsewhere"
-if grep -rl -e "$source_directory/include" -e "$work/prefix" "$work/elsewhere"; then
-  echo "the installed files above name the place they were made in"
-  exit 1
+install_moved() { # build directory, prefix; moved there, so that no path of the first place may be left in it
+  "$cmake" --install "$1" --prefix "$work/prefix"
+  mv "$work/prefix" "$2"
+  if grep -rlI -e "$source_directory/include" -e "$work/prefix" "$2"; then
+    echo "the installed files above name the place they were made in"
+    exit 1
+  fi
+}
+check_consumer() { # prefix, build directory, options
+  local prefix=$1 build=$2
+  shift 2
+  "$cmake" -S "$consumer" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" "$@"
+  "$cmake" --build "$build"
+  "$build/consumer"
+}
+
+"$cmake" -S "$source_directory" -B "$work/build" -DCMAKE_CXX_COMPILER="$compiler" \
+  -DDOVETAIL_BUILD_TESTS=OFF -DDOVETAIL_BUILD_EXAMPLES=OFF -DDOVETAIL_BUILD_BENCHMARKS=OFF
+install_moved "$work/build" "$work/elsewhere"
+check_consumer "$work/elsewhere" "$work/consumer"
+
+if [[ -n $compiled_build ]]; then
+  install_moved "$compiled_build" "$work/compiled"
+  check_consumer "$work/compiled" "$work/compiled_consumer" -DEXTRA_COMPONENT=compiled_occt
+  if nm -C "$work/compiled_consumer/CMakeFiles/consumer.dir/main.cpp.o" | grep " W dovetail::occt_shape_from"; then
+    echo "the program that links the compiled library has compiled its functions again"
+    exit 1
+  fi
 fi
-
-consumer=$source_directory/tests/project/consumer
-"$cmake" -S "$consumer" -B "$work/consumer" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$work/elsewhere"
-"$cmake" --build "$work/consumer"
-"$work/consumer/consumer"
 
 # A component that does not exist, and a version that is too new, are refused with a reason.
 expect_refusal() { # reason, options
@@ -39,3 +56,4 @@ expect_refusal() { # reason, options
 }
 expect_refusal "component 'nonsense' is not part of this installation" -DEXTRA_COMPONENT=nonsense
 expect_refusal "requested version \"99" -DWANTED_VERSION=99
+expect_refusal "component 'compiled' is not part of this installation" -DEXTRA_COMPONENT=compiled
