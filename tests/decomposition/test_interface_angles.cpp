@@ -1,5 +1,6 @@
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/quality.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>

@@ -33,7 +33,7 @@ background_result<3> make_background_mesh(const any_geometry&, const any_sizing&
 
 template <>
 generate_result generate_mesh_from(const background_result<3>& background, const any_geometry&,
-                                   const policies_of<3>& policies, const generate_options& options) {
+                                   const policies_of<3>& policies, const generate_options&) {
   const std::string& name = policies.partitioner.name();
   if (name == "failing")
     throw partition_error("part 2 is empty");
