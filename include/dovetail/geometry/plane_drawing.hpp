@@ -50,7 +50,7 @@ inline std::string name_of_path(const plane_drawing& drawing, std::size_t path) 
 }
 
 inline std::string text_of(vec2 p) {
-  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  return std::string("(").append(std::to_string(p.x)).append(", ").append(std::to_string(p.y)).append(")");
 }
 
 inline std::vector<drawn_segment> segments_of(const plane_drawing& drawing) {
