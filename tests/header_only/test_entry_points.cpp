@@ -2,6 +2,7 @@
 
 #include "io/scratch_folder.hpp"
 
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <doctest/doctest.h>
 
 using namespace dovetail;
@@ -12,7 +13,7 @@ TEST_CASE("header-only: a box of CAD becomes a volume mesh, is written and read"
   CHECK_FALSE(is_occt_file(folder / "no.step"));
   CHECK_THROWS_AS(read_occt_model(folder / "no.step"), input_error);
 
-  const auto model = occt_shape_from(builtin::box({0, 0, 0}, {1, 1, 1})).model;
+  const auto model = occt_shape_from(BRepPrimAPI_MakeBox(1, 1, 1).Shape()).model;
   CHECK(occt_triangulation(model).mesh.elements.size() >= 12);
   generate_options options;
   options.subdomains = 2;

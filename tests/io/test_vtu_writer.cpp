@@ -1,3 +1,4 @@
+#include "dovetail/core/error.hpp"
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"

@@ -1,4 +1,6 @@
+#include "dovetail/partition/coarsening.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/partition/refinement.hpp"
 #include "partition/partitioner_contract.hpp"
 
 using namespace dovetail;

@@ -207,7 +207,7 @@ inline mesher_result<3> cgal_mesh_3::operator()(const mesher_input<3>& input, co
   if (result.mesh.elements.empty())
     throw mesher_error("CGAL Mesh_3 made no elements: the size is too large for the body");
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
-  detail::check_elements_positive(result.mesh);
+  check_elements_positive(result.mesh);
   result.summary.name = "cgal_mesh_3";
   result.summary.seconds = clock.seconds();
   result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));

@@ -4,6 +4,7 @@
 /// links it is bound by that.
 #pragma once
 
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/call_budget.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"

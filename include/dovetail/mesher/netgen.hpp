@@ -3,6 +3,7 @@
 /// Netgen is licensed under the LGPL.
 #pragma once
 
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/call_budget.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"

@@ -2,10 +2,7 @@
 /// A graph partitioner without third parties: multilevel greedy graph growing with local refinement.
 #pragma once
 
-#include "dovetail/partition/bisection.hpp"
 #include "dovetail/partition/concepts.hpp"
-#include "dovetail/partition/multilevel.hpp"
-#include "dovetail/partition/recursive_bisection.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -20,20 +17,13 @@ struct greedy {
   int coarse_nodes_per_part = 30; ///< coarsening stops there
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts.
-  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    detail::require_partitionable(graph, parts);
-    detail::require_imbalance(imbalance);
-    if (parts == 1)
-      return std::vector<local_id>(graph.node_weights.size(), 0);
-    const auto grow_and_refine = [this](const csr_graph& whole, int left, int right) {
-      return detail::bisect(whole, static_cast<double>(left) / (left + right), imbalance);
-    };
-    return partition_by_levels(
-        graph, parts, {.imbalance = imbalance, .seed = seed, .coarse_nodes_per_part = coarse_nodes_per_part},
-        [&](const csr_graph& small, int all) { return recursive_bisection(small, all, grow_and_refine); });
-  }
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const;
 };
 
 static_assert(graph_partitioner<greedy>);
 
 } // namespace dovetail::partition
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/greedy.ipp"
+#endif

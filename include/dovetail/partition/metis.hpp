@@ -2,9 +2,12 @@
 /// Adapter: METIS as a graph partitioner.
 #pragma once
 
+#include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/integer_weights.hpp"
+#include "dovetail/partition/part_weights.hpp"
 
 #include <metis.h>
 

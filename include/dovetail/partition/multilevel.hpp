@@ -6,6 +6,8 @@
 
 #include "dovetail/partition/coarsening.hpp"
 #include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/part_weights.hpp"
+#include "dovetail/partition/refinement.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
 
 #include <cmath>

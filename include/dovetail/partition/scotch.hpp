@@ -6,6 +6,7 @@
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/integer_weights.hpp"
+#include "dovetail/partition/part_weights.hpp"
 
 #include <cstdint> // scotch.h does not include what it needs
 #include <cstdio>

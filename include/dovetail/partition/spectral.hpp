@@ -5,6 +5,7 @@
 
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/multilevel.hpp"
+#include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
 
 #include <Eigen/SparseCholesky>

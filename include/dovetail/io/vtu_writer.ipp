@@ -1,0 +1,339 @@
+/// @file
+/// What `vtu_writer.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/line_output.hpp"
+#include "dovetail/io/patches.hpp"
+#include "dovetail/io/piecewise_output.hpp"
+#include "dovetail/io/skeleton_index.hpp"
+#include "dovetail/io/vtk_xml_output.hpp"
+#include "dovetail/io/vtp_output.hpp"
+#include "dovetail/io/vtu_writer.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dovetail::io {
+
+namespace detail {
+
+/// The VTU file of a range of subdomains. Its points are the skeleton points its subdomains touch, ascending,
+/// then the inner points of each subdomain. What follows from counts and skeleton is written at once; each
+/// piece then adds its points and its elements.
+template <int D>
+class vtu_piece_file {
+public:
+  vtu_piece_file(const std::filesystem::path& path, const distributed_simplicial_mesh<D>& mesh,
+                 const global_numbering& numbers, const sides_by_subdomain<D>& sides,
+                 const std::string& field_data, local_id first, local_id last)
+      : mesh_(mesh), next_(first), last_(last), file_(path) {
+    for (auto s = first; s < last; ++s)
+      for (const auto t : sides[s])
+        for (const auto v : sides_of(mesh.skeleton)[static_cast<std::size_t>(t)])
+          shared_.push_back(v);
+    sort_unique(shared_);
+    const auto from = static_cast<std::size_t>(first);
+    const auto to = static_cast<std::size_t>(last);
+    const auto first_id = numbers.first_point[from];
+    const auto inner = static_cast<std::uint64_t>(numbers.first_point[to] - first_id);
+    points_ = shared_.size() + inner;
+    elements_ = static_cast<std::uint64_t>(numbers.first_element[to] - numbers.first_element[from]);
+    if (points_ > static_cast<std::uint64_t>(std::numeric_limits<local_id>::max()))
+      throw io_error("a VTU piece would have more than 2^31 points: ask for more pieces");
+    inner_ = static_cast<local_id>(shared_.size());
+    write_head(field_data);
+    write_point_arrays(first_id, inner);
+    write_cell_arrays(first);
+  }
+
+  /// Pieces come in their order.
+  void add(const simplicial_piece<D>& piece) {
+    if (piece.subdomain != next_ || next_ == last_)
+      throw mesh_error("subdomain " + std::to_string(piece.subdomain) + " is not the next of its VTU file");
+    ++next_;
+    const auto places = places_of(piece);
+    const auto own = span_of(piece.mesh.points).subspan(piece.skeleton_points.size());
+    file_.seek(points_at_);
+    file_.array(own);
+    points_at_ += own.size_bytes();
+    file_.seek(connectivity_at_);
+    for (const auto& element : piece.mesh.elements) {
+      simplex<D> placed;
+      for (std::size_t k = 0; k < placed.size(); ++k)
+        placed[k] = places[static_cast<std::size_t>(element[k])];
+      file_.value(placed);
+    }
+    connectivity_at_ += piece.mesh.elements.size() * sizeof(simplex<D>);
+    if constexpr (D == 2) {
+      file_.seek(regions_at_);
+      file_.array(span_of(piece.mesh.tags));
+      regions_at_ += piece.mesh.tags.size() * sizeof(local_id);
+    }
+  }
+
+  std::uint64_t close() {
+    file_.commit();
+    return file_.size();
+  }
+
+private:
+  static constexpr std::uint64_t corners = D + 1;
+
+  void write_head(const std::string& field_data) {
+    appended_layout layout(file_);
+    file_.text(vtk_xml_opening("UnstructuredGrid"));
+    file_.text("<UnstructuredGrid>\n" + field_data);
+    file_.text("<Piece NumberOfPoints=\"" + std::to_string(points_) + "\" NumberOfCells=\"" +
+               std::to_string(elements_) + "\">\n<Points>\n");
+    points_at_ = layout.array<double>("Points", points_, 3);
+    file_.text("</Points>\n<PointData GlobalIds=\"GlobalNodeIds\">\n");
+    ids_at_ = layout.array<global_id>("GlobalNodeIds", points_);
+    file_.text("</PointData>\n<Cells>\n");
+    connectivity_at_ = layout.array<local_id>("connectivity", corners * elements_);
+    if (wide())
+      offsets_at_ = layout.array<std::int64_t>("offsets", elements_);
+    else
+      offsets_at_ = layout.array<std::int32_t>("offsets", elements_);
+    layout.array<std::uint8_t>("types", elements_);
+    file_.text("</Cells>\n<CellData Scalars=\"subdomain\">\n");
+    layout.array<local_id>("subdomain", elements_);
+    regions_at_ = layout.array<local_id>("region", elements_);
+    file_.text("</CellData>\n");
+    file_.text("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+    for (auto* at : {&points_at_, &ids_at_, &connectivity_at_, &offsets_at_, &regions_at_})
+      *at += file_.size();
+  }
+
+  /// The skeleton points and all global ids; the inner points come with the pieces.
+  void write_point_arrays(global_id first_id, std::uint64_t inner) {
+    file_.value<std::uint64_t>(points_ * sizeof(vec3));
+    for (const auto v : shared_)
+      file_.value(mesh_.skeleton.points[static_cast<std::size_t>(v)]);
+    points_at_ += shared_.size() * sizeof(vec3);
+    file_.seek(ids_at_ - sizeof(std::uint64_t));
+    file_.value<std::uint64_t>(points_ * sizeof(global_id));
+    for (const auto v : shared_)
+      file_.value<global_id>(v);
+    for (std::uint64_t i = 0; i < inner; ++i)
+      file_.value(first_id + static_cast<global_id>(i));
+  }
+
+  /// All cell arrays but the connectivity, and in D = 2 the regions.
+  void write_cell_arrays(local_id first) {
+    file_.value<std::uint64_t>(elements_ * sizeof(simplex<D>));
+    file_.seek(offsets_at_ - sizeof(std::uint64_t));
+    if (wide())
+      append_computed<std::int64_t>(file_, elements_,
+                                    [](auto i) { return static_cast<std::int64_t>(corners * (i + 1)); });
+    else
+      append_computed<std::int32_t>(file_, elements_,
+                                    [](auto i) { return static_cast<std::int32_t>(corners * (i + 1)); });
+    append_computed<std::uint8_t>(file_, elements_, [](auto) { return std::uint8_t{D == 3 ? 10 : 5}; });
+    append_per_subdomain(first, [](local_id s) { return s; });
+    if constexpr (D == 3) {
+      append_per_subdomain(first,
+                           [&](local_id s) { return mesh_.counts[static_cast<std::size_t>(s)].material; });
+    } else {
+      file_.value<std::uint64_t>(elements_ * sizeof(local_id));
+      file_.seek(regions_at_ + elements_ * sizeof(local_id));
+    }
+    file_.text("\n</AppendedData>\n</VTKFile>\n");
+  }
+
+  /// One value per subdomain, repeated for each of its elements.
+  template <class Function>
+  void append_per_subdomain(local_id first, Function of_subdomain) {
+    file_.value<std::uint64_t>(elements_ * sizeof(local_id));
+    for (auto s = first; s < last_; ++s) {
+      const local_id value = of_subdomain(s);
+      for (global_id e = 0; e < mesh_.counts[static_cast<std::size_t>(s)].elements; ++e)
+        file_.value(value);
+    }
+  }
+
+  /// Of each point of a piece: its number in the file.
+  std::vector<local_id> places_of(const simplicial_piece<D>& piece) {
+    std::vector<local_id> places;
+    places.reserve(piece.mesh.points.size());
+    for (const auto v : piece.skeleton_points) {
+      const auto at = std::lower_bound(shared_.begin(), shared_.end(), v);
+      if (at == shared_.end() || *at != v)
+        throw mesh_error("subdomain " + std::to_string(piece.subdomain) + " has skeleton point " +
+                         std::to_string(v) + ", which is on none of its skeleton sides");
+      places.push_back(static_cast<local_id>(at - shared_.begin()));
+    }
+    while (places.size() < piece.mesh.points.size())
+      places.push_back(inner_++);
+    return places;
+  }
+
+  /// Whether offsets need 64 bits.
+  bool wide() const {
+    return elements_ * corners > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+  }
+
+  const distributed_simplicial_mesh<D>& mesh_;
+  local_id next_;
+  local_id last_; ///< one past the last subdomain
+  output_file file_;
+  std::vector<local_id> shared_; ///< skeleton points, ascending
+  std::uint64_t points_ = 0;
+  std::uint64_t elements_ = 0;
+  local_id inner_ = 0;          ///< number of the next inner point
+  std::uint64_t points_at_ = 0; ///< where the next values of an array go
+  std::uint64_t ids_at_ = 0;
+  std::uint64_t connectivity_at_ = 0;
+  std::uint64_t offsets_at_ = 0;
+  std::uint64_t regions_at_ = 0;
+};
+
+/// The file that names the pieces.
+inline void write_pvtu(output_file& file, const std::string& field_data,
+                       const std::vector<std::string>& sources) {
+  file.text(vtk_xml_opening("PUnstructuredGrid"));
+  file.text("<PUnstructuredGrid GhostLevel=\"0\">\n" + field_data);
+  file.text("<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
+            "<PPointData GlobalIds=\"GlobalNodeIds\">\n<PDataArray type=\"Int64\" Name=\"GlobalNodeIds\" "
+            "NumberOfComponents=\"1\"/>\n</PPointData>\n"
+            "<PCellData Scalars=\"subdomain\">\n<PDataArray type=\"Int32\" Name=\"subdomain\" "
+            "NumberOfComponents=\"1\"/>\n<PDataArray type=\"Int32\" Name=\"region\" "
+            "NumberOfComponents=\"1\"/>\n</PCellData>\n");
+  for (const auto& source : sources)
+    file.text("<Piece Source=\"" + source + "\"/>\n");
+  file.text("</PUnstructuredGrid>\n</VTKFile>\n");
+}
+
+/// "<stem>_<number>.vtu" with as many digits as the largest number needs, at least four.
+inline std::string vtu_piece_name(const std::string& stem, local_id number, local_id count) {
+  const auto width = std::max<std::size_t>(4, std::to_string(count - 1).size());
+  auto digits = std::to_string(number);
+  return stem + "_" + std::string(width - std::min(width, digits.size()), '0') + digits + ".vtu";
+}
+
+/// Removes pieces that an earlier mesh of more pieces left in the folder, so that they are not mistaken for
+/// part of this one.
+inline void remove_stale_pieces(const std::filesystem::path& folder, const std::string& stem,
+                                const std::vector<std::string>& sources) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const auto name = entry.path().filename().string();
+    const auto digits =
+        name.size() > stem.size() + 5 && name.starts_with(stem + "_") && name.ends_with(".vtu")
+            ? name.substr(stem.size() + 1, name.size() - stem.size() - 5)
+            : std::string();
+    if (!digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
+        std::find(sources.begin(), sources.end(), name) == sources.end())
+      std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
+} // namespace detail
+
+/// Names of the regions that elements are in: materials, or in D = 2 CAD faces.
+inline std::vector<std::string> region_names(const distributed_simplicial_mesh<3>& mesh) {
+  return collect_material_names(mesh);
+}
+inline std::vector<std::string> region_names(const distributed_simplicial_mesh<2>& mesh) {
+  return mesh.face_names;
+}
+
+template <int D>
+piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh,
+                                      const std::filesystem::path& unfinished) const {
+  struct tables {
+    global_numbering numbers;
+    sides_by_subdomain<D> sides;
+    std::string field_data;
+  };
+  const auto shared =
+      std::make_shared<const tables>(tables{number_globally(mesh), sides_by_subdomain<D>(mesh),
+                                            vtk_field_data({{"region_names", region_names(mesh)}})});
+  const auto subdomains = static_cast<local_id>(mesh.counts.size());
+  const auto files = pieces <= 0 ? subdomains : std::min<local_id>(pieces, subdomains);
+  piecewise_output<D> output;
+  for (local_id f = 0; f <= files; ++f)
+    output.bounds.push_back(
+        static_cast<local_id>(static_cast<global_id>(f) * subdomains / std::max<local_id>(files, 1)));
+  for (local_id f = 0; f < files; ++f)
+    output.names.push_back(detail::vtu_piece_name(stem, f, files));
+  output.open = [&mesh, unfinished, shared, bounds = output.bounds, names = output.names](std::size_t f) {
+    const auto file = std::make_shared<detail::vtu_piece_file<D>>(
+        unfinished / names[f], mesh, shared->numbers, shared->sides, shared->field_data, bounds[f],
+        bounds[f + 1]);
+    return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
+                         [file] { return file->close(); }};
+  };
+  std::vector<std::string> skeleton_files;
+  const auto add_other = [&](const std::string& name, auto write) {
+    skeleton_files.push_back(name);
+    output.others.push_back([path = unfinished / name, write, &mesh] {
+      output_file file(path);
+      write(file, mesh);
+      file.commit();
+    });
+  };
+  if constexpr (D == 3) {
+    add_other("surface.vtp", [](output_file& file, const distributed_mesh& given) {
+      detail::write_skeleton_vtp(file, given, detail::skeleton_part::boundary);
+    });
+    if (subdomains > 1)
+      add_other("interfaces.vtp", [](output_file& file, const distributed_mesh& given) {
+        detail::write_skeleton_vtp(file, given, detail::skeleton_part::interfaces);
+      });
+  } else {
+    add_other("lines.vtp", [](output_file& file, const distributed_simplicial_mesh<2>& given) {
+      detail::write_lines_vtp(file, given);
+    });
+  }
+  output.finish = [&mesh, unfinished, shared, stem = stem, sources = output.names,
+                   skeleton_files](const std::filesystem::path& folder) {
+    output_file index(unfinished / (stem + ".pvtu"));
+    detail::write_pvtu(index, shared->field_data, sources);
+    index.commit();
+    // Between these lines the folder has no PVTU, rather than one that names pieces of two meshes.
+    std::error_code ignored;
+    std::filesystem::remove(folder / (stem + ".pvtu"), ignored);
+    if (mesh.counts.size() == 1)
+      std::filesystem::remove(folder / "interfaces.vtp", ignored);
+    std::uint64_t bytes = 0;
+    for (const auto* names : {&sources, &skeleton_files})
+      for (const auto& name : *names)
+        bytes += move_file(unfinished / name, folder / name);
+    bytes += move_file(unfinished / (stem + ".pvtu"), folder / (stem + ".pvtu"));
+    detail::remove_stale_pieces(folder, stem, sources);
+
+    report summary{"vtu", 0, {}, {}, {}};
+    summary.set("elements", static_cast<double>(shared->numbers.elements()));
+    summary.set("bytes", static_cast<double>(bytes));
+    summary.set("files", static_cast<double>(sources.size() + skeleton_files.size() + 1));
+    return summary;
+  };
+  return output;
+}
+
+template <int D>
+report vtu_writer::operator()(const distributed_simplicial_mesh<D>& mesh,
+                              const std::filesystem::path& folder) const {
+  return write_piecewise<D>(mesh, *this, folder);
+}
+
+#ifdef DOVETAIL_COMPILED
+template piecewise_output<2> vtu_writer::begin(const distributed_simplicial_mesh<2>&,
+                                               const std::filesystem::path&) const;
+template piecewise_output<3> vtu_writer::begin(const distributed_simplicial_mesh<3>&,
+                                               const std::filesystem::path&) const;
+template report vtu_writer::operator()(const distributed_simplicial_mesh<2>&,
+                                       const std::filesystem::path&) const;
+template report vtu_writer::operator()(const distributed_simplicial_mesh<3>&,
+                                       const std::filesystem::path&) const;
+#endif
+
+} // namespace dovetail::io

@@ -1,0 +1,118 @@
+/// @file
+/// What `checks.hpp` declares.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
+#include "dovetail/mesher/checks.hpp"
+#include "dovetail/mesher/concepts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+DOVETAIL_INLINE double enclosed_volume(std::span<const vec3> points, std::span<const simplex<2>> triangles) {
+  box3 box;
+  for (const auto& triangle : triangles)
+    for (const local_id v : triangle)
+      box.include(points[static_cast<std::size_t>(v)]);
+  const vec3 origin = box.center();
+  double volume = 0;
+  for (const auto& t : triangles)
+    volume -= signed_volume(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
+                            points[static_cast<std::size_t>(t[2])], origin);
+  return volume;
+}
+
+namespace detail {
+
+inline void check_points_kept(std::span<const vec3> given, std::span<const vec3> got) {
+  if (got.size() < given.size())
+    throw mesher_error("the mesher lost " + std::to_string(given.size() - got.size()) +
+                       " of the boundary's points");
+  static_assert(sizeof(vec3) == 3 * sizeof(double));
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
+      throw mesher_error("the mesher moved boundary point " + std::to_string(v));
+}
+
+/// Every listed triangle is a side of exactly one element, on the side it is listed for, and of no other.
+inline void check_boundary_kept(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
+  const boundary_sides sides(span_of(boundary.elements));
+  std::vector<std::array<int, 2>> uses(sides.entries().size(), {0, 0});
+  for (const auto& element : mesh.elements)
+    for (const auto& local : numbering::sides<3>)
+      if (const auto found = sides.find(detail::pick(element, local)))
+        ++uses[static_cast<std::size_t>(found.entry)][static_cast<std::size_t>(found.parity)];
+  std::size_t lost = 0;
+  for (std::size_t k = 0; k < uses.size(); ++k)
+    for (std::size_t p = 0; p < 2; ++p) {
+      const bool listed = sides.entries()[k].listed[p] != no_id;
+      if (uses[k][p] > (listed ? 1 : 0))
+        throw mesher_error(
+            "the mesh overlaps itself or the outside at boundary triangle " +
+            std::to_string(std::max(sides.entries()[k].listed[0], sides.entries()[k].listed[1])));
+      lost += listed && uses[k][p] == 0;
+    }
+  if (lost > 0)
+    throw mesher_error("the mesher lost " + std::to_string(lost) + " of " +
+                       std::to_string(boundary.elements.size()) + " boundary triangles");
+}
+
+inline void check_volume(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
+  const double expected = enclosed_volume(span_of(boundary.points), span_of(boundary.elements));
+  box3 box;
+  for (const vec3 p : boundary.points)
+    box.include(p);
+  double volume = 0;
+  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  for (const auto& [a, b, c, d] : mesh.elements)
+    volume += signed_volume(at(a), at(b), at(c), at(d));
+  // Rounding of coordinates: relative to the sum for the elements, to the box for thin bodies.
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::pow(box.diagonal(), 3);
+  if (!(std::abs(volume - expected) <= 1e-9 * std::abs(expected) + rounding))
+    throw mesher_error("the elements fill a volume of " + std::to_string(volume) +
+                       ", the boundary encloses " + std::to_string(expected));
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE void check_elements_positive(const simplicial_mesh<3>& mesh) {
+  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto& [a, b, c, d] = mesh.elements[e];
+    if (!(orient3d(at(a), at(b), at(c), at(d)) > 0))
+      throw mesher_error("element " + std::to_string(e) + " of the mesher's result is flat or inverted");
+  }
+}
+
+DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
+  if (boundary.elements.empty())
+    throw mesher_error("a boundary without triangles encloses nothing");
+  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+    for (const local_id v : boundary.elements[t])
+      if (v < 0 || static_cast<std::size_t>(v) >= boundary.points.size())
+        throw mesher_error("boundary triangle " + std::to_string(t) + " refers to point " +
+                           std::to_string(v) + ", which does not exist");
+}
+
+DOVETAIL_INLINE void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {
+  detail::check_points_kept(span_of(input.boundary.points), span_of(mesh.points));
+  detail::check_boundary_kept(input.boundary, mesh);
+  check_elements_positive(mesh);
+  detail::check_volume(input.boundary, mesh);
+}
+
+} // namespace dovetail
