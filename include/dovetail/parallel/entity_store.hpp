@@ -36,7 +36,7 @@ public:
   byte_buffer get(content_key key) const {
     if (auto found = find(key))
       return *std::move(found);
-    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the piece " + to_string(key)) +
+    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the entity " + to_string(key)) +
                    " is missing or damaged; resume the run to make it again");
   }
   /// Throws `io_error` when it cannot be written.
@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  static std::string name_of(content_key key) { return "piece_" + to_string(key); }
+  static std::string name_of(content_key key) { return "entity_" + to_string(key); }
 
   std::optional<spool> disk_;
   std::map<content_key, byte_buffer> memory_;

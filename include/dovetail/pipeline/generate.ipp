@@ -28,12 +28,12 @@ realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh
                  std::span<const double> weights, const any_sizing& size, const any_parameters<D>& given) {
   std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
   piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
-  patch_cache patches;
   const auto store = std::make_shared<entity_store>(given.options.store);
+  skeleton_store skeleton_parts(store);
   for (;;) {
     auto skeleton =
         realize(model, mesh, sides, side_states, pieces.part_of_element, static_cast<local_id>(sizes.size()),
-                crossing_rounds.size(), crossing_rounds.field(), patches, given);
+                crossing_rounds.size(), crossing_rounds.field(), skeleton_parts, given);
     auto meshed = mesh_all_pieces(model, mesh, skeleton, weights, store, given);
     std::vector<local_id> failed;
     for (const piece_failure& failure : meshed.failures)
@@ -90,8 +90,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   const side_table<D> sides = build_sides(coarse.elements());
   const auto weights = predict_elements<D>(coarse.elements(), background.size).per_element;
   report simplification_summary;
-  const auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains,
-                                                      given.simplify_by, simplification_summary);
+  auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains,
+                                                given.simplify_by, simplification_summary);
   simplification_summary.seconds = simplification_clock.seconds();
 
   options.on_progress("partition", 0, 0);
@@ -101,13 +101,14 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   result.coarse_angles =
       detail::coarse_interface_angles(coarse, sides, simplified.side_states, pieces.part_of_element, options);
   pieces.summary.seconds = partition_clock.seconds();
+  const auto side_states = std::move(simplified.side_states);
+  simplified = {}; // its graph is as large as the background mesh
 
   report partition_summary = pieces.summary;
-  auto [skeleton, meshed] = detail::realize_and_mesh<D>(model, coarse, sides, simplified.side_states,
-                                                        std::move(pieces), weights, background.size, given);
+  auto [skeleton, meshed] = detail::realize_and_mesh<D>(model, coarse, sides, side_states, std::move(pieces),
+                                                        weights, background.size, given);
   result.subdomain_of_element = skeleton.subdomain_of_element;
-  result.fine_angles =
-      detail::fine_interface_angles(skeleton, coarse, sides, simplified.side_states, options);
+  result.fine_angles = detail::fine_interface_angles(skeleton, coarse, sides, side_states, options);
   result.quality = meshed.quality;
   result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);

@@ -54,16 +54,16 @@ using realized_skeleton = realized<3>;
 realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                     const side_table<2>& sides, std::span<const side_state>,
                     std::vector<local_id> subdomain_of_element, local_id subdomains, const any_sizing& size,
-                    content_key field, patch_cache& cache, const any_parameters<2>& given);
+                    content_key field, skeleton_store& made, const any_parameters<2>& given);
 
 /// Remeshes the skeleton of a decomposition until nothing crosses. `side_states` are what the simplification
 /// decided about the sides of the coarse volume. Throws `intersection_error` when too many subdomains would
 /// have to be merged or two CAD faces cross, `mesher_error` when a region cannot be remeshed. `field` is the
-/// key of `size`; `cache` carries patches from one call to the next, as in `remesh_skeleton`.
+/// key of `size`; `made` carries lines and patches from one call to the next, as in `remesh_skeleton`.
 realized_skeleton realize(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
                           std::span<const side_state> side_states, std::vector<local_id> subdomain_of_element,
-                          local_id subdomains, const any_sizing& size, content_key field, patch_cache& cache,
-                          const any_parameters<3>& given);
+                          local_id subdomains, const any_sizing& size, content_key field,
+                          skeleton_store& made, const any_parameters<3>& given);
 
 } // namespace dovetail
 

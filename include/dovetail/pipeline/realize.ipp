@@ -24,14 +24,14 @@ class skeleton_rounds {
 public:
   skeleton_rounds(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
                   std::span<const side_state> side_states, const any_sizing& size, content_key field,
-                  patch_cache& cache, const any_parameters<3>& given)
+                  skeleton_store& made, const any_parameters<3>& given)
       : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), field_(field),
-        cache_(cache), given_(given) {}
+        store_(made), given_(given) {}
 
   realized_skeleton run(std::vector<local_id> subdomain_of_element, local_id subdomains) {
     result_.subdomain_of_element = std::move(subdomain_of_element);
     result_.size = size_;
-    result_.field = cache_.field = field_;
+    result_.field = field_;
     sizes_.assign(static_cast<std::size_t>(subdomains), 1);
     result_.skeleton_summary.name = "skeleton";
     result_.intersection_summary.name = "intersection";
@@ -53,9 +53,9 @@ private:
   remeshed_skeleton remesh() {
     const stopwatch clock;
     result_.coarse = extract_skeleton(mesh_, sides_, result_.subdomain_of_element);
-    auto remeshed =
-        remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
-                        given_.remesh_surface, given_.run_tasks, cache_, given_.options.on_progress);
+    auto remeshed = remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
+                                    result_.field, given_.remesh_surface, given_.run_tasks, store_,
+                                    given_.options.on_progress);
     const double before = result_.skeleton_summary.seconds;
     result_.skeleton_summary = remeshed.summary;
     result_.skeleton_summary.seconds = before + clock.seconds();
@@ -85,19 +85,31 @@ private:
     return true;
   }
 
+  /// Nothing to find where all patches are of a skeleton without crossings: what is left after a merge.
   suppression_plan find_crossings(const remeshed_skeleton& remeshed) {
+    std::vector<content_key> patches = remeshed.patch_keys;
+    sort_unique(patches);
+    suppression_plan plan;
+    if (!std::includes(store_.patches_apart.begin(), store_.patches_apart.end(), patches.begin(),
+                       patches.end()))
+      plan = search_crossings(remeshed);
+    if (plan.empty())
+      store_.patches_apart = std::move(patches);
+    result_.intersection_summary.add("crossings", static_cast<double>(plan.crossings));
+    return plan;
+  }
+
+  suppression_plan search_crossings(const remeshed_skeleton& remeshed) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
-    std::vector<bool> planar_patch;
-    planar_patch.resize(result_.coarse.regions.size(), false);
-    for (const skeleton_face& face : result_.coarse.faces)
-      planar_patch.push_back(!is_curved(face, result_.coarse.lines));
-    std::vector<bool> planar;
-    planar.reserve(remeshed.patch_of_triangle.size());
-    for (const local_id patch : remeshed.patch_of_triangle)
-      planar.push_back(planar_patch[static_cast<std::size_t>(patch)]);
+    std::vector<bool> planar(remeshed.fine.triangles.size(), false);
+    for (std::size_t f = 0; f < result_.coarse.faces.size(); ++f)
+      if (!is_curved(result_.coarse.faces[f], result_.coarse.lines)) {
+        const std::size_t patch = result_.coarse.regions.size() + f;
+        std::fill(planar.begin() + remeshed.first_triangle[patch],
+                  planar.begin() + remeshed.first_triangle[patch + 1], true);
+      }
     auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks);
-    result_.intersection_summary.add("crossings", static_cast<double>(plan.crossings));
     result_.intersection_summary.add("rounds", 1);
     result_.intersection_summary.seconds += clock.seconds();
     return plan;
@@ -118,7 +130,7 @@ private:
   void refine(const std::vector<surface_crossing>& crossings) {
     result_.size = refinement_.refine(crossings, model_.topology());
     ++refinements_;
-    result_.field = cache_.field = refinement_.key(field_);
+    result_.field = refinement_.key(field_);
   }
 
   realized_skeleton finish(remeshed_skeleton remeshed) {
@@ -128,7 +140,7 @@ private:
           mesh_.volume.tags[e];
     result_.fine = std::move(remeshed.fine);
     name_inner_hosts();
-    result_.origins = origins_of(remeshed.patch_of_triangle);
+    result_.origins = origins_of(remeshed.first_triangle);
     report& summary = result_.intersection_summary;
     summary.set("merges", merged_);
     summary.set("largest_merged", *std::max_element(sizes_.begin(), sizes_.end()));
@@ -146,17 +158,15 @@ private:
   }
 
   /// What the simplification decided about the coarse face that each fine triangle lies on.
-  std::vector<triangle_origin> origins_of(const std::vector<local_id>& patch_of_triangle) const {
-    std::vector<triangle_origin> of_patch(result_.coarse.regions.size(), triangle_origin::cad);
-    for (const skeleton_face& face : result_.coarse.faces) {
-      const auto side = static_cast<std::size_t>(find_side<3>(sides_, face.vertices));
-      of_patch.push_back(side_states_[side] == side_state::refused ? triangle_origin::refused
-                                                                   : triangle_origin::kept);
+  std::vector<triangle_origin> origins_of(const std::vector<local_id>& first_triangle) const {
+    std::vector<triangle_origin> origins(static_cast<std::size_t>(first_triangle.back()),
+                                         triangle_origin::cad);
+    for (std::size_t f = 0; f < result_.coarse.faces.size(); ++f) {
+      const auto side = static_cast<std::size_t>(find_side<3>(sides_, result_.coarse.faces[f].vertices));
+      const std::size_t patch = result_.coarse.regions.size() + f;
+      std::fill(origins.begin() + first_triangle[patch], origins.begin() + first_triangle[patch + 1],
+                side_states_[side] == side_state::refused ? triangle_origin::refused : triangle_origin::kept);
     }
-    std::vector<triangle_origin> origins;
-    origins.reserve(patch_of_triangle.size());
-    for (const local_id patch : patch_of_triangle)
-      origins.push_back(of_patch[static_cast<std::size_t>(patch)]);
     return origins;
   }
 
@@ -166,7 +176,7 @@ private:
   std::span<const side_state> side_states_;
   any_sizing size_;
   content_key field_;
-  patch_cache& cache_;
+  skeleton_store& store_;
   const any_parameters<3>& given_;
   crossing_refinement refinement_{size_, given_.options.refinement_rounds};
   int refinements_ = 0;
@@ -180,13 +190,13 @@ private:
 DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                                     const side_table<2>& sides, std::span<const side_state>,
                                     std::vector<local_id> subdomain_of_element, local_id subdomains,
-                                    const any_sizing& size, content_key field, patch_cache& /*cache*/,
+                                    const any_sizing& size, content_key field, skeleton_store& made,
                                     const any_parameters<2>& given) {
   const stopwatch clock;
   realized<2> result;
   result.coarse = extract_skeleton(mesh.surface, own_subdomains(subdomain_of_element));
-  result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size,
-                               given.run_tasks, given.options.on_progress);
+  result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size, field,
+                               given.run_tasks, made.lines, given.options.on_progress);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
   result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(subdomains));
   result.subdomain_of_element = std::move(subdomain_of_element);
@@ -207,9 +217,9 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
 DOVETAIL_INLINE realized_skeleton realize(const any_geometry& model, const background_mesh& mesh,
                                           const side_table<3>& sides, std::span<const side_state> side_states,
                                           std::vector<local_id> subdomain_of_element, local_id subdomains,
-                                          const any_sizing& size, content_key field, patch_cache& cache,
+                                          const any_sizing& size, content_key field, skeleton_store& made,
                                           const any_parameters<3>& given) {
-  return detail::skeleton_rounds(model, mesh, sides, side_states, size, field, cache, given)
+  return detail::skeleton_rounds(model, mesh, sides, side_states, size, field, made, given)
       .run(std::move(subdomain_of_element), subdomains);
 }
 

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
 
@@ -117,42 +118,53 @@ inline fine_line remesh_line(const any_geometry& model, const skeleton_line& lin
   return detail::space_straight(first, last, size);
 }
 
-/// Points of all lines, in tasks of many lines each. Throws `mesher_error` naming what could not be
-/// evaluated.
+/// The key of a line: all that its points are a function of but the model. `field` is that of the sizes.
+inline content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points, content_key field) {
+  key_maker make(field);
+  make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id});
+  for (std::size_t end = 0; end < 2; ++end) {
+    const vec3 p = coarse_points[static_cast<std::size_t>(line.vertices[end])];
+    make(p.x)(p.y)(p.z)(line.t[end])(line.uv[end].x)(line.uv[end].y);
+  }
+  return make.key();
+}
+
+/// Points of all lines; those that are not in `made` are made through `run`. `field` is the key of `size`.
+/// Throws `mesher_error` naming what could not be evaluated.
 inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
                                            std::span<const vec3> coarse_points, const any_sizing& size,
-                                           const any_executor& run, const progress& on_progress = {}) {
-  constexpr std::size_t lines_per_task = 256;
-  const std::size_t tasks = (lines.size() + lines_per_task - 1) / lines_per_task;
-  const auto outcomes = run.run(
-      tasks,
-      [&](std::size_t task) {
+                                           content_key field, const any_executor& run, batched_entities& made,
+                                           const progress& on_progress = {}) {
+  constexpr double lines_per_task = 256;
+  std::vector<content_key> keys;
+  for (const skeleton_line& line : lines)
+    keys.push_back(key_of(line, coarse_points, field));
+  const std::vector<double> costs(lines.size(), 1);
+  const auto outcome = made.make_missing(
+      keys, costs, lines_per_task,
+      [&](const std::vector<std::size_t>& wanted) {
         const task_model own(model, run);
-        byte_writer out;
-        for (std::size_t i = task * lines_per_task; i < std::min(lines.size(), (task + 1) * lines_per_task);
-             ++i) {
-          const fine_line fine = remesh_line(own.get(), lines[i], coarse_points, size);
+        std::vector<byte_buffer> encoded;
+        for (const std::size_t l : wanted) {
+          const fine_line fine = remesh_line(own.get(), lines[l], coarse_points, size);
+          byte_writer out;
           out.array(fine.points);
           out.array(fine.t);
           out.array(fine.uv);
+          encoded.push_back(out.take());
         }
-        return out.take();
+        return encoded;
       },
-      run_options{.on_progress = on_progress, .stage = "lines"});
-  std::vector<fine_line> fine;
-  fine.reserve(lines.size());
-  for (std::size_t task = 0; task < tasks; ++task) {
-    if (!outcomes[task].ok)
-      throw mesher_error("remeshing of skeleton lines failed: " + outcomes[task].failure);
-    byte_reader in(outcomes[task].result);
-    while (!in.at_end()) {
-      fine_line line;
-      line.points = in.array<vec3>();
-      line.t = in.array<double>();
-      line.uv = in.array<vec2>();
-      fine.push_back(std::move(line));
-    }
-  }
+      run, run_options{.on_progress = on_progress, .stage = "lines"});
+  if (outcome.failed)
+    throw mesher_error("remeshing of skeleton lines failed: " + outcome.failed->reason);
+  std::vector<fine_line> fine(lines.size());
+  made.for_each(keys, [&](std::size_t l, const byte_buffer& bytes) {
+    byte_reader in(bytes);
+    fine[l].points = in.array<vec3>();
+    fine[l].t = in.array<double>();
+    fine[l].uv = in.array<vec2>();
+  });
   return fine;
 }
 

@@ -5,21 +5,24 @@
 
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
-#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace dovetail {
 
-/// Patches already remeshed, by the keys of their boundaries. After a merge of subdomains most patches are as
-/// before.
-struct patch_cache {
-  content_key field; ///< what else all patches are a function of: the key of a size field that was changed
-  std::map<content_key, patch_mesh> patches;
+/// The lines and patches made so far, by their keys. After a merge of subdomains most are as before.
+struct skeleton_store {
+  explicit skeleton_store(const std::shared_ptr<entity_store>& store) : lines(store), patches(store) {}
+
+  batched_entities lines;
+  batched_entities patches;
+  std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
 };
 
 /// A region or face that could not be remeshed, and lines on CAD faces at the fault that a merge would
@@ -33,20 +36,23 @@ struct patch_failure {
 
 struct remeshed_skeleton {
   fine_skeleton fine;
-  std::vector<local_id> patch_of_triangle; ///< region r, or number of regions + interface face f
-  std::vector<patch_failure> failures;     ///< `fine` is incomplete when there are any
+  /// Per patch, of which the regions come first and the interface faces behind them: its first triangle in
+  /// `fine`; and the end.
+  std::vector<local_id> first_triangle;
+  std::vector<content_key> patch_keys;
+  std::vector<patch_failure> failures; ///< `fine` is incomplete when there are any
   report summary;
 };
 
-/// Remeshes the skeleton to the sizing field. `cache` carries patches from one call to the next as long as
-/// the model and the remesher are the same; start with an empty one. "patches_made" in the summary are those
-/// that were not in it. About linear in the triangles made. Faults come back as `failures`; throws
-/// `mesher_error` when a patch cannot be evaluated at all.
+/// Remeshes the skeleton to the sizing field, of which `field` is the key. `made` carries lines and patches
+/// from one call to the next as long as the model and the remesher are the same. "patches_made" in the
+/// summary are those that were not in it. About linear in the triangles made. Faults come back as `failures`;
+/// throws `mesher_error` when a patch cannot be evaluated at all.
 remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                  const any_sizing& size, const remesh::patch_remesher& remesher,
-                                  const any_executor& run, patch_cache& cache,
-                                  const progress& on_progress = {});
+                                  const any_sizing& size, content_key field,
+                                  const remesh::patch_remesher& remesher, const any_executor& run,
+                                  skeleton_store& made, const progress& on_progress = {});
 
 } // namespace dovetail
 

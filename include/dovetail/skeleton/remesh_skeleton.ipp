@@ -22,14 +22,15 @@ class skeleton_remesher {
 public:
   skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
                     std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                    const any_sizing& size, const remesh::patch_remesher& remesher, const any_executor& run,
-                    patch_cache& cache, const progress& on_progress)
+                    const any_sizing& size, content_key field, const remesh::patch_remesher& remesher,
+                    const any_executor& run, skeleton_store& made, const progress& on_progress)
       : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), size_(size),
-        remesher_(remesher), run_(run), cache_(cache), on_progress_(on_progress) {}
+        field_(field), remesher_(remesher), run_(run), store_(made), on_progress_(on_progress) {}
 
   remeshed_skeleton run() {
     const stopwatch clock;
-    lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, run_, on_progress_);
+    lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, field_, run_, store_.lines,
+                           on_progress_);
     const double line_seconds = clock.seconds();
     build_patches();
     remesh_patches();
@@ -80,7 +81,7 @@ private:
       if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
           at_x != first_with_label.end() && at_y != first_with_label.end())
         forbidden.push_back({at_x->second, at_y->second});
-    key_maker make(cache_.field);
+    key_maker make(field_);
     make(std::int64_t{is_region(p) ? skeleton_.regions[p].cad_face : no_id});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
     if (!is_region(p))
@@ -95,29 +96,40 @@ private:
   }
 
   void remesh_patches() {
-    std::vector<std::size_t> missing;
-    for (std::size_t p = 0; p < patch_count(); ++p)
-      if (!cache_.patches.contains(keys_[p]))
-        missing.push_back(p);
-    made_ += missing.size();
-    run_options options{.on_progress = on_progress_, .stage = "skeleton"};
-    options.order.resize(missing.size());
-    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
-    stable_sort_all(options.order, [&](std::size_t a, std::size_t b) {
-      return patches_[missing[a]].boundary.segments.size() > patches_[missing[b]].boundary.segments.size();
-    });
-    const auto outcomes = run_.run(
-        missing.size(),
-        [&](std::size_t i) {
-          const task_model own(model_, run_);
-          return encode(remesh_patch(own.get(), missing[i]));
-        },
-        options);
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-      if (!outcomes[i].ok)
-        throw mesher_error("remeshing of " + name_of(missing[i]) + " failed: " + outcomes[i].failure);
-      cache_.patches[keys_[missing[i]]] = decode_patch_mesh(outcomes[i].result);
+    constexpr double triangles_per_task = 4096;
+    std::vector<double> costs; // the triangles in a disk with so many segments around it
+    for (const skeleton_patch& patch : patches_) {
+      const auto segments = static_cast<double>(patch.boundary.segments.size());
+      costs.push_back(segments + segments * segments / 5.4);
     }
+    const auto outcome = store_.patches.make_missing(
+        keys_, costs, triangles_per_task,
+        [&](const std::vector<std::size_t>& wanted) {
+          const task_model own(model_, run_);
+          std::vector<byte_buffer> encoded;
+          for (const std::size_t p : wanted)
+            encoded.push_back(encode(in_space(remesh_patch(own.get(), p))));
+          return encoded;
+        },
+        run_, run_options{.on_progress = on_progress_, .stage = "skeleton"});
+    if (outcome.failed)
+      throw mesher_error("remeshing of " + name_of(outcome.failed->entity) +
+                         " failed: " + outcome.failed->reason);
+    made_ += outcome.made;
+  }
+
+  /// A skeleton has no use for the rest.
+  static patch_mesh in_space(patch_mesh mesh) {
+    mesh.inner_uv.clear();
+    mesh.summary = {};
+    return mesh;
+  }
+
+  /// Calls `use(patch, mesh)` for each patch in turn.
+  template <class Use>
+  void for_each_patch(const Use& use) const {
+    store_.patches.for_each(
+        keys_, [&](std::size_t p, const byte_buffer& bytes) { use(p, decode_patch_mesh(bytes)); });
   }
 
   patch_mesh remesh_patch(const any_geometry& model, std::size_t p) const {
@@ -148,8 +160,7 @@ private:
         chords.emplace_back(sorted_vertices(std::array{numbers[i], numbers[i + 1]}), 0);
     }
     const std::size_t on_lines = chords.size();
-    for (std::size_t p = 0; p < patch_count(); ++p)
-      collect_chords(p, chords);
+    for_each_patch([&](std::size_t p, const patch_mesh& mesh) { collect_chords(p, mesh, chords); });
     for (std::size_t i = on_lines; i < chords.size(); ++i)
       ++chords[i].second; // lines sort first
     sort_unique(chords);
@@ -168,21 +179,21 @@ private:
     return !changed.empty();
   }
 
-  void collect_chords(std::size_t p,
+  void collect_chords(std::size_t p, const patch_mesh& mesh,
                       std::vector<std::pair<std::array<local_id, 2>, std::size_t>>& chords) const {
     chord_finder(patches_[p].boundary)
-        .for_each(cache_.patches.at(keys_[p]).triangles,
+        .for_each(mesh.triangles,
                   [&](std::size_t, const std::array<local_id, 2>& chord) { chords.emplace_back(chord, p); });
   }
 
   remeshed_skeleton assemble() {
     remeshed_skeleton result;
     fine_skeleton& fine = result.fine;
-    fine.points = lines_.points;
-    fine.point_hosts = lines_.hosts;
+    fine.points = std::move(lines_.points);
+    fine.point_hosts = std::move(lines_.hosts);
+    reserve(fine);
     double folded = 0;
-    for (std::size_t p = 0; p < patch_count(); ++p) {
-      const patch_mesh& mesh = cache_.patches.at(keys_[p]);
+    for_each_patch([&](std::size_t p, const patch_mesh& mesh) {
       if (!mesh.crossings.empty() || !mesh.misplaced.empty())
         result.failures.push_back(failure_of(p, mesh));
       if (!mesh.folded.empty()) {
@@ -192,12 +203,28 @@ private:
                                             " triangles turn away from the surface");
       }
       append_patch(p, mesh, result);
-    }
+    });
+    result.first_triangle.push_back(static_cast<local_id>(fine.triangles.size()));
     result.summary.set("folded_triangles", folded);
     for (std::size_t l = 0; l < lines_.keys.size(); ++l)
       if (lines_.keys[l].on.dimension == 1)
         append_curve_edges(static_cast<local_id>(l), fine);
+    result.patch_keys = std::move(keys_);
     return result;
+  }
+
+  /// Exactly: what grows by doubling holds up to twice as much, and both copies as it grows.
+  void reserve(fine_skeleton& fine) const {
+    std::size_t points = fine.points.size(), triangles = 0;
+    for_each_patch([&](std::size_t, const patch_mesh& mesh) {
+      points += mesh.inner_points.size();
+      triangles += mesh.triangles.size();
+    });
+    fine.points.reserve(points);
+    fine.point_hosts.reserve(points);
+    fine.triangles.reserve(triangles);
+    fine.subdomains.reserve(triangles);
+    fine.cad_faces.reserve(triangles);
   }
 
   patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {
@@ -222,6 +249,7 @@ private:
     const auto& labels = patches_[p].boundary.labels;
     const auto frozen = static_cast<local_id>(labels.size());
     const auto first_inner = static_cast<local_id>(fine.points.size());
+    result.first_triangle.push_back(static_cast<local_id>(fine.triangles.size()));
     append(fine.points, mesh.inner_points);
     fine.point_hosts.resize(fine.points.size(),
                             is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
@@ -240,7 +268,6 @@ private:
       fine.triangles.push_back(triangle);
       fine.subdomains.push_back(subdomains);
       fine.cad_faces.push_back(is_region(p) ? skeleton_.regions[p].cad_face : no_id);
-      result.patch_of_triangle.push_back(static_cast<local_id>(p));
     }
   }
 
@@ -257,9 +284,10 @@ private:
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
   const any_sizing& size_;
+  content_key field_;
   const remesh::patch_remesher& remesher_;
   const any_executor& run_;
-  patch_cache& cache_;
+  skeleton_store& store_;
   const progress& on_progress_;
   numbered_lines lines_;
   std::vector<skeleton_patch> patches_;
@@ -272,10 +300,10 @@ private:
 DOVETAIL_INLINE remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                                   std::span<const vec3> coarse_points,
                                                   const coarse_skeleton& skeleton, const any_sizing& size,
-                                                  const remesh::patch_remesher& remesher,
-                                                  const any_executor& run, patch_cache& cache,
+                                                  content_key field, const remesh::patch_remesher& remesher,
+                                                  const any_executor& run, skeleton_store& made,
                                                   const progress& on_progress) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, size, remesher, run, cache,
+  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, size, field, remesher, run, made,
                                    on_progress)
       .run();
 }

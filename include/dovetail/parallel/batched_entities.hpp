@@ -1,0 +1,170 @@
+/// @file
+/// Small entities, of a millisecond or less, that are made many in a task and lie in the entity store
+/// together.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/entity_store.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// What became of the entities of a call.
+struct made_entities {
+  std::size_t made = 0; ///< how many were not there
+  struct failure {
+    std::size_t entity = 0; ///< its number in the call
+    std::string reason;
+  };
+  std::optional<failure> failed = {}; ///< the first that could not be made
+};
+
+/// Entities by their keys. Consecutive ones that are missing make a batch, which is one task and one blob of
+/// the store; its key is that of its members, so a resumed run finds it again. Here are only keys: 40 bytes
+/// per entity, and the blobs where the store has no disk.
+class batched_entities {
+public:
+  /// Makes the entities of the given numbers; runs in a task.
+  using maker = std::function<std::vector<byte_buffer>(const std::vector<std::size_t>& entities)>;
+
+  explicit batched_entities(std::shared_ptr<entity_store> store) : store_(std::move(store)) {}
+
+  /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
+  /// a batch that fails are made again one by one, to find out which it was.
+  made_entities make_missing(std::span<const content_key> keys, std::span<const double> costs,
+                             double batch_cost, const maker& make, const any_executor& run,
+                             run_options options) {
+    const std::vector<batch> batches = missing(keys, costs, batch_cost);
+    options.order.resize(batches.size());
+    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
+    std::stable_sort(options.order.begin(), options.order.end(),
+                     [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
+    auto outcomes = run.run(
+        batches.size(), [&](std::size_t b) { return make_batch(batches[b], make); }, options);
+    made_entities result;
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      const std::vector<std::size_t>& members = batches[b].members;
+      if (!outcomes[b].ok) {
+        result.failed = first_failure(members, make, run, std::move(options));
+        if (!result.failed)
+          result.failed = {members.front(), outcomes[b].failure};
+        return result;
+      }
+      if (!store_->is_shared())
+        store_->keep(batches[b].key, std::move(outcomes[b].result));
+      for (std::size_t i = 0; i < members.size(); ++i)
+        places_[keys[members[i]]] = {batches[b].key, i};
+      result.made += members.size();
+    }
+    return result;
+  }
+
+  /// Calls `use(i, bytes)` for each key in turn. A blob is read once, and held from its first entity in
+  /// `keys` to its last. Throws `io_error` when one is missing or damaged.
+  template <class Use>
+  void for_each(std::span<const content_key> keys, const Use& use) const {
+    struct open_batch {
+      std::size_t uses = 0;
+      std::vector<byte_buffer> members;
+    };
+    std::map<content_key, open_batch> open;
+    for (const content_key key : keys)
+      ++open[places_.at(key).batch].uses;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const place at = places_.at(keys[i]);
+      open_batch& held = open[at.batch];
+      if (held.members.empty())
+        held.members = members_of(store_->get(at.batch));
+      use(i, std::as_const(held.members[at.member]));
+      if (--held.uses == 0)
+        open.erase(at.batch);
+    }
+  }
+
+private:
+  struct batch {
+    content_key key = {};
+    std::vector<std::size_t> members = {}; ///< their numbers in the call
+    double cost = 0;
+  };
+  struct place {
+    content_key batch;
+    std::size_t member;
+  };
+
+  std::vector<batch> missing(std::span<const content_key> keys, std::span<const double> costs,
+                             double batch_cost) const {
+    std::vector<batch> batches;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (places_.contains(keys[i]))
+        continue;
+      if (batches.empty() || batches.back().cost >= batch_cost)
+        batches.emplace_back();
+      batches.back().members.push_back(i);
+      batches.back().cost += costs[i];
+    }
+    for (batch& each : batches) {
+      key_maker make;
+      for (const std::size_t i : each.members)
+        make(static_cast<std::int64_t>(keys[i].value));
+      each.key = make.key();
+    }
+    return batches;
+  }
+
+  /// In a worker: the bytes of the batch, unless the worker has put them into the store itself.
+  byte_buffer make_batch(const batch& wanted, const maker& make) const {
+    if (store_->is_shared() && store_->find(wanted.key))
+      return {};
+    byte_writer bytes;
+    for (const byte_buffer& member : make(wanted.members))
+      bytes.array(member);
+    if (!store_->is_shared())
+      return bytes.take();
+    store_->keep(wanted.key, bytes.take());
+    return {};
+  }
+
+  static std::vector<byte_buffer> members_of(const byte_buffer& bytes) {
+    std::vector<byte_buffer> members;
+    for (byte_reader in(bytes); !in.at_end();)
+      members.push_back(in.array<std::byte>());
+    return members;
+  }
+
+  static std::optional<made_entities::failure> first_failure(const std::vector<std::size_t>& members,
+                                                             const maker& make, const any_executor& run,
+                                                             run_options options) {
+    options.order.clear();
+    const auto alone = run.run(
+        members.size(),
+        [&](std::size_t i) {
+          make({members[i]});
+          return byte_buffer{};
+        },
+        options);
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      if (!alone[i].ok)
+        return made_entities::failure{members[i], alone[i].failure};
+    return std::nullopt;
+  }
+
+  std::shared_ptr<entity_store> store_;
+  std::map<content_key, place> places_;
+};
+
+} // namespace dovetail
