@@ -187,6 +187,11 @@ TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
   CHECK(result.summary.children.back().get("merged_after_failure") >= 1);
   // All but the piece that came of the last merge are found under their keys.
   CHECK(result.summary.children.back().get("reused") == static_cast<double>(result.mesh.counts.size()) - 1);
+  // A merge makes no new lines, and new patches only where two regions of a face become one.
+  const report& skeleton = result.summary.children[3];
+  REQUIRE(skeleton.name == "skeleton");
+  CHECK(skeleton.get("lines_made") == 0);
+  CHECK(skeleton.get("patches_made") < 0.5 * (skeleton.get("regions") + skeleton.get("interface_faces")));
   CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
 }
 

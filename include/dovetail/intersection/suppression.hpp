@@ -47,11 +47,19 @@ inline surface_crossing describe_crossing(std::span<const vec3> points, std::spa
 
 } // namespace detail
 
+/// Triangles of which no two cross, as an earlier search has found, and where the others are.
+struct known_apart {
+  std::vector<bool> triangles;     ///< per triangle; or empty
+  std::vector<box3> around_others; ///< boxes that together hold all others
+};
+
 /// Finds the crossings of a fine skeleton. Two triangles of planar interface faces are not tested: those
 /// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing
-/// interface faces the one with the smaller pair of subdomains goes.
+/// interface faces the one with the smaller pair of subdomains goes. Where most is known, only what is near
+/// the rest is searched.
 suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
-                                  const any_executor& run, const crossing_parameters& parameters = {});
+                                  const any_executor& run, const known_apart& known = {},
+                                  const crossing_parameters& parameters = {});
 
 } // namespace dovetail
 

@@ -2,6 +2,7 @@
 /// What `suppression.hpp` declares.
 #pragma once
 
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/intersection/suppression.hpp"
@@ -12,13 +13,63 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// The triangles that are not known to be apart, and those near them; growing.
+inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
+  const box_tree others(known.around_others);
+  std::vector<local_id> near;
+  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+    bool is_near = !known.triangles[t];
+    if (!is_near) {
+      const box3 box = box_of(skeleton.points, skeleton.triangles[t]);
+      others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
+                      [&](local_id other) {
+                        is_near =
+                            is_near || known.around_others[static_cast<std::size_t>(other)].overlaps(box);
+                      });
+    }
+    if (is_near)
+      near.push_back(static_cast<local_id>(t));
+  }
+  return near;
+}
+
+/// Crossing pairs of which not both are known to be apart, nor both planar.
+inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleton,
+                                                    const std::vector<bool>& planar, const any_executor& run,
+                                                    const known_apart& known,
+                                                    const crossing_parameters& parameters) {
+  const auto both = [](const std::vector<bool>& set, local_id i, local_id j) {
+    return set[static_cast<std::size_t>(i)] && set[static_cast<std::size_t>(j)];
+  };
+  if (known.triangles.empty())
+    return crossing_triangles(
+        skeleton.points, skeleton.triangles, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
+        parameters);
+  const std::vector<local_id> near = triangles_to_search(skeleton, known);
+  std::vector<simplex<2>> triangles;
+  for (const local_id t : near)
+    triangles.push_back(skeleton.triangles[static_cast<std::size_t>(t)]);
+  const auto of_all = [&](local_id k) { return near[static_cast<std::size_t>(k)]; };
+  auto pairs = crossing_triangles(
+      skeleton.points, triangles,
+      [&](local_id i, local_id j) {
+        return both(planar, of_all(i), of_all(j)) || both(known.triangles, of_all(i), of_all(j));
+      },
+      run, parameters);
+  for (auto& [i, j] : pairs)
+    i = of_all(i), j = of_all(j);
+  return pairs;
+}
+
+} // namespace detail
+
 DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
                                                   const std::vector<bool>& planar, const any_executor& run,
+                                                  const known_apart& known,
                                                   const crossing_parameters& parameters) {
-  const auto both_planar = [&](local_id i, local_id j) {
-    return planar[static_cast<std::size_t>(i)] && planar[static_cast<std::size_t>(j)];
-  };
-  const auto pairs = crossing_triangles(skeleton.points, skeleton.triangles, both_planar, run, parameters);
+  const auto pairs = detail::unknown_crossings(skeleton, planar, run, known, parameters);
   suppression_plan plan;
   plan.crossings = pairs.size();
   std::set<std::array<local_id, 2>> merges;

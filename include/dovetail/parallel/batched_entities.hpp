@@ -23,14 +23,10 @@
 
 namespace dovetail {
 
-/// What became of the entities of a call.
-struct made_entities {
-  std::size_t made = 0; ///< how many were not there
-  struct failure {
-    std::size_t entity = 0; ///< its number in the call
-    std::string reason;
-  };
-  std::optional<failure> failed = {}; ///< the first that could not be made
+/// An entity that could not be made.
+struct entity_failure {
+  std::size_t entity = 0; ///< its number in the call
+  std::string reason;
 };
 
 /// Entities by their keys. Consecutive ones that are missing make a batch, which is one task and one blob of
@@ -43,11 +39,13 @@ public:
 
   explicit batched_entities(std::shared_ptr<entity_store> store) : store_(std::move(store)) {}
 
+  std::size_t size() const { return places_.size(); }
+
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
-  /// a batch that fails are made again one by one, to find out which it was.
-  made_entities make_missing(std::span<const content_key> keys, std::span<const double> costs,
-                             double batch_cost, const maker& make, const any_executor& run,
-                             run_options options) {
+  /// a batch that fails are made again one by one, to find out which it was; it is returned.
+  std::optional<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
+                                             double batch_cost, const maker& make, const any_executor& run,
+                                             run_options options) {
     const std::vector<batch> batches = missing(keys, costs, batch_cost);
     options.order.resize(batches.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
@@ -55,22 +53,18 @@ public:
                      [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
     auto outcomes = run.run(
         batches.size(), [&](std::size_t b) { return make_batch(batches[b], make); }, options);
-    made_entities result;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       const std::vector<std::size_t>& members = batches[b].members;
       if (!outcomes[b].ok) {
-        result.failed = first_failure(members, make, run, std::move(options));
-        if (!result.failed)
-          result.failed = {members.front(), outcomes[b].failure};
-        return result;
+        const auto alone = first_failure(members, make, run, std::move(options));
+        return alone ? alone : entity_failure{members.front(), outcomes[b].failure};
       }
       if (!store_->is_shared())
         store_->keep(batches[b].key, std::move(outcomes[b].result));
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
-      result.made += members.size();
     }
-    return result;
+    return std::nullopt;
   }
 
   /// Calls `use(i, bytes)` for each key in turn. A blob is read once, and held from its first entity in
@@ -146,9 +140,9 @@ private:
     return members;
   }
 
-  static std::optional<made_entities::failure> first_failure(const std::vector<std::size_t>& members,
-                                                             const maker& make, const any_executor& run,
-                                                             run_options options) {
+  static std::optional<entity_failure> first_failure(const std::vector<std::size_t>& members,
+                                                     const maker& make, const any_executor& run,
+                                                     run_options options) {
     options.order.clear();
     const auto alone = run.run(
         members.size(),
@@ -159,7 +153,7 @@ private:
         options);
     for (std::size_t i = 0; i < alone.size(); ++i)
       if (!alone[i].ok)
-        return made_entities::failure{members[i], alone[i].failure};
+        return entity_failure{members[i], alone[i].failure};
     return std::nullopt;
   }
 

@@ -85,34 +85,47 @@ private:
     return true;
   }
 
-  /// Nothing to find where all patches are of a skeleton without crossings: what is left after a merge.
+  /// After a merge most patches are of a skeleton that was searched before.
   suppression_plan find_crossings(const remeshed_skeleton& remeshed) {
-    std::vector<content_key> patches = remeshed.patch_keys;
-    sort_unique(patches);
-    suppression_plan plan;
-    if (!std::includes(store_.patches_apart.begin(), store_.patches_apart.end(), patches.begin(),
-                       patches.end()))
-      plan = search_crossings(remeshed);
-    if (plan.empty())
-      store_.patches_apart = std::move(patches);
-    result_.intersection_summary.add("crossings", static_cast<double>(plan.crossings));
-    return plan;
-  }
-
-  suppression_plan search_crossings(const remeshed_skeleton& remeshed) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
     std::vector<bool> planar(remeshed.fine.triangles.size(), false);
     for (std::size_t f = 0; f < result_.coarse.faces.size(); ++f)
-      if (!is_curved(result_.coarse.faces[f], result_.coarse.lines)) {
-        const std::size_t patch = result_.coarse.regions.size() + f;
-        std::fill(planar.begin() + remeshed.first_triangle[patch],
-                  planar.begin() + remeshed.first_triangle[patch + 1], true);
-      }
-    auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks);
+      if (!is_curved(result_.coarse.faces[f], result_.coarse.lines))
+        mark(planar, remeshed, result_.coarse.regions.size() + f);
+    auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks, patches_apart(remeshed));
+    if (plan.empty()) {
+      store_.patches_apart = remeshed.patch_keys;
+      sort_unique(store_.patches_apart);
+    }
+    result_.intersection_summary.add("crossings", static_cast<double>(plan.crossings));
     result_.intersection_summary.add("rounds", 1);
     result_.intersection_summary.seconds += clock.seconds();
     return plan;
+  }
+
+  static void mark(std::vector<bool>& triangles, const remeshed_skeleton& remeshed, std::size_t patch) {
+    std::fill(triangles.begin() + remeshed.first_triangle[patch],
+              triangles.begin() + remeshed.first_triangle[patch + 1], true);
+  }
+
+  known_apart patches_apart(const remeshed_skeleton& remeshed) const {
+    known_apart known;
+    if (store_.patches_apart.empty())
+      return known;
+    const fine_skeleton& fine = remeshed.fine;
+    known.triangles.resize(fine.triangles.size(), false);
+    for (std::size_t p = 0; p < remeshed.patch_keys.size(); ++p)
+      if (std::binary_search(store_.patches_apart.begin(), store_.patches_apart.end(),
+                             remeshed.patch_keys[p])) {
+        mark(known.triangles, remeshed, p);
+      } else {
+        box3& box = known.around_others.emplace_back();
+        for (local_id t = remeshed.first_triangle[p]; t < remeshed.first_triangle[p + 1]; ++t)
+          for (const local_id v : fine.triangles[static_cast<std::size_t>(t)])
+            box.include(fine.points[static_cast<std::size_t>(v)]);
+      }
+    return known;
   }
 
   void merge(const std::vector<std::array<local_id, 2>>& pairs) {

@@ -29,6 +29,7 @@ public:
 
   remeshed_skeleton run() {
     const stopwatch clock;
+    const std::size_t lines_before = store_.lines.size(), patches_before = store_.patches.size();
     lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, field_, run_, store_.lines,
                            on_progress_);
     const double line_seconds = clock.seconds();
@@ -43,7 +44,8 @@ public:
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
     result.summary.set("triangles", static_cast<double>(result.fine.triangles.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("patches_made", static_cast<double>(made_));
+    result.summary.set("lines_made", static_cast<double>(store_.lines.size() - lines_before));
+    result.summary.set("patches_made", static_cast<double>(store_.patches.size() - patches_before));
     result.summary.set("line_seconds", line_seconds);
     result.summary.seconds = clock.seconds();
     return result;
@@ -102,7 +104,7 @@ private:
       const auto segments = static_cast<double>(patch.boundary.segments.size());
       costs.push_back(segments + segments * segments / 5.4);
     }
-    const auto outcome = store_.patches.make_missing(
+    const auto failure = store_.patches.make_missing(
         keys_, costs, triangles_per_task,
         [&](const std::vector<std::size_t>& wanted) {
           const task_model own(model_, run_);
@@ -112,10 +114,8 @@ private:
           return encoded;
         },
         run_, run_options{.on_progress = on_progress_, .stage = "skeleton"});
-    if (outcome.failed)
-      throw mesher_error("remeshing of " + name_of(outcome.failed->entity) +
-                         " failed: " + outcome.failed->reason);
-    made_ += outcome.made;
+    if (failure)
+      throw mesher_error("remeshing of " + name_of(failure->entity) + " failed: " + failure->reason);
   }
 
   /// A skeleton has no use for the rest.
@@ -292,7 +292,6 @@ private:
   numbered_lines lines_;
   std::vector<skeleton_patch> patches_;
   std::vector<content_key> keys_;
-  std::size_t made_ = 0;
 };
 
 } // namespace detail

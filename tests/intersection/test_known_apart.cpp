@@ -1,0 +1,51 @@
+#include "dovetail/intersection/suppression.hpp"
+#include "dovetail/parallel/serial.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dovetail;
+
+namespace {
+
+/// Two interface triangles through each other, a third one through the second, far from the first.
+fine_skeleton three_triangles() {
+  fine_skeleton skeleton;
+  skeleton.points = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1},
+                     {9, 9, 0}, {8, 8, -1}, {9, 8, 1}, {8, 9, 1}};
+  skeleton.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  skeleton.subdomains = {{0, 1}, {2, 3}, {4, 5}};
+  skeleton.cad_faces = {no_id, no_id, no_id};
+  return skeleton;
+}
+
+std::size_t crossings(const known_apart& known) {
+  const fine_skeleton skeleton = three_triangles();
+  return plan_suppression(skeleton, {false, false, false}, parallel::serial{}, known).crossings;
+}
+
+box3 box_around(const fine_skeleton& skeleton, std::size_t triangle) {
+  box3 box;
+  for (const local_id v : skeleton.triangles[triangle])
+    box.include(skeleton.points[static_cast<std::size_t>(v)]);
+  return box;
+}
+
+} // namespace
+
+TEST_CASE("Only pairs that are not known to be apart are searched, and all of these") {
+  const fine_skeleton skeleton = three_triangles();
+  CHECK(crossings({}) == 2);
+  CHECK(crossings({{false, false, false},
+                   {box_around(skeleton, 0), box_around(skeleton, 1), box_around(skeleton, 2)}}) == 2);
+  CHECK(crossings({{true, true, true}, {}}) == 0);
+  CHECK(crossings({{true, true, false}, {box_around(skeleton, 2)}}) == 1);
+  CHECK(crossings({{false, true, true}, {box_around(skeleton, 0)}}) == 1);
+  CHECK(crossings({{true, false, true}, {box_around(skeleton, 1)}}) == 2);
+}
+
+TEST_CASE("What is found near the rest is named by its own number") {
+  const fine_skeleton skeleton = three_triangles();
+  const auto plan = plan_suppression(skeleton, {false, false, false}, parallel::serial{},
+                                     {{true, true, false}, {box_around(skeleton, 2)}});
+  CHECK(plan.merges == std::vector<std::array<local_id, 2>>{{2, 3}});
+}

@@ -1,0 +1,140 @@
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/batched_entities.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+#include <unistd.h>
+
+using namespace dovetail;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct scratch_folder {
+  fs::path path = fs::temp_directory_path() / ("dovetail_batches_" + std::to_string(::getpid()));
+  scratch_folder() { fs::remove_all(path); }
+  ~scratch_folder() { fs::remove_all(path); }
+};
+
+const run_identity identity{{"input", "abc"}};
+
+byte_buffer bytes_of(std::uint64_t name) {
+  return byte_buffer(static_cast<std::size_t>(name % 7), static_cast<std::byte>(name));
+}
+std::vector<byte_buffer> make_of(std::span<const content_key> keys, const std::vector<std::size_t>& wanted) {
+  std::vector<byte_buffer> made;
+  for (const std::size_t i : wanted)
+    made.push_back(bytes_of(keys[i].value));
+  return made;
+}
+std::vector<content_key> keys_from(std::uint64_t first, std::uint64_t count) {
+  std::vector<content_key> keys;
+  for (std::uint64_t k = first; k < first + count; ++k)
+    keys.push_back({k});
+  return keys;
+}
+
+/// Makes what is missing of `keys`, three to a task, and checks all of them.
+std::size_t make_and_check(batched_entities& entities, const std::vector<content_key>& keys,
+                           const any_executor& run) {
+  const std::size_t before = entities.size();
+  const auto failure = entities.make_missing(
+      keys, std::vector<double>(keys.size(), 1), 3,
+      [&](const std::vector<std::size_t>& wanted) { return make_of(keys, wanted); }, run, {});
+  CHECK_FALSE(failure);
+  std::size_t next = 0;
+  entities.for_each(keys, [&](std::size_t i, const byte_buffer& bytes) {
+    CHECK(i == next++);
+    CHECK(bytes == bytes_of(keys[i].value));
+  });
+  CHECK(next == keys.size());
+  return entities.size() - before;
+}
+
+const std::vector<any_executor> executors{parallel::serial{}, parallel::threads{3}, parallel::processes{3}};
+
+} // namespace
+
+TEST_CASE("What is there is not made again, in memory and on disk, whoever runs the tasks") {
+  for (const any_executor& run : executors)
+    for (const bool on_disk : {false, true}) {
+      const scratch_folder scratch;
+      const auto store = on_disk ? std::make_shared<entity_store>(spool::start(scratch.path, identity))
+                                 : std::make_shared<entity_store>();
+      batched_entities entities(store);
+      CHECK(make_and_check(entities, keys_from(10, 20), run) == 20);
+      CHECK(make_and_check(entities, keys_from(10, 20), run) == 0);
+      CHECK(make_and_check(entities, keys_from(5, 20), run) == 5);
+      CHECK(make_and_check(entities, {}, run) == 0);
+    }
+}
+
+TEST_CASE("A resumed run finds the batches of the earlier one") {
+  const scratch_folder scratch;
+  const auto keys = keys_from(1, 10);
+  batched_entities first(std::make_shared<entity_store>(spool::start(scratch.path, identity)));
+  make_and_check(first, keys, parallel::processes{2});
+  std::atomic<int> made = 0;
+  batched_entities second(std::make_shared<entity_store>(spool::resume(scratch.path, identity)));
+  const auto again = [&](const std::vector<std::size_t>& wanted) {
+    made += static_cast<int>(wanted.size());
+    return make_of(keys, wanted);
+  };
+  CHECK_FALSE(second.make_missing(keys, std::vector<double>(10, 1), 3, again, parallel::serial{}, {}));
+  CHECK(made == 0);
+  second.for_each(keys,
+                  [&](std::size_t i, const byte_buffer& bytes) { CHECK(bytes == bytes_of(keys[i].value)); });
+}
+
+TEST_CASE("An entity is made once per batch of its cost, the costliest batch first") {
+  const auto keys = keys_from(0, 6);
+  const std::vector<double> costs{1, 1, 1, 9, 1, 1};
+  std::vector<std::vector<std::size_t>> batches;
+  batched_entities entities(std::make_shared<entity_store>());
+  entities.make_missing(keys, costs, 3,
+                        [&](const std::vector<std::size_t>& wanted) {
+                          batches.push_back(wanted);
+                          return make_of(keys, wanted);
+                        },
+                        parallel::serial{}, {});
+  CHECK(batches == std::vector<std::vector<std::size_t>>{{3}, {0, 1, 2}, {4, 5}});
+}
+
+TEST_CASE("Of a batch that fails, the entity that fails alone is named; a crash too") {
+  const auto keys = keys_from(0, 9);
+  for (const bool crashes : {false, true}) {
+    batched_entities entities(std::make_shared<entity_store>());
+    const auto failure = entities.make_missing(keys, std::vector<double>(9, 1), 3,
+                                               [&](const std::vector<std::size_t>& wanted) {
+                                                 for (const std::size_t i : wanted)
+                                                   if (i == 4 && crashes)
+                                                     std::raise(SIGKILL);
+                                                   else if (i == 4)
+                                                     throw mesher_error("four fails");
+                                                 return make_of(keys, wanted);
+                                               },
+                                               parallel::processes{2}, {});
+    REQUIRE(failure);
+    CHECK(failure->entity == 4);
+    CHECK(failure->reason.find(crashes ? "signal 9" : "four fails") != std::string::npos);
+  }
+}
+
+TEST_CASE("A blob that has gone is an error that names it") {
+  const scratch_folder scratch;
+  const auto disk = spool::start(scratch.path, identity);
+  const auto keys = keys_from(1, 3);
+  batched_entities entities(std::make_shared<entity_store>(disk));
+  make_and_check(entities, keys, parallel::serial{});
+  disk.clear();
+  CHECK_THROWS_AS(entities.for_each(keys, [](std::size_t, const byte_buffer&) {}), io_error);
+}
