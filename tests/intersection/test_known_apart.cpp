@@ -39,6 +39,8 @@ TEST_CASE("Only pairs that are not known to be apart are searched, and all of th
                    {box_around(skeleton, 0), box_around(skeleton, 1), box_around(skeleton, 2)}}) == 2);
   CHECK(crossings({{true, true, true}, {}}) == 0);
   CHECK(crossings({{true, true, false}, {box_around(skeleton, 2)}}) == 1);
+  CHECK(crossings({{true, true, false},
+                   {box_around(skeleton, 0), box_around(skeleton, 1), box_around(skeleton, 2)}}) == 1);
   CHECK(crossings({{false, true, true}, {box_around(skeleton, 0)}}) == 1);
   CHECK(crossings({{true, false, true}, {box_around(skeleton, 1)}}) == 2);
 }
