@@ -39,7 +39,7 @@ private:
   bool has_pieces() const {
     std::error_code failure;
     for (const auto& entry : std::filesystem::directory_iterator(spool_.folder(), failure))
-      if (entry.path().filename().string().starts_with("entity_"))
+      if (entry.path().filename().string().starts_with("piece_"))
         return true;
     return false;
   }

@@ -272,7 +272,7 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   REQUIRE(WIFSIGNALED(status));
 
   const spool disk = spool::resume(scratch.path, {});
-  const auto name_of = [](local_id cube) { return "entity_" + to_string(key_of(cube_number(cube), {})); };
+  const auto name_of = [](local_id cube) { return "piece_" + to_string(key_of(cube_number(cube), {})); };
   REQUIRE(disk.read(name_of(3)));
   REQUIRE_FALSE(disk.read(name_of(5)));
   fs::resize_file(disk.path_of(name_of(1)), 100); // and one is damaged

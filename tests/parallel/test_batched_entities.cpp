@@ -46,7 +46,7 @@ std::vector<content_key> keys_from(std::uint64_t first, std::uint64_t count) {
 /// Makes what is missing of `keys`, three to a task, and checks all of them.
 std::size_t make_and_check(batched_entities& entities, const std::vector<content_key>& keys,
                            const any_executor& run) {
-  const std::size_t before = entities.size();
+  const std::size_t before = entities.made();
   const auto failure = entities.make_missing(
       keys, std::vector<double>(keys.size(), 1), 3,
       [&](const std::vector<std::size_t>& wanted) { return make_of(keys, wanted); }, run, {});
@@ -57,7 +57,7 @@ std::size_t make_and_check(batched_entities& entities, const std::vector<content
     CHECK(bytes == bytes_of(keys[i].value));
   });
   CHECK(next == keys.size());
-  return entities.size() - before;
+  return entities.made() - before;
 }
 
 const std::vector<any_executor> executors{parallel::serial{}, parallel::threads{3}, parallel::processes{3}};
@@ -91,6 +91,7 @@ TEST_CASE("A resumed run finds the batches of the earlier one") {
   };
   CHECK_FALSE(second.make_missing(keys, std::vector<double>(10, 1), 3, again, parallel::serial{}, {}));
   CHECK(made == 0);
+  CHECK(second.made() == 0);
   second.for_each(keys,
                   [&](std::size_t i, const byte_buffer& bytes) { CHECK(bytes == bytes_of(keys[i].value)); });
 }

@@ -17,7 +17,11 @@
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <numbers>
+#include <string>
+
+#include <unistd.h>
 
 using namespace dovetail;
 
@@ -193,6 +197,33 @@ TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
   CHECK(skeleton.get("lines_made") == 0);
   CHECK(skeleton.get("patches_made") < 0.5 * (skeleton.get("regions") + skeleton.get("interface_faces")));
   CHECK(volume_of(result.mesh) == doctest::Approx(3 - std::numbers::pi * 0.35 * 0.35).epsilon(0.01));
+}
+
+TEST_CASE("a run in the spool of an earlier one makes nothing again") {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("dovetail_generate_" + std::to_string(::getpid()));
+  const auto run = [&](const spool& disk) {
+    auto options = in_parts(6);
+    options.store = disk;
+    return generate<3>(occt_shape_from(drilled_block()).model, uniform_size(0.15),
+                       parameters<>{}
+                           .with_mesher(mesher::tetgen{})
+                           .with_executor(parallel::processes{2})
+                           .with_options(options));
+  };
+  const auto first = run(spool::start(folder, {}));
+  const auto second = run(spool::resume(folder, {}));
+  spool::resume(folder, {}).clear();
+  const auto& stages = second.summary.children;
+  CHECK(first.summary.children[0].get("kept") == 0);
+  CHECK(stages[0].get("kept") == 1);
+  CHECK(first.summary.children[3].get("patches_made") > 0);
+  CHECK(stages[3].get("lines_made") == 0);
+  CHECK(stages[3].get("patches_made") == 0);
+  CHECK(stages[5].get("reused") == static_cast<double>(second.mesh.counts.size()));
+  CHECK(second.mesh.skeleton.points == first.mesh.skeleton.points);
+  CHECK(second.mesh.skeleton.triangles == first.mesh.skeleton.triangles);
+  CHECK(second.plan.predicted_elements == first.plan.predicted_elements);
 }
 
 TEST_CASE("sizes that make no sense are refused") {

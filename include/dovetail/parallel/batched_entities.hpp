@@ -39,7 +39,8 @@ public:
 
   explicit batched_entities(std::shared_ptr<entity_store> store) : store_(std::move(store)) {}
 
-  std::size_t size() const { return places_.size(); }
+  /// How many were made so far, and not found.
+  std::size_t made() const { return made_; }
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
   /// a batch that fails are made again one by one, to find out which it was; it is returned.
@@ -59,6 +60,8 @@ public:
         const auto alone = first_failure(members, make, run, std::move(options));
         return alone ? alone : entity_failure{members.front(), outcomes[b].failure};
       }
+      if (!outcomes[b].result.empty())
+        made_ += members.size();
       if (!store_->is_shared())
         store_->keep(batches[b].key, std::move(outcomes[b].result));
       for (std::size_t i = 0; i < members.size(); ++i)
@@ -120,7 +123,8 @@ private:
     return batches;
   }
 
-  /// In a worker: the bytes of the batch, unless the worker has put them into the store itself.
+  /// In a worker: the bytes of the batch; one byte when the worker has put them into the store itself, none
+  /// when they were there.
   byte_buffer make_batch(const batch& wanted, const maker& make) const {
     if (store_->is_shared() && store_->find(wanted.key))
       return {};
@@ -130,7 +134,7 @@ private:
     if (!store_->is_shared())
       return bytes.take();
     store_->keep(wanted.key, bytes.take());
-    return {};
+    return byte_buffer(1);
   }
 
   static std::vector<byte_buffer> members_of(const byte_buffer& bytes) {
@@ -159,6 +163,7 @@ private:
 
   std::shared_ptr<entity_store> store_;
   std::map<content_key, place> places_;
+  std::size_t made_ = 0;
 };
 
 } // namespace dovetail

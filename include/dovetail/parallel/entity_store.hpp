@@ -20,7 +20,9 @@ namespace dovetail {
 class entity_store {
 public:
   entity_store() = default;
-  explicit entity_store(std::optional<spool> disk) : disk_(std::move(disk)) {}
+  /// `kind` is what its blobs are called.
+  explicit entity_store(std::optional<spool> disk, std::string kind = "piece")
+      : disk_(std::move(disk)), kind_(std::move(kind)) {}
 
   /// Whether a worker can keep what it makes; otherwise it sends the bytes to the process that started it.
   bool is_shared() const { return disk_.has_value(); }
@@ -36,7 +38,7 @@ public:
   byte_buffer get(content_key key) const {
     if (auto found = find(key))
       return *std::move(found);
-    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the entity " + to_string(key)) +
+    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the " + kind_ + " " + to_string(key)) +
                    " is missing or damaged; resume the run to make it again");
   }
   /// Throws `io_error` when it cannot be written.
@@ -54,9 +56,10 @@ public:
   }
 
 private:
-  static std::string name_of(content_key key) { return "entity_" + to_string(key); }
+  std::string name_of(content_key key) const { return kind_ + "_" + to_string(key); }
 
   std::optional<spool> disk_;
+  std::string kind_ = "piece";
   std::map<content_key, byte_buffer> memory_;
 };
 

@@ -65,17 +65,19 @@ template <int D>
 element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology,
                                 const any_sizing& size, double elements_per_unit_size);
 
-/// The size of a mesh that its coarse surface allows. In D = 3 that is the one given: where interfaces and
-/// surfaces cross, `realize` mends it. In D = 2 an edge turns with the surface by no more than an edge of the
-/// background mesh: beyond that, triangles of sheets that are near to each other would cross.
+/// The size of a mesh that its coarse surface, with its `bounds`, allows. In D = 3 that is the one given:
+/// where interfaces and surfaces cross, `realize` mends it. In D = 2 an edge turns with the surface by no
+/// more than an edge of the background mesh: beyond that, triangles of sheets that are near to each other
+/// would cross.
 template <int D>
-any_sizing allowed_size(const erased_sizing& size, const background::coarse_surface_result& coarse);
+any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>& bounds);
 
 template <int D>
 struct background_result {
   simplicial_background<D> mesh;
   mesh_plan plan;
-  any_sizing size; ///< the field given, smaller where the surface asks for it (D = 2)
+  std::vector<size_ball> bounds; ///< where the surface asks for smaller sizes (D = 2)
+  any_sizing size;               ///< the field given, within these bounds
   report summary;
 };
 
@@ -86,8 +88,8 @@ template <int D = 3>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
                           const std::type_identity_t<any_parameters<D>>& given);
 
-/// Plans the mesh and makes its background mesh. Throws what its steps throw, all naming the CAD entity
-/// concerned.
+/// Plans the mesh and makes its background mesh, or finds it in the spool of the options. Throws what its
+/// steps throw, all naming the CAD entity concerned.
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
                                      const any_parameters<D>& given);

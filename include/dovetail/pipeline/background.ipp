@@ -10,6 +10,7 @@
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/kept_background.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
@@ -129,11 +130,11 @@ element_prediction predict_mesh(const surface_mesh& surface, const geometry_topo
 }
 
 template <int D>
-any_sizing allowed_size(const erased_sizing& size, const background::coarse_surface_result& coarse) {
+any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>& bounds) {
   if constexpr (D == 3)
     return keep_bounds(size);
   else
-    return within_bounds(keep_bounds(size), coarse.bounds, background::coarse_surface_parameters{}.growth);
+    return within_bounds(keep_bounds(size), bounds, background::coarse_surface_parameters{}.growth);
 }
 
 template <int D>
@@ -148,7 +149,7 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
       surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),
                                 given.run_tasks, given.remesh_surface, options.refinement_rounds);
   const mesh_plan plan =
-      plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first),
+      plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
                                    given.mesh_it.elements_per_inverse_cubed_size()),
                    options.elements_per_subdomain > 0 ? options.elements_per_subdomain
                                                       : given.mesh_it.elements_per_subdomain(),
@@ -163,6 +164,8 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
                                      const any_parameters<D>& given) {
   const stopwatch clock;
   const generate_options& options = given.options;
+  if (auto kept = find_background<D>(options.store, size))
+    return *std::move(kept);
   background_result<D> result;
   result.summary.name = "background";
   result.plan = plan_background<D>(model, size, given);
@@ -172,7 +175,9 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.remesh_surface,
                                            options.refinement_rounds);
   result.summary.children.push_back(std::move(surface.summary));
-  result.size = allowed_size<D>(size, surface);
+  if constexpr (D == 2)
+    result.bounds = std::move(surface.bounds);
+  result.size = allowed_size<D>(size, result.bounds);
   result.mesh.surface = std::move(surface.surface);
   if constexpr (D == 3) {
     options.on_progress("background volume", 0, 0);
@@ -189,6 +194,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.seconds = clock.seconds();
+  keep_background(options.store, result);
   return result;
 }
 
@@ -201,10 +207,8 @@ template element_prediction predict_mesh<2>(const surface_mesh& surface, const g
                                             const any_sizing& size, double elements_per_unit_size);
 template element_prediction predict_mesh<3>(const surface_mesh& surface, const geometry_topology& topology,
                                             const any_sizing& size, double elements_per_unit_size);
-template any_sizing allowed_size<2>(const erased_sizing& size,
-                                    const background::coarse_surface_result& coarse);
-template any_sizing allowed_size<3>(const erased_sizing& size,
-                                    const background::coarse_surface_result& coarse);
+template any_sizing allowed_size<2>(const erased_sizing& size, const std::vector<size_ball>& bounds);
+template any_sizing allowed_size<3>(const erased_sizing& size, const std::vector<size_ball>& bounds);
 template mesh_plan plan_background<2>(const any_geometry& model, const erased_sizing& size,
                                       const any_parameters<2>& given);
 template mesh_plan plan_background<3>(const any_geometry& model, const erased_sizing& size,

@@ -29,7 +29,7 @@ realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh
   std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
   piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
   const auto store = std::make_shared<entity_store>(given.options.store);
-  skeleton_store skeleton_parts(store);
+  skeleton_store skeleton_parts(std::make_shared<entity_store>(given.options.store, "skeleton"));
   for (;;) {
     auto skeleton =
         realize(model, mesh, sides, side_states, pieces.part_of_element, static_cast<local_id>(sizes.size()),

@@ -7,6 +7,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/kept_background.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 
 #include <cstddef>
@@ -26,6 +27,8 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
         "the model has " + std::to_string(solids) +
         " solids, and a mesher of whole domains makes the background mesh of one; use the native "
         "background mesher");
+  if (auto kept = find_background<3>(given.options.store, size))
+    return *std::move(kept);
   background_result<3> result;
   result.summary.name = "background";
   result.plan = plan_background<3>(model, size, given);
@@ -38,7 +41,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
       model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.remesh_surface,
       options.refinement_rounds);
   result.summary.children.push_back(domain.summary);
-  result.size = allowed_size<3>(size, domain);
+  result.size = allowed_size<3>(size, {});
 
   options.on_progress("background volume", 0, 0);
   const simplicial_mesh<2> shape = outer_surface(domain.surface, model.topology());
@@ -51,6 +54,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
   result.summary.seconds = clock.seconds();
+  keep_background(given.options.store, result);
   return result;
 }
 

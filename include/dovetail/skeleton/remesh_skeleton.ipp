@@ -29,7 +29,7 @@ public:
 
   remeshed_skeleton run() {
     const stopwatch clock;
-    const std::size_t lines_before = store_.lines.size(), patches_before = store_.patches.size();
+    const std::size_t lines_before = store_.lines.made(), patches_before = store_.patches.made();
     lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, field_, run_, store_.lines,
                            on_progress_);
     const double line_seconds = clock.seconds();
@@ -44,8 +44,8 @@ public:
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
     result.summary.set("triangles", static_cast<double>(result.fine.triangles.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("lines_made", static_cast<double>(store_.lines.size() - lines_before));
-    result.summary.set("patches_made", static_cast<double>(store_.patches.size() - patches_before));
+    result.summary.set("lines_made", static_cast<double>(store_.lines.made() - lines_before));
+    result.summary.set("patches_made", static_cast<double>(store_.patches.made() - patches_before));
     result.summary.set("line_seconds", line_seconds);
     result.summary.seconds = clock.seconds();
     return result;
