@@ -53,6 +53,47 @@ TEST_CASE("cut lines meet no small corners, coarse and fine") {
   CHECK(result.fine_angles.min_wedge_deg() > 49);
 }
 
+namespace {
+
+/// Fails on the piece at a corner of the square as long as its boundary is short.
+struct fails_on_a_small_corner : mesher::native_surface {
+  mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
+    const auto& points = input.boundary.points;
+    if (std::find(points.begin(), points.end(), vec3{0, 0, 0}) != points.end() &&
+        points.size() < longest_that_fails)
+      throw mesher_error("the corner piece is too small for this mesher");
+    return mesher::native_surface::operator()(input, size);
+  }
+  std::size_t longest_that_fails = 0;
+};
+
+} // namespace
+
+TEST_CASE("a piece that fails is merged with its neighbour, and others are found again") {
+  const plane_domain domain(square_with_hole());
+  std::size_t points_of_corner = 0;
+  const auto plain = mesh_plane(domain, 0.03, 6);
+  for (std::size_t p = 0; p < plain.mesh.counts.size(); ++p) {
+    const auto piece = plain.mesh.load(static_cast<local_id>(p));
+    const auto& points = piece.mesh.points;
+    if (std::find(points.begin(), points.end(), vec3{0, 0, 0}) != points.end())
+      points_of_corner = piece.skeleton_points.size();
+  }
+  REQUIRE(points_of_corner > 0);
+  fails_on_a_small_corner mesher;
+  mesher.longest_that_fails = points_of_corner + 1;
+  const auto result =
+      generate<2>(domain, uniform_size(0.03), parameters<>{}.with_mesher(mesher).with_options(in_parts(6)));
+  const auto mesh = require_valid(result);
+  CHECK(area_of(mesh) == doctest::Approx(1 - 0.2 * 0.3).epsilon(1e-12));
+  CHECK(result.mesh.counts.size() == 5);
+  const report& meshing = result.summary.children.back();
+  CHECK(meshing.get("merged_after_failure") == 1);
+  // One more is made again: its region and the merged one are beside the same curves, and which of two
+  // regions may have a chord between points of both goes by their order.
+  CHECK(meshing.get("reused") == 3);
+}
+
 TEST_CASE("the plane mesh is the same for every executor and number of workers") {
   const plane_domain domain(square_with_hole());
   const auto expected = io::mesh_hash(mesh_plane(domain, 0.02, 6).mesh);

@@ -25,7 +25,7 @@ template <int D>
 struct piece_input {
   mesher_input<D> boundary;
   std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
-  content_key context = {}; ///< of what else the piece is a function of: the lines around it (D = 2)
+  content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
 };
 
 using subdomain_input = piece_input<3>;

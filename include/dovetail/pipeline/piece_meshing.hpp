@@ -37,8 +37,7 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
       std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
   auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
-  const content_key context = key_maker(rule->key())(skeleton.lines.points).key();
-  return [&model, &mesh, &skeleton, sorted, rule, own_model, context](local_id s) {
+  return [&model, &mesh, &skeleton, sorted, rule, own_model](local_id s) {
     auto lines = boundary_of_subdomain(skeleton.fine, *sorted, s);
     const std::shared_ptr<const any_geometry> evaluated =
         own_model ? std::make_shared<const any_geometry>(model)
@@ -64,9 +63,9 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
                                   (*numbers)[static_cast<std::size_t>(b)]);
            }});
     }
+    input.context = rule->key(skeleton.regions[static_cast<std::size_t>(s)], lines.skeleton_points);
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
-    input.context = key_maker(context)(skeleton.regions[static_cast<std::size_t>(s)]).key();
     return input;
   };
 }

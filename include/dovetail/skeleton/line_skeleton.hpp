@@ -7,7 +7,12 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -85,16 +90,44 @@ public:
            std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
   }
 
-  /// Of all that the answers depend on.
-  content_key key() const {
+  /// Of all that the answers for some regions and the points on their boundaries depend on. `points` are
+  /// growing. The numbers of regions and points elsewhere are no part of it, since a merge changes these.
+  content_key key(std::span<const local_id> regions, std::span<const local_id> points) const {
     key_maker make;
-    make(edges_);
-    for (const auto& regions : regions_at_)
-      make(regions);
-    return make.key();
+    for (const local_id region : regions)
+      make(earlier_regions(region, points));
+    std::vector<std::array<std::int64_t, 2>> edges; // of lines, by their places in `points`
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), simplex<1>{points[i], 0});
+           edge != edges_.end() && (*edge)[0] == points[i]; ++edge)
+        if (const auto at = std::lower_bound(points.begin(), points.end(), (*edge)[1]);
+            at != points.end() && *at == (*edge)[1])
+          edges.push_back({static_cast<std::int64_t>(i), at - points.begin()});
+    return make(edges).key();
   }
 
 private:
+  /// Of each point the regions before this one that are at another of the points too, numbered in the order
+  /// of their appearance, behind their count.
+  std::vector<std::int64_t> earlier_regions(local_id region, std::span<const local_id> points) const {
+    std::map<local_id, std::size_t> met;
+    for (const local_id point : points)
+      for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
+        ++met[r];
+    std::map<local_id, std::int64_t> number;
+    std::vector<std::int64_t> listed;
+    for (const local_id point : points) {
+      const std::size_t at = listed.size();
+      listed.push_back(0);
+      for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
+        if (r < region && met[r] > 1) {
+          listed.push_back(number.try_emplace(r, static_cast<std::int64_t>(number.size())).first->second);
+          ++listed[at];
+        }
+    }
+    return listed;
+  }
+
   /// Points of the CAD curves that a coarse triangle touches.
   void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines) {
     for (std::size_t i = 0; i < 3; ++i) {
