@@ -48,6 +48,8 @@ void add_run_options(CLI::App& command, mesh_options& options) {
   command.add_option("--mesher", options.mesher,
                      "Volume mesher: " + joined(mesher_names<3>()) +
                          "; of --dimension 2: " + joined(mesher_names<2>()));
+  command.add_option("--surface-mesher", options.surface_mesher,
+                     "Mesher of the surface of --dimension 3: " + joined(surface_mesher_names()));
   command.add_option("--background-mesher", options.background_mesher,
                      "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
   command.add_option("--partitioner", options.partitioner,

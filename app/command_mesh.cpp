@@ -182,6 +182,7 @@ private:
     figures_.improver = policies_.improver.name();
     figures_.executor = policies_.executor.name();
     figures_.background_mesher = policies_.background_mesher.name();
+    figures_.surface_mesher = policies_.surface_mesher.name();
     figures_.workers = policies_.executor.workers();
     add_pipeline_figures(result, figures_);
     add_mesh_figures(result.mesh, figures_);

@@ -29,6 +29,7 @@ struct mesh_options {
   std::string improver;
   std::string executor;
   std::string background_mesher;
+  std::string surface_mesher;
   std::string out = "out";
   std::vector<std::string> formats;
   std::string report;

@@ -8,8 +8,10 @@ namespace {
 /// The library's parameters with these policies.
 template <int D>
 any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
-  return {policies.mesher, policies.partitioner, policies.improver, policies.executor,
-          options,         policies.simplifier};
+  any_parameters<D> given(policies.mesher, policies.partitioner, policies.improver, policies.executor,
+                          options, policies.simplifier);
+  given.mesh_surface = policies.surface_mesher;
+  return given;
 }
 
 } // namespace

@@ -16,6 +16,7 @@ struct policies_of {
   any_executor executor;
   any_line_keeping_mesher background_mesher = {}; ///< of D = 3
   any_simplification_rule simplifier = simplifier::paper{};
+  any_surface_mesher surface_mesher = {};
 };
 
 /// The two halves of `generate`: the background mesh, which depends on neither partitioner nor improver nor

@@ -7,6 +7,7 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 
 #include <string>
@@ -19,6 +20,7 @@ std::vector<std::string> simplifier_names();
 /// Of meshers of elements of dimension D.
 template <int D>
 std::vector<std::string> mesher_names();
+std::vector<std::string> surface_mesher_names();
 std::vector<std::string> improver_names();
 std::vector<std::string> background_mesher_names();
 std::vector<std::string> executor_names();
@@ -34,6 +36,7 @@ template <int D>
 any_mesher<D> make_mesher(const std::string& name);
 template <int D>
 any_improver<D> make_improver(const std::string& name);
+any_surface_mesher make_surface_mesher(const std::string& name);
 any_line_keeping_mesher make_background_mesher(const std::string& name);
 
 /// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of

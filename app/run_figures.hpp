@@ -39,7 +39,7 @@ struct interface_figures {
 struct run_figures {
   int dimension = 3; ///< of the elements
   std::string model;
-  std::string mesher, partitioner, simplifier, improver, executor, background_mesher;
+  std::string mesher, partitioner, simplifier, improver, executor, background_mesher, surface_mesher;
   int workers = 1;
 
   std::int64_t elements = 0;

@@ -91,6 +91,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"improver", figures.improver},
               {"executor", figures.executor},
               {"background_mesher", figures.background_mesher},
+              {"surface_mesher", figures.surface_mesher},
               {"workers", figures.workers},
               {"elements", figures.elements},
               {"vertices", figures.vertices},

@@ -1,7 +1,7 @@
 #include "named_policies.hpp"
 #include "policies.hpp"
 
-#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/mesher/by_regions.hpp"
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
 #include "dovetail/mesher/cgal_surface.hpp"
 #endif
@@ -12,28 +12,36 @@
 namespace dovetail::app {
 namespace {
 
-std::vector<any_mesher<2>> surface_meshers() {
-  std::vector<any_mesher<2>> known;
-  known.emplace_back(mesher::native_surface{}, "native");
+std::vector<any_surface_mesher> surface_meshers() {
+  std::vector<any_surface_mesher> known{any_surface_mesher()};
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-  known.emplace_back(mesher::cgal_surface{}, "cgal");
+  known.emplace_back(mesher::cgal_delaunay{}, "cgal");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  known.emplace_back(mesher::gmsh_surface{}, "gmsh");
+  known.emplace_back(mesher::gmsh_frontal{}, "gmsh");
 #endif
   return known;
 }
 
 } // namespace
 
+std::vector<std::string> surface_mesher_names() {
+  return names_of(surface_meshers());
+}
+
+any_surface_mesher make_surface_mesher(const std::string& name) {
+  return chosen(surface_meshers(), name, "--surface-mesher");
+}
+
 template <>
 std::vector<std::string> mesher_names<2>() {
-  return names_of(surface_meshers());
+  return surface_mesher_names();
 }
 
 template <>
 any_mesher<2> make_mesher<2>(const std::string& name) {
-  return chosen(surface_meshers(), name, "--mesher with --dimension 2");
+  const auto mesher = chosen(surface_meshers(), name, "--mesher with --dimension 2");
+  return {mesher::by_regions<any_surface_mesher>{mesher}, mesher.name()};
 }
 
 } // namespace dovetail::app

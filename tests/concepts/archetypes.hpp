@@ -197,9 +197,9 @@ public:
   surface_mesher_as(const surface_mesher_as&) = default;
   surface_mesher_as& operator=(const surface_mesher_as&) = delete;
 
-  template <patch_surface S>
-  patch_mesh operator()(const S& surface, const patch_boundary& boundary, const any_sizing& size) const {
-    return held_(surface_as<S>(surface), boundary, size);
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
+                        const any_sizing& size) const {
+    return held_(any_surface::view_of(surface_as<any_surface>(surface)), boundary, size);
   }
 
 private:

@@ -41,7 +41,7 @@ static_assert(patch_surface<archetype::surface_as<any_surface>>);
 static_assert(piece_mesher<archetype::mesher, 3> && boundary_keeping_mesher<archetype::mesher, 3>);
 static_assert(!piece_mesher<archetype::mesher, 2>, "it makes tetrahedra");
 static_assert(!line_keeping_mesher<archetype::mesher> && !has_fallbacks<archetype::mesher>);
-static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher>, any_surface>);
+static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher>>);
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
 static_assert(executor<archetype::executor>);

@@ -47,10 +47,10 @@ std::vector<content_key> keys_from(std::uint64_t first, std::uint64_t count) {
 std::size_t make_and_check(batched_entities& entities, const std::vector<content_key>& keys,
                            const any_executor& run) {
   const std::size_t before = entities.made();
-  const auto failure = entities.make_missing(
+  const auto failures = entities.make_missing(
       keys, std::vector<double>(keys.size(), 1), 3,
       [&](const std::vector<std::size_t>& wanted) { return make_of(keys, wanted); }, run, {});
-  CHECK_FALSE(failure);
+  CHECK(failures.empty());
   std::size_t next = 0;
   entities.for_each(keys, [&](std::size_t i, const byte_buffer& bytes) {
     CHECK(i == next++);
@@ -110,23 +110,31 @@ TEST_CASE("An entity is made once per batch of its cost, the costliest batch fir
   CHECK(batches == std::vector<std::vector<std::size_t>>{{3}, {0, 1, 2}, {4, 5}});
 }
 
-TEST_CASE("Of a batch that fails, the entity that fails alone is named; a crash too") {
+TEST_CASE("Of batches that fail, the entities that fail alone are named; a crash too. The others go on") {
   const auto keys = keys_from(0, 9);
   for (const bool crashes : {false, true}) {
     batched_entities entities(std::make_shared<entity_store>());
-    const auto failure = entities.make_missing(keys, std::vector<double>(9, 1), 3,
-                                               [&](const std::vector<std::size_t>& wanted) {
-                                                 for (const std::size_t i : wanted)
-                                                   if (i == 4 && crashes)
-                                                     std::raise(SIGKILL);
-                                                   else if (i == 4)
-                                                     throw mesher_error("four fails");
-                                                 return make_of(keys, wanted);
-                                               },
-                                               parallel::processes{2}, {});
-    REQUIRE(failure);
-    CHECK(failure->entity == 4);
-    CHECK(failure->reason.find(crashes ? "signal 9" : "four fails") != std::string::npos);
+    const auto make_all = [&](std::span<const content_key> wanted_keys, bool faulty) {
+      return entities.make_missing(wanted_keys, std::vector<double>(wanted_keys.size(), 1), 3,
+                                   [&](const std::vector<std::size_t>& wanted) {
+                                     for (const std::size_t i : wanted)
+                                       if (faulty && i == 4 && crashes)
+                                         std::raise(SIGKILL);
+                                       else if (faulty && (i == 1 || i == 4))
+                                         throw mesher_error(std::to_string(i) + " fails");
+                                     return make_of(keys, wanted);
+                                   },
+                                   parallel::processes{2}, {});
+    };
+    const auto failures = make_all(keys, true);
+    REQUIRE(failures.size() == 2);
+    CHECK(failures[0].entity == 1);
+    CHECK(failures[0].reason.find("1 fails") != std::string::npos);
+    CHECK(failures[1].entity == 4);
+    CHECK(failures[1].reason.find(crashes ? "signal 9" : "4 fails") != std::string::npos);
+    CHECK(entities.made() == 3); // the third batch
+    CHECK(make_all(keys, false).empty());
+    CHECK(entities.made() == 9);
   }
 }
 

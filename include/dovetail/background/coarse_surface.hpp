@@ -1,16 +1,17 @@
 /// @file
 /// The coarse surface mesh of a CAD model: closed, conforming, oriented, every vertex on its CAD entity.
 ///
-/// Curves are spaced first, once for all faces at them; then every face is remeshed as one patch,
-/// independently. What goes wrong on a face (loops that cross in its parameter plane, folds, edges that two
-/// faces have in common without a curve) refines the curves concerned, and the faces at them are done again.
+/// Curves are spaced first, once for all faces at them; then every face is meshed as one region
+/// (`mesh_regions`). What is wrong with a face after that (loops that cross in its parameter plane, folds,
+/// triangles that two faces have in common) refines the curves concerned, and the faces at them are done
+/// again.
 #pragma once
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
@@ -25,7 +26,7 @@ struct coarse_surface_parameters {
   double smallest_fraction = 0.1;  ///< curvature refines to no less than this times the given size
   int rounds = 10;                 ///< most rounds of refinement where faces fail
   std::vector<size_ball> refinement = {}; ///< places that need a smaller size, e.g. where two sheets are near
-  remesh::patch_remesher remesher = {};
+  any_surface_mesher mesher = {};
 };
 
 struct coarse_surface_result {

@@ -1,15 +1,13 @@
 /// @file
-/// From discretised curves to the patch of one CAD face, and the remeshing of many faces by an executor.
+/// From discretised curves to the patch of one CAD face.
 #pragma once
 
 #include "dovetail/background/surface_curves.hpp"
-#include "dovetail/parallel/task_model.hpp"
-#include "dovetail/remesh/patch_remesher.hpp"
-#include "dovetail/remesh/surfaces.hpp"
+#include "dovetail/remesh/patch.hpp"
 
-#include <span>
-#include <string>
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace dovetail::background {
@@ -87,66 +85,6 @@ inline face_patch make_face_patch(const any_geometry& model, local_id f, const c
       b.segments.push_back({i, i + 1 < end ? i + 1 : first});
   }
   return made;
-}
-
-/// What became of one face: its mesh, or why there is none.
-struct face_result {
-  patch_mesh mesh;
-  std::string failure; ///< an exception's text; empty when there was none
-};
-
-/// A face to be meshed again with finer inner size or with edges forbidden.
-struct face_request {
-  local_id face = no_id;
-  double size_factor = 1; ///< the size inside the face is multiplied by this
-  std::vector<std::array<local_id, 2>> forbidden_edges = {};
-};
-
-/// Meshes the requested faces through an executor, in batches so that a model that is not thread-safe is
-/// copied once per batch. Results do not depend on the batches.
-inline std::vector<face_result> remesh_faces(const any_geometry& model,
-                                             std::span<const face_request> requests,
-                                             const curve_points& curves, const any_sizing& sizing,
-                                             const remesh::patch_remesher& remesher,
-                                             const any_executor& run_tasks) {
-  const auto workers = static_cast<std::size_t>(std::max(1, static_cast<int>(run_tasks.workers())));
-  const std::size_t batches = std::min<std::size_t>(requests.size(), workers > 1 ? 8 * workers : 1);
-  const auto mesh_one = [&](const any_geometry& own, const face_request& request) {
-    face_result result;
-    try {
-      face_patch patch = make_face_patch(own, request.face, curves);
-      patch.boundary.forbidden_edges = request.forbidden_edges;
-      const any_sizing inner = [&sizing, factor = request.size_factor](vec3 p) { return factor * sizing(p); };
-      result.mesh = remesher(remesh::model_surface{&own, request.face}, patch.boundary, inner);
-    } catch (const std::exception& failure) {
-      result.failure = failure.what();
-    }
-    return result;
-  };
-  std::vector<face_result> results(requests.size());
-  const auto outcomes = run_tasks.run(
-      batches,
-      [&](std::size_t batch) {
-        const task_model own(model, run_tasks);
-        byte_writer out;
-        for (std::size_t i = batch; i < requests.size(); i += batches) {
-          const face_result result = mesh_one(own.get(), requests[i]);
-          out.array(encode(result.mesh));
-          out.text(result.failure);
-        }
-        return out.take();
-      },
-      run_options{.stage = "coarse surface"});
-  for (std::size_t batch = 0; batch < batches; ++batch) {
-    if (!outcomes[batch].ok)
-      throw mesher_error("meshing the faces of the coarse surface failed: " + outcomes[batch].failure);
-    byte_reader in(outcomes[batch].result);
-    for (std::size_t i = batch; i < requests.size(); i += batches) {
-      results[i].mesh = decode_patch_mesh(in.array<std::byte>());
-      results[i].failure = in.text();
-    }
-  }
-  return results;
 }
 
 } // namespace dovetail::background

@@ -2,14 +2,18 @@
 /// From a surface mesher, which fills one region of one surface, to a mesher of pieces of D = 2.
 #pragma once
 
-#include "dovetail/mesher/region_assembly.hpp"
-#include "dovetail/remesh/concepts.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/remesh/mesh_regions.hpp"
+
+#include <array>
+#include <concepts>
+#include <string>
 
 namespace dovetail::mesher {
 
-/// Fills every region of a piece by M, regions on planes without calls through `any_surface`.
+/// Fills every region of a piece by M and joins them along their lines.
 template <surface_mesher M>
-  requires surface_mesher<M, any_surface>
 struct by_regions {
   static constexpr mesher_traits traits{.keeps_boundary = true,
                                         .thread_safe = is_thread_safe<M>(),
@@ -19,16 +23,47 @@ struct by_regions {
 
   M remesher = {};
 
-  /// Costs what M does. Throws `mesher_error` naming the face whose lines cross, and what M throws.
+  /// As above, and what a mesher behind one type says of the one that it holds.
+  mesher_traits actual_traits() const {
+    mesher_traits actual = traits;
+    if constexpr (std::same_as<M, any_surface_mesher>)
+      actual.thread_safe = remesher.may_run_in_threads();
+    return actual;
+  }
+  /// Costs what M does. Throws `mesher_error` naming the face when the lines of a region cross in its
+  /// parameter plane, its boundary is not kept or its triangles cannot be kept from folding over, and what M
+  /// throws.
   mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
     const stopwatch clock;
-    const auto mesh_region = [&](const any_surface& surface, const patch_boundary& boundary,
-                                 const any_sizing& inner) {
-      return surface.plane ? remesher(*surface.plane, boundary, inner) : remesher(surface, boundary, inner);
-    };
-    auto result = assemble_regions(input, size, mesh_region);
+    const any_surface_mesher mesh_it(remesher);
+    mesher_result<2> result;
+    simplicial_mesh<2>& mesh = result.mesh;
+    mesh.points = input.boundary.points;
+    for (const surface_region& region : input.regions) {
+      append_region(region, mesh_whole(mesh_it, region, size), mesh.points,
+                    [&](const simplex<2>& triangle, const std::array<vec2, 3>& uv) {
+                      mesh.elements.push_back(triangle);
+                      mesh.tags.push_back(region.face);
+                      result.corner_uv.push_back(uv);
+                    });
+    }
+    result.summary.set("regions", static_cast<double>(input.regions.size()));
     result.summary.seconds = clock.seconds();
     return result;
+  }
+
+private:
+  static patch_mesh mesh_whole(const any_surface_mesher& mesh_it, const surface_region& region,
+                               const any_sizing& size) try {
+    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {.folds = 6});
+    if (!made.crossings.empty() || !made.misplaced.empty())
+      throw mesher_error("its boundary lines cross in the parameter plane");
+    if (!made.folded.empty())
+      throw mesher_error(std::to_string(made.folded.size()) +
+                         " triangles stay folded over; repair the face or give a smaller size there");
+    return made;
+  } catch (const mesher_error& problem) {
+    throw mesher_error("a region of face " + std::to_string(region.face) + ": " + problem.what());
   }
 };
 

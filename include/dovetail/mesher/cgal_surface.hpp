@@ -28,10 +28,10 @@ namespace dovetail {
 namespace detail {
 
 /// The triangulation of one patch while points are inserted, in its `parameter_square`.
-template <patch_surface S>
 class cgal_patch {
 public:
-  cgal_patch(const S& surface, const patch_boundary& boundary, const any_sizing& size, double nearest)
+  cgal_patch(const any_surface& surface, const patch_boundary& boundary, const any_sizing& size,
+             double nearest)
       : surface_(surface), boundary_(boundary), size_(size), nearest_(nearest), square_(surface, boundary) {}
 
   /// Inserts points on edges that are too long, in rounds, until there are none.
@@ -61,8 +61,8 @@ private:
   using triangulation = CGAL::Constrained_Delaunay_triangulation_2<
       kernel, structure, CGAL::No_constraint_intersection_requiring_constructions_tag>;
   using point = kernel::Point_2;
-  using face = typename triangulation::Face_handle;
-  using vertex = typename triangulation::Vertex_handle;
+  using face = triangulation::Face_handle;
+  using vertex = triangulation::Vertex_handle;
 
   static vec2 of(const point& p) { return {p.x(), p.y()}; }
 
@@ -176,11 +176,11 @@ private:
     }
     for (const face f : mesh_.finite_face_handles())
       if (const simplex<2> t{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
-          f->info() && !parameter_square::vanishes(t, boundary_))
+          f->info() && !square_.vanishes(t, boundary_))
         made.triangles.push_back(t);
   }
 
-  const S& surface_;
+  const any_surface& surface_;
   const patch_boundary& boundary_;
   const any_sizing& size_;
   double nearest_;
@@ -202,16 +202,16 @@ struct cgal_delaunay {
   int rounds = 40;       ///< rounds of insertion at most
 
   /// About n log n in the triangles made. Throws `sizing_error` when the field gives an unusable size.
-  template <patch_surface S>
-  patch_mesh operator()(const S& surface, const patch_boundary& boundary, const any_sizing& size) const {
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
+                        const any_sizing& size) const {
     const stopwatch clock;
-    patch_mesh mesh = dovetail::detail::cgal_patch<S>(surface, boundary, size, nearest).run(rounds);
+    patch_mesh mesh = dovetail::detail::cgal_patch(surface, boundary, size, nearest).run(rounds);
     mesh.summary.name = "cgal_delaunay";
     mesh.summary.seconds = clock.seconds();
     return mesh;
   }
 };
-static_assert(surface_mesher<cgal_delaunay> && surface_mesher<cgal_delaunay, any_surface>);
+static_assert(surface_mesher<cgal_delaunay>);
 
 using cgal_surface = by_regions<cgal_delaunay>;
 static_assert(boundary_keeping_mesher<cgal_surface, 2>);

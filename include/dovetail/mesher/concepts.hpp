@@ -4,7 +4,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
-#include "dovetail/mesher/surface_region.hpp"
+#include "dovetail/remesh/surface_region.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <array>

@@ -77,10 +77,9 @@ private:
 };
 
 /// One use of Gmsh for a patch, in a process that ends right after it.
-template <patch_surface S>
 class gmsh_patch_session {
 public:
-  gmsh_patch_session(const S& surface, const patch_boundary& boundary, const any_sizing& size,
+  gmsh_patch_session(const any_surface& surface, const patch_boundary& boundary, const any_sizing& size,
                      double size_factor)
       : surface_(surface), boundary_(boundary), size_(size), size_factor_(size_factor),
         square_(surface, boundary) {}
@@ -199,11 +198,11 @@ private:
       std::swap(t[1], t[2]);
     if (!(orient2d(at(0), at(1), at(2)) > 0))
       throw mesher_error("it made a flat triangle");
-    if (!parameter_square::vanishes(t, boundary_))
+    if (!square_.vanishes(t, boundary_))
       mesh.triangles.push_back(t);
   }
 
-  const S& surface_;
+  const any_surface& surface_;
   const patch_boundary& boundary_;
   const any_sizing& size_;
   double size_factor_;
@@ -227,15 +226,15 @@ struct gmsh_frontal {
 
   /// Throws `mesher_error` when Gmsh fails, crashes or does not end; `sizing_error` when the field gives an
   /// unusable size; `usage_error` in a process with several threads.
-  template <patch_surface S>
-  patch_mesh operator()(const S& surface, const patch_boundary& boundary, const any_sizing& size) const {
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
+                        const any_sizing& size) const {
     const stopwatch clock;
     run_options alone;
     alone.limit_seconds = limit_seconds;
     const auto run = [&](std::size_t) {
       return dovetail::detail::on_fresh_memory([&] {
         try {
-          return dovetail::detail::gmsh_patch_session<S>(surface, boundary, size, size_scale).run();
+          return dovetail::detail::gmsh_patch_session(surface, boundary, size, size_scale).run();
         } catch (const std::string& text) { // as Gmsh throws its messages
           throw mesher_error(text);
         }
@@ -253,7 +252,7 @@ struct gmsh_frontal {
     return mesh;
   }
 };
-static_assert(surface_mesher<gmsh_frontal> && surface_mesher<gmsh_frontal, any_surface>);
+static_assert(surface_mesher<gmsh_frontal>);
 
 /// A child process for each region of a piece.
 using gmsh_surface = by_regions<gmsh_frontal>;

@@ -1,5 +1,5 @@
 /// @file
-/// The surface remesher as a mesher of D = 2: the default for pieces of CAD surfaces and of plane domains.
+/// The surface remesher as a mesher of D = 2.
 #pragma once
 
 #include "dovetail/mesher/by_regions.hpp"

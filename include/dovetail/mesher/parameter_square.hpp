@@ -2,9 +2,11 @@
 /// The parameter plane as meshers of the plane want it: axes that resemble lengths, and an extent near 1.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/remesh/initial_patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,8 +19,7 @@ struct parameter_square {
   vec2 scale{1, 1};     ///< parameters times this, less `lower`, are xy
   vec2 lower{0, 0};
 
-  template <patch_surface S>
-  parameter_square(const S& surface, const patch_boundary& boundary) {
+  parameter_square(const any_surface& surface, const patch_boundary& boundary) {
     std::vector<surface_frame> frames;
     frames.reserve(boundary.uv.size());
     for (const vec2 uv : boundary.uv)
@@ -32,20 +33,30 @@ struct parameter_square {
     for (const vec2 uv : boundary.uv)
       xy.push_back({uv.x * scale.x - lower.x, uv.y * scale.y - lower.y});
     join_touching_vertices(boundary, xy);
+    for (const auto& [a, b] : boundary.segments)
+      if (const local_id label = boundary.labels[static_cast<std::size_t>(a)];
+          label == boundary.labels[static_cast<std::size_t>(b)])
+        poles_.push_back(label);
+    sort_unique(poles_);
   }
 
   vec2 uv(vec2 p) const { return {(p.x + lower.x) / scale.x, (p.y + lower.y) / scale.y}; }
 
   /// Whether two corners of a triangle of the square are the same point of a pole: then it is none in space.
-  static bool vanishes(const simplex<2>& t, const patch_boundary& boundary) {
-    const auto& labels = boundary.labels;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
-      if (a < labels.size() && b < labels.size() && labels[a] == labels[b])
-        return true;
-    }
-    return false;
+  bool vanishes(const simplex<2>& t, const patch_boundary& boundary) const {
+    const auto pole = [&](local_id v) {
+      return v < static_cast<local_id>(boundary.labels.size()) &&
+                     std::binary_search(poles_.begin(), poles_.end(),
+                                        boundary.labels[static_cast<std::size_t>(v)])
+                 ? boundary.labels[static_cast<std::size_t>(v)]
+                 : no_id;
+    };
+    const std::array<local_id, 3> at{pole(t[0]), pole(t[1]), pole(t[2])};
+    return (at[0] != no_id && (at[0] == at[1] || at[0] == at[2])) || (at[1] != no_id && at[1] == at[2]);
   }
+
+private:
+  std::vector<local_id> poles_; ///< labels, sorted: of segments that join a label to itself
 };
 
 } // namespace dovetail::detail

@@ -5,9 +5,8 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/simplex.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/remesh/kept_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,42 +22,11 @@ namespace dovetail {
 
 namespace detail {
 
-/// A directed edge between points of the boundary, by which listed and found edges are compared.
-using directed_edge = std::array<local_id, 2>;
-
-/// All edges of the elements between boundary points, directed, in growing order.
-inline std::vector<directed_edge> edges_between(const simplicial_mesh<2>& mesh, local_id boundary_points) {
-  std::vector<directed_edge> edges;
-  for (const auto& t : mesh.elements)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (const directed_edge edge{t[k], t[(k + 1) % 3]};
-          edge[0] < boundary_points && edge[1] < boundary_points)
-        edges.push_back(edge);
-  sort_all(edges);
-  return edges;
-}
-
-/// Every listed edge is passed by exactly one element in the direction in which it is listed, and by none in
-/// the other one unless it is listed in both.
 inline void check_lines_kept(const simplicial_mesh<1>& boundary, const simplicial_mesh<2>& mesh) {
-  auto listed = boundary.elements;
-  sort_all(listed);
-  const auto found = edges_between(mesh, static_cast<local_id>(boundary.points.size()));
-  const auto times = [](const std::vector<directed_edge>& edges, const directed_edge& edge) {
-    const auto [first, last] = std::equal_range(edges.begin(), edges.end(), edge);
-    return last - first;
-  };
-  std::size_t lost = 0;
-  for (const directed_edge& edge : listed) {
-    const directed_edge back{edge[1], edge[0]};
-    if (times(found, edge) > times(listed, edge) || times(found, back) > times(listed, back))
-      throw mesher_error("the mesh overlaps itself or the outside at the edge between boundary points " +
-                         std::to_string(edge[0]) + " and " + std::to_string(edge[1]));
-    lost += times(found, edge) == 0 ? 1 : 0;
-  }
-  if (lost > 0)
-    throw mesher_error("the mesher lost " + std::to_string(lost) + " of " + std::to_string(listed.size()) +
-                       " boundary edges");
+  std::vector<simplex<1>> passed;
+  for_each_edge_before(static_cast<local_id>(boundary.points.size()), mesh.elements,
+                       [&](const simplex<1>& edge) { passed.push_back(edge); });
+  line_passages(boundary.elements, std::move(passed)).check();
 }
 
 inline void check_line_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {

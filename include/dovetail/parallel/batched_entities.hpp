@@ -5,6 +5,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 
@@ -15,7 +16,6 @@
 #include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -43,10 +43,12 @@ public:
   std::size_t made() const { return made_; }
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
-  /// a batch that fails are made again one by one, to find out which it was; it is returned.
-  std::optional<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
-                                             double batch_cost, const maker& make, const any_executor& run,
-                                             run_options options) {
+  /// a batch that fails are made again one by one, to find out which they are; these are returned, and of
+  /// such a batch none is kept.
+  std::vector<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
+                                           double batch_cost, const maker& make, const any_executor& run,
+                                           run_options options) {
+    std::vector<entity_failure> failures;
     const std::vector<batch> batches = missing(keys, costs, batch_cost);
     options.order.resize(batches.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
@@ -57,8 +59,8 @@ public:
     for (std::size_t b = 0; b < batches.size(); ++b) {
       const std::vector<std::size_t>& members = batches[b].members;
       if (!outcomes[b].ok) {
-        const auto alone = first_failure(members, make, run, std::move(options));
-        return alone ? alone : entity_failure{members.front(), outcomes[b].failure};
+        append(failures, failures_among(members, outcomes[b].failure, make, run, options));
+        continue;
       }
       if (!outcomes[b].result.empty())
         made_ += members.size();
@@ -67,7 +69,7 @@ public:
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
     }
-    return std::nullopt;
+    return failures;
   }
 
   /// Calls `use(i, bytes)` for each key in turn. A blob is read once, and held from its first entity in
@@ -144,9 +146,10 @@ private:
     return members;
   }
 
-  static std::optional<entity_failure> first_failure(const std::vector<std::size_t>& members,
-                                                     const maker& make, const any_executor& run,
-                                                     run_options options) {
+  /// The first of them, for the reason of all `together`, when each by itself can be made.
+  static std::vector<entity_failure> failures_among(const std::vector<std::size_t>& members,
+                                                    const std::string& together, const maker& make,
+                                                    const any_executor& run, run_options options) {
     options.order.clear();
     const auto alone = run.run(
         members.size(),
@@ -155,10 +158,13 @@ private:
           return byte_buffer{};
         },
         options);
+    std::vector<entity_failure> failures;
     for (std::size_t i = 0; i < alone.size(); ++i)
       if (!alone[i].ok)
-        return entity_failure{members[i], alone[i].failure};
-    return std::nullopt;
+        failures.push_back({members[i], alone[i].failure});
+    if (failures.empty())
+      failures.push_back({members.front(), together});
+    return failures;
   }
 
   std::shared_ptr<entity_store> store_;

@@ -5,7 +5,7 @@
 
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
-#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/pipeline/parameters.hpp"
@@ -15,8 +15,8 @@
 
 namespace dovetail {
 
-/// `parameters` convert to it. In D = 2 the mesher is the surface remesher unless another one was chosen; in
-/// D = 3 one has to be. An improver must be one of D.
+/// `parameters` convert to it. In D = 2 the mesher is the surface mesher, by regions, unless another one was
+/// chosen; in D = 3 one has to be. An improver must be one of D.
 template <int D>
 struct any_parameters {
   any_mesher<D> mesh_it;
@@ -26,7 +26,7 @@ struct any_parameters {
   generate_options options;
   any_simplification_rule simplify_by;
   any_improver<3> improve_background = default_background_improver();
-  remesh::patch_remesher remesh_surface = {};
+  any_surface_mesher mesh_surface = {};
 
   any_parameters(any_mesher<D> mesher, any_partitioner partitioner, any_improver<D> improver,
                  any_executor executor, generate_options given, any_simplification_rule rule)
@@ -38,7 +38,7 @@ struct any_parameters {
       : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
                        given.options, given.simplify_by) {
     improve_background = given.improve_background;
-    remesh_surface = given.remesh_surface;
+    mesh_surface = given.mesh_surface;
   }
 
 private:
@@ -50,7 +50,7 @@ private:
     if constexpr (boundary_keeping_mesher<M, D>)
       return given.mesh_it;
     else if constexpr (D == 2)
-      return mesher::native_surface{given.remesh_surface};
+      return mesher::by_regions<any_surface_mesher>{given.mesh_surface};
     else
       return {};
   }

@@ -49,7 +49,7 @@ simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_top
 /// `intersection_error` naming the two CAD faces when that does not help.
 background::coarse_surface_result surface_without_crossings(const any_geometry& model, const any_sizing& size,
                                                             const any_executor& run,
-                                                            const remesh::patch_remesher& remesher,
+                                                            const any_surface_mesher& mesher,
                                                             int refinement_rounds);
 
 /// Chooses the decomposition from the predicted size of a mesh, in subdomains of `per_subdomain` elements.

@@ -77,9 +77,9 @@ DOVETAIL_INLINE simplicial_mesh<2> outer_surface(const surface_mesh& surface,
 
 DOVETAIL_INLINE background::coarse_surface_result
 surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
-                          const remesh::patch_remesher& remesher, int refinement_rounds) {
+                          const any_surface_mesher& mesher, int refinement_rounds) {
   background::coarse_surface_parameters parameters;
-  parameters.remesher = remesher;
+  parameters.mesher = mesher;
   for (int round = 0;; ++round) {
     auto result = background::coarse_surface(model, size, parameters, run);
     const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
@@ -147,7 +147,7 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
   options.on_progress("planning", 0, 0);
   const auto first =
       surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),
-                                given.run_tasks, given.remesh_surface, options.refinement_rounds);
+                                given.run_tasks, given.mesh_surface, options.refinement_rounds);
   const mesh_plan plan =
       plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
                                    given.mesh_it.elements_per_inverse_cubed_size()),
@@ -172,7 +172,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
 
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.remesh_surface,
+  auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
                                            options.refinement_rounds);
   result.summary.children.push_back(std::move(surface.summary));
   if constexpr (D == 2)

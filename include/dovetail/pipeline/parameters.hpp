@@ -9,7 +9,7 @@
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/greedy.hpp"
-#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/sizing/size_balls.hpp"
@@ -70,7 +70,7 @@ struct parameters {
   /// Makes the coarse elements good (D = 3), so that clean interfaces are found everywhere.
   any_improver<3> improve_background = default_background_improver();
   /// Of the coarse surface and of regions; in D = 2 of the pieces too, unless a mesher was chosen.
-  remesh::patch_remesher remesh_surface{};
+  any_surface_mesher mesh_surface{};
 
   // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
   template <boundary_keeping_mesher<3> M>
@@ -102,9 +102,9 @@ struct parameters {
     changed.improve_background = std::move(improver);
     return changed;
   }
-  parameters with_surface_remesher(remesh::patch_remesher remesher) const {
+  parameters with_surface_mesher(any_surface_mesher mesher) const {
     parameters changed = *this;
-    changed.remesh_surface = remesher;
+    changed.mesh_surface = std::move(mesher);
     return changed;
   }
   /// A rule for the surface (2) and the volume (3).
@@ -126,7 +126,7 @@ private:
   template <class M, class P, class I, class E>
   parameters<M, P, I, E> with(M mesher, P partitioner, I improver, E executor) const {
     return {std::move(mesher), std::move(partitioner), std::move(improver), std::move(executor), options,
-            simplify_by,       improve_background,     remesh_surface};
+            simplify_by,       improve_background,     mesh_surface};
   }
 };
 

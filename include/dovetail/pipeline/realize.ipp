@@ -54,7 +54,7 @@ private:
     const stopwatch clock;
     result_.coarse = extract_skeleton(mesh_, sides_, result_.subdomain_of_element);
     auto remeshed = remesh_skeleton(model_, mesh_.surface, mesh_.volume.points, result_.coarse, result_.size,
-                                    result_.field, given_.remesh_surface, given_.run_tasks, store_,
+                                    result_.field, given_.mesh_surface, given_.run_tasks, store_,
                                     given_.options.on_progress);
     const double before = result_.skeleton_summary.seconds;
     result_.skeleton_summary = remeshed.summary;

@@ -38,7 +38,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   options.on_progress("background surface", 0, 0);
   const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
   auto domain = surface_without_crossings(
-      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.remesh_surface,
+      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.mesh_surface,
       options.refinement_rounds);
   result.summary.children.push_back(domain.summary);
   result.size = allowed_size<3>(size, {});

@@ -1,8 +1,7 @@
 /// @file
-/// What is asked of a mesher of one surface patch.
+/// What is asked of a mesher of one region of a surface.
 #pragma once
 
-#include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
@@ -10,9 +9,11 @@
 
 namespace dovetail {
 
-/// The role `surface_mesher<M, S>`: fill frozen loops in the parameter plane of a surface with triangles.
+/// The role `surface_mesher`: fill frozen loops in the parameter plane of a surface with triangles. It meshes
+/// the coarse surface and the regions of D = 3, and by `mesher::by_regions` the pieces of D = 2.
 ///
-/// Valid expression for `const M& m`, `const S& s`, `const patch_boundary& b`, `const any_sizing& h`:
+/// Valid expression for `const M& m`, `const any_surface& s`, `const patch_boundary& b`,
+/// `const any_sizing& h`:
 ///
 /// - `m(s, b, h)`: patch_mesh
 ///
@@ -20,7 +21,8 @@ namespace dovetail {
 /// listed in both directions); a pole's segments, whose ends have one label, are sides of none. New points
 /// lie exactly on the surface at their parameters. Triangles are counter-clockwise in the parameter plane and
 /// cover the domain once. The mean edge length on a uniform field equals the size within 10 % where the
-/// parameters are isometric up to constant factors. The same arguments give the same mesh.
+/// parameters are isometric up to constant factors. The same arguments give the same mesh. Forbidden edges
+/// may be ignored: `mesh_region` splits them, and checks that every segment was kept.
 ///
 /// Complexity: n log n in the triangles made or better.
 ///
@@ -30,14 +32,15 @@ namespace dovetail {
 /// A model that may not run in several threads of one process says so by `static constexpr bool thread_safe =
 /// false`.
 ///
-/// Models: patch_remesher (also keeps clear of forbidden edges), cgal_delaunay, gmsh_frontal. A model becomes
-/// a mesher of D = 2 pieces by `mesher::by_regions`: native_surface, cgal_surface, gmsh_surface.
-template <class M, class S = remesh::plane_surface>
-concept surface_mesher = patch_surface<S> && std::copy_constructible<M> &&
-    requires(const M& m, const S& s, const patch_boundary& b, const any_sizing& h) {
+/// Models: patch_remesher (also keeps clear of forbidden edges), cgal_delaunay, gmsh_frontal,
+/// any_surface_mesher. `mesher::by_regions` makes native_surface, cgal_surface and gmsh_surface of them.
+template <class M>
+concept surface_mesher = std::copy_constructible<M> &&
+    requires(const M& m, const any_surface& s, const patch_boundary& b, const any_sizing& h) {
   { m(s, b, h) } -> std::same_as<patch_mesh>;
 };
 
+/// Whether a policy has not said that it may not run in several threads of one process.
 template <class M>
 constexpr bool is_thread_safe() {
   if constexpr (requires { M::thread_safe; })

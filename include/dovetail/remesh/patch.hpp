@@ -42,7 +42,7 @@ struct patch_boundary {
 ///
 /// Failure: throws `geometry_error` naming the face when its kernel cannot evaluate it.
 ///
-/// Models: remesh::plane_surface, triangle_surface, model_surface, any_surface.
+/// Models: remesh::plane_surface, triangle_surface, any_surface.
 template <class S>
 concept patch_surface = requires(const S& s, vec3 p, vec2 uv) {
   { s.frame(uv) } -> std::same_as<surface_frame>;

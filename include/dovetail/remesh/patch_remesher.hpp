@@ -24,9 +24,7 @@ struct patch_remesher {
 
   /// Meshes one patch. Complexity: about linear in the number of triangles made. Never throws on bad loops:
   /// see `patch_mesh::ok`; passes on what the surface and the sizing field throw.
-  /// The work is compiled for planes and for `any_surface`; another surface is seen as one.
-  patch_mesh operator()(const plane_surface& surface, const patch_boundary& boundary,
-                        const any_sizing& sizing) const;
+  /// The work is compiled for planes and for other surfaces.
   patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
                         const any_sizing& sizing) const;
   template <patch_surface Surface>

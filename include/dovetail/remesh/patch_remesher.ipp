@@ -218,15 +218,12 @@ private:
 
 namespace dovetail::remesh {
 
-DOVETAIL_INLINE patch_mesh patch_remesher::operator()(const plane_surface& surface,
-                                                      const patch_boundary& boundary,
-                                                      const any_sizing& sizing) const {
-  return dovetail::detail::patch_filling{*this}.mesh_patch(surface, boundary, sizing);
-}
 DOVETAIL_INLINE patch_mesh patch_remesher::operator()(const any_surface& surface,
                                                       const patch_boundary& boundary,
                                                       const any_sizing& sizing) const {
-  return dovetail::detail::patch_filling{*this}.mesh_patch(surface, boundary, sizing);
+  const dovetail::detail::patch_filling filling{*this};
+  return surface.plane ? filling.mesh_patch(*surface.plane, boundary, sizing)
+                       : filling.mesh_patch(surface, boundary, sizing);
 }
 
 } // namespace dovetail::remesh

@@ -1,13 +1,15 @@
 /// @file
-/// Surfaces for the patch remesher: a plane, a face of a geometry model, a curved interface face.
+/// Surfaces that are meshed: a plane, and any surface, among them a face of a geometry model.
 #pragma once
 
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/remesh/patch.hpp"
 
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace dovetail::remesh {
 
@@ -28,15 +30,6 @@ struct plane_surface {
   vec2 project(vec3 p, vec2 = {}) const { return {dot(p - origin, x_axis), dot(p - origin, y_axis)}; }
 };
 
-/// A face of a geometry model, which must outlive this.
-struct model_surface {
-  const any_geometry* model;
-  local_id face;
-
-  surface_frame frame(vec2 uv) const { return model->face_frame(face, uv); }
-  vec2 project(vec3 p, vec2 seed) const { return model->project_to_face(face, p, seed); }
-};
-
 } // namespace dovetail::remesh
 
 namespace dovetail {
@@ -45,18 +38,34 @@ namespace dovetail {
 struct any_surface {
   std::function<surface_frame(vec2)> frame;
   std::function<vec2(vec3, vec2)> project;
-  /// The same surface where it is a plane with orthonormal parameters: meshers then need no calls.
+  /// The same surface where it is a plane with orthonormal parameters, for meshers that then need no calls.
   std::optional<remesh::plane_surface> plane = std::nullopt;
 
   /// Another surface, which must outlive this.
   template <patch_surface S>
   static any_surface view_of(const S& surface) {
-    return {[&surface](vec2 uv) { return surface.frame(uv); },
-            [&surface](vec3 p, vec2 seed) { return surface.project(p, seed); }};
+    any_surface seen{[&surface](vec2 uv) { return surface.frame(uv); },
+                     [&surface](vec3 p, vec2 seed) { return surface.project(p, seed); }};
+    if constexpr (std::same_as<S, remesh::plane_surface>)
+      seen.plane = surface;
+    return seen;
+  }
+  /// Another surface, which it keeps.
+  template <patch_surface S>
+  static any_surface holding(S surface) {
+    const auto held = std::make_shared<const S>(std::move(surface));
+    return {[held](vec2 uv) { return held->frame(uv); },
+            [held](vec3 p, vec2 seed) { return held->project(p, seed); }};
   }
 };
 
-/// A face of a model, which it keeps alive.
+/// A face of a model in the model's own parameters; the model must outlive it.
+inline any_surface surface_of_face(const any_geometry& model, local_id face) {
+  return {[&model, face](vec2 uv) { return model.face_frame(face, uv); },
+          [&model, face](vec3 p, vec2 seed) { return model.project_to_face(face, p, seed); }};
+}
+
+/// A face of a model, which it keeps alive; in orthonormal parameters where it is a plane.
 inline any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face) {
   any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
                       [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};

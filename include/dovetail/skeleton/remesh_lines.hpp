@@ -140,7 +140,7 @@ inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<
   for (const skeleton_line& line : lines)
     keys.push_back(key_of(line, coarse_points, field));
   const std::vector<double> costs(lines.size(), 1);
-  const auto failure = made.make_missing(
+  const auto failures = made.make_missing(
       keys, costs, lines_per_task,
       [&](const std::vector<std::size_t>& wanted) {
         const task_model own(model, run);
@@ -156,8 +156,8 @@ inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<
         return encoded;
       },
       run, run_options{.on_progress = on_progress, .stage = "lines"});
-  if (failure)
-    throw mesher_error("remeshing of skeleton lines failed: " + failure->reason);
+  if (!failures.empty())
+    throw mesher_error("remeshing of skeleton lines failed: " + failures.front().reason);
   std::vector<fine_line> fine(lines.size());
   made.for_each(keys, [&](std::size_t l, const byte_buffer& bytes) {
     byte_reader in(bytes);

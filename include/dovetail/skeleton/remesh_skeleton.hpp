@@ -6,7 +6,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
-#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
 #include <memory>
@@ -45,14 +45,14 @@ struct remeshed_skeleton {
 };
 
 /// Remeshes the skeleton to the sizing field, of which `field` is the key. `made` carries lines and patches
-/// from one call to the next as long as the model and the remesher are the same. "patches_made" in the
+/// from one call to the next as long as the model and the mesher are the same. "patches_made" in the
 /// summary are those that were not in it. About linear in the triangles made. Faults come back as `failures`;
 /// throws `mesher_error` when a patch cannot be evaluated at all.
 remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                  const any_sizing& size, content_key field,
-                                  const remesh::patch_remesher& remesher, const any_executor& run,
-                                  skeleton_store& made, const progress& on_progress = {});
+                                  const any_sizing& size, content_key field, const any_surface_mesher& mesher,
+                                  const any_executor& run, skeleton_store& made,
+                                  const progress& on_progress = {});
 
 } // namespace dovetail
 

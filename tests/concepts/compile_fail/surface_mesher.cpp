@@ -11,7 +11,7 @@
 #include <vector>
 
 struct my_mesher {
-  using surface = dovetail::remesh::plane_surface;
+  using surface = dovetail::any_surface;
   using boundary = dovetail::patch_boundary;
 #if NEAR_MISS == 1
   std::vector<dovetail::simplex<2>> operator()(const surface&, const boundary&,

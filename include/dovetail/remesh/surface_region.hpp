@@ -1,5 +1,5 @@
 /// @file
-/// What a mesher of D = 2 fills: a connected part of one CAD face or plane between lines that are given.
+/// What a surface mesher fills: a part of one CAD face, plane or interface between lines that are given.
 #pragma once
 
 #include "dovetail/remesh/patch.hpp"
@@ -12,7 +12,7 @@
 
 namespace dovetail {
 
-/// A region of a piece. The labels of its boundary are points of the piece's boundary.
+/// A region of a surface, of a skeleton or of a piece, whose boundary points are the labels of its boundary.
 struct surface_region {
   patch_boundary boundary;
   any_surface surface;
@@ -21,6 +21,7 @@ struct surface_region {
   /// Whether no inner edge may join two labels, since another region might do so or a line does; may be
   /// empty.
   std::function<bool(local_id, local_id)> forbids = {};
+  double size_factor = 1; ///< of the sizes inside: below 1 for a region that was folded over
 };
 
 /// Finds the first region of a face.

@@ -1,0 +1,239 @@
+/// @file
+/// What `mesh_regions.hpp` declares.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/hash.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/parallel/task_model.hpp"
+#include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/unwanted_chords.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Adds the chords of a mesh that its region must not have to the forbidden edges; false when it has no new
+/// ones.
+inline bool forbid_own_chords(const surface_region& region, const patch_mesh& made,
+                              patch_boundary& boundary) {
+  if (!region.forbids)
+    return false;
+  auto& forbidden = boundary.forbidden_edges;
+  const std::size_t before = forbidden.size();
+  chord_finder(boundary).for_each(made.triangles, [&](std::size_t, const simplex<1>& chord) {
+    if (region.forbids(chord[0], chord[1]) &&
+        std::find(forbidden.begin(), forbidden.end(), chord) == forbidden.end())
+      forbidden.push_back(chord);
+  });
+  return forbidden.size() > before;
+}
+
+/// One rung of a region's ladder: without the edges that it must not have.
+inline patch_mesh mesh_without_chords(const any_surface_mesher& mesher, const any_surface& surface,
+                                      const surface_region& region, const any_sizing& size, int rounds) {
+  patch_boundary boundary = region.boundary;
+  patch_mesh made = mesher(surface, boundary, size);
+  for (int round = 0; round < rounds && forbid_own_chords(region, made, boundary); ++round)
+    made = mesher(surface, boundary, size);
+  unwanted_chord_splitter(surface, boundary, made).run();
+  return made;
+}
+
+/// Whether triangles and segments close up: every side of a triangle is passed backwards by another triangle,
+/// or is a segment. The sum of a hash of each, of opposite signs in opposite directions, is zero then.
+inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
+  const auto frozen = static_cast<local_id>(boundary.labels.size());
+  std::uint64_t sum = 0;
+  const auto pass = [&](local_id a, local_id b) {
+    const auto name = [&](local_id v) {
+      return v < frozen ? std::int64_t{boundary.labels[static_cast<std::size_t>(v)]} : ~std::int64_t{v};
+    };
+    const std::int64_t from = name(a), to = name(b);
+    if (from == to)
+      return; // along a pole
+    content_hash side;
+    side.word(static_cast<std::uint64_t>(std::min(from, to)));
+    side.word(static_cast<std::uint64_t>(std::max(from, to)));
+    sum += from < to ? side.value() : -side.value();
+  };
+  for (const simplex<2>& t : made.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      pass(t[k], t[(k + 1) % 3]);
+  for (const auto& [a, b] : boundary.segments)
+    pass(b, a);
+  return sum == 0;
+}
+
+/// Throws `mesher_error` when a mesh does not end at its region's boundary.
+inline void check_region(const patch_boundary& boundary, const patch_mesh& made) {
+  if (!made.crossings.empty() || !made.misplaced.empty())
+    return; // there is no mesh
+  const auto points = static_cast<local_id>(boundary.labels.size() + made.inner_uv.size());
+  bool named = made.inner_points.size() == made.inner_uv.size();
+  for (const simplex<2>& triangle : made.triangles)
+    for (const local_id v : triangle)
+      named = named && v >= 0 && v < points;
+  if (!named)
+    throw mesher_error("its triangles name points that do not exist");
+  passages_of(boundary, made).check();
+  if (!closes_up(boundary, made))
+    throw mesher_error("its triangles leave a hole or lie upon each other");
+}
+
+/// The meshes of the regions of one set.
+class region_making {
+public:
+  region_making(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
+                const any_sizing& size, content_key field, const any_executor& run, batched_entities& store,
+                const mesh_regions_options& options)
+      : model_(model), set_(set), mesher_(mesher), size_(size), field_(field), run_(run), store_(store),
+        options_(options) {
+    result_.keys.resize(set.regions.size());
+    for (std::size_t r = 0; r < set.regions.size(); ++r)
+      result_.keys[r] = key_of(r);
+  }
+
+  meshed_regions run() {
+    make_missing();
+    for (int round = 0; round < options_.attempts.chords && forbid_shared_chords(); ++round)
+      make_missing();
+    return std::move(result_);
+  }
+
+private:
+  /// Labels are numbers of the present set; what counts of them is which points have the same one (poles),
+  /// and which edges are forbidden.
+  content_key key_of(std::size_t r) const {
+    const surface_region& region = set_.regions[r];
+    const patch_boundary& b = region.boundary;
+    std::map<local_id, local_id> first_with_label;
+    std::vector<local_id> same_label;
+    for (std::size_t v = 0; v < b.labels.size(); ++v)
+      same_label.push_back(first_with_label.try_emplace(b.labels[v], static_cast<local_id>(v)).first->second);
+    std::vector<simplex<1>> forbidden;
+    for (const auto& [x, y] : b.forbidden_edges)
+      if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
+          at_x != first_with_label.end() && at_y != first_with_label.end())
+        forbidden.push_back({at_x->second, at_y->second});
+    key_maker make(field_);
+    make(std::int64_t{region.face})(region.size_factor);
+    make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
+    if (!set_.surface_keys.empty())
+      make(static_cast<std::int64_t>(set_.surface_keys[r].value));
+    return make.key();
+  }
+
+  /// In tasks of many regions; those of a task that fails are made once more when it is known which did.
+  void make_missing() {
+    std::vector<std::size_t> regions;
+    std::vector<double> costs; // the triangles in a disk with so many segments around it
+    for (std::size_t r = 0; r < result_.keys.size(); ++r)
+      if (!result_.failures.contains(r)) {
+        const auto segments = static_cast<double>(set_.regions[r].boundary.segments.size());
+        regions.push_back(r);
+        costs.push_back(segments + segments * segments / 5.4);
+      }
+    std::vector<content_key> keys;
+    for (const std::size_t r : regions)
+      keys.push_back(result_.keys[r]);
+    const auto failures = store_.make_missing(
+        keys, costs, options_.triangles_per_task,
+        [&](const std::vector<std::size_t>& wanted) {
+          const task_model own(model_, run_);
+          std::vector<byte_buffer> encoded;
+          for (const std::size_t i : wanted)
+            encoded.push_back(encode(make(own.get(), regions[i])));
+          return encoded;
+        },
+        run_, run_options{.on_progress = options_.on_progress, .stage = options_.stage});
+    for (const entity_failure& failure : failures)
+      result_.failures[regions[failure.entity]] = failure.reason;
+    if (!failures.empty())
+      make_missing();
+  }
+
+  patch_mesh make(const any_geometry& model, std::size_t r) const {
+    patch_mesh made =
+        mesh_region(mesher_, set_.surface_of(model, r), set_.regions[r], size_, options_.attempts);
+    if (!options_.parameters)
+      made.inner_uv.clear();
+    made.summary = {};
+    return made;
+  }
+
+  /// Forbids each chord to all regions that have it but the first, and to all of them where a segment joins
+  /// the same labels; false when there is nothing to do.
+  bool forbid_shared_chords() {
+    std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region + 1, or 0 for a line
+    for (const surface_region& region : set_.regions)
+      for (const auto& [a, b] : region.boundary.segments)
+        chords.emplace_back(sorted_vertices(simplex<1>{region.boundary.labels[static_cast<std::size_t>(a)],
+                                                       region.boundary.labels[static_cast<std::size_t>(b)]}),
+                            0);
+    sort_unique(chords); // most lines are of several regions
+    result_.for_each(store_, [&](std::size_t r, const patch_mesh& mesh) {
+      chord_finder(set_.regions[r].boundary)
+          .for_each(mesh.triangles,
+                    [&](std::size_t, const simplex<1>& chord) { chords.emplace_back(chord, r + 1); });
+    });
+    sort_unique(chords);
+    std::set<std::size_t> changed;
+    for (std::size_t i = 1; i < chords.size(); ++i)
+      if (chords[i].first == chords[i - 1].first) {
+        auto& forbidden = set_.regions[chords[i].second - 1].boundary.forbidden_edges;
+        if (std::find(forbidden.begin(), forbidden.end(), chords[i].first) != forbidden.end())
+          continue;
+        forbidden.push_back(chords[i].first);
+        changed.insert(chords[i].second - 1);
+      }
+    for (const std::size_t r : changed)
+      result_.keys[r] = key_of(r);
+    return !changed.empty();
+  }
+
+  const any_geometry& model_;
+  region_set& set_;
+  const any_surface_mesher& mesher_;
+  const any_sizing& size_;
+  content_key field_;
+  const any_executor& run_;
+  batched_entities& store_;
+  const mesh_regions_options& options_;
+  meshed_regions result_;
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surface,
+                                       const surface_region& region, const any_sizing& size,
+                                       const region_attempts& attempts) {
+  patch_mesh best;
+  double factor = region.size_factor;
+  for (int attempt = 0; attempt == 0 || (attempt <= attempts.folds && !best.folded.empty()); ++attempt) {
+    const any_sizing inner = [&size, factor](vec3 p) { return factor * size(p); };
+    patch_mesh made =
+        detail::mesh_without_chords(mesher, surface, region, factor == 1 ? size : inner, attempts.chords);
+    if (attempt == 0 || made.folded.size() < best.folded.size())
+      best = std::move(made);
+    factor *= 0.8;
+  }
+  detail::check_region(region.boundary, best);
+  return best;
+}
+
+DOVETAIL_INLINE meshed_regions mesh_regions(const any_geometry& model, region_set& set,
+                                            const any_surface_mesher& mesher, const any_sizing& size,
+                                            content_key field, const any_executor& run,
+                                            batched_entities& store, const mesh_regions_options& options) {
+  if (runs_in_threads(run) && !mesher.may_run_in_threads())
+    throw usage_error(
+        "this surface mesher must not run in several threads of one process; use worker processes");
+  return detail::region_making(model, set, mesher, size, field, run, store, options).run();
+}
+
+} // namespace dovetail

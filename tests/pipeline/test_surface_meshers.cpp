@@ -1,0 +1,91 @@
+#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesher/cgal_surface.hpp"
+#include "dovetail/mesher/gmsh_surface.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numbers>
+
+using namespace dovetail;
+
+namespace {
+
+/// A block with a hole, whose face is passed twice at its seam, and a dent, whose face has a pole.
+TopoDS_Shape drilled_and_dented() {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 1.5, 1)).Shape();
+  const gp_Ax2 axis(gp_Pnt(0.5, 0.7, -1), gp_Dir(0, 0, 1));
+  const TopoDS_Shape drilled = BRepAlgoAPI_Cut(block, BRepPrimAPI_MakeCylinder(axis, 0.3, 3).Shape()).Shape();
+  return BRepAlgoAPI_Cut(drilled, BRepPrimAPI_MakeSphere(gp_Pnt(1.4, 0.8, 1), 0.35).Shape()).Shape();
+}
+
+auto in_four_pieces() {
+  return parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 4});
+}
+
+generated<3> mesh_by(const any_surface_mesher& mesher) {
+  return generate<3>(occt_shape_from(drilled_and_dented()).model, uniform_size(0.12),
+                     in_four_pieces().with_surface_mesher(mesher));
+}
+
+double volume_of(const distributed_mesh& mesh) {
+  double sum = 0;
+  for (std::size_t s = 0; s < mesh.counts.size(); ++s) {
+    const auto piece = mesh.load(static_cast<local_id>(s)).mesh;
+    for (const auto& e : piece.elements) {
+      const auto at = corners(span_of(piece.points), e);
+      sum += dot(at[1] - at[0], cross(at[2] - at[0], at[3] - at[0])) / 6;
+    }
+  }
+  return sum;
+}
+
+/// Leaves out a triangle where x is 0.
+struct leaves_a_hole {
+  patch_mesh operator()(const any_surface& s, const patch_boundary& b, const any_sizing& size) const {
+    patch_mesh made = remesh::patch_remesher{}(s, b, size);
+    const bool at_zero = std::all_of(b.points.begin(), b.points.end(), [](vec3 p) { return p.x == 0; });
+    if (at_zero && made.triangles.size() > 20)
+      made.triangles.erase(made.triangles.begin() + 10);
+    return made;
+  }
+};
+
+} // namespace
+
+TEST_CASE("tetrahedra inside a surface by every surface mesher: a valid mesh, which is its own") {
+  const double expected = 2 * 1.5 * 1 - std::numbers::pi * (0.3 * 0.3 + 2.0 / 3 * 0.35 * 0.35 * 0.35);
+  const auto native = mesh_by({});
+  for (const any_surface_mesher& mesher :
+       {any_surface_mesher(), any_surface_mesher(mesher::cgal_delaunay{}, "cgal"),
+        any_surface_mesher(mesher::gmsh_frontal{}, "gmsh")}) {
+    CAPTURE(mesher.name());
+    const auto result = mesh_by(mesher);
+    CHECK(result.failures.empty());
+    CHECK(io::check_distributed(result.mesh).valid());
+    CHECK(volume_of(result.mesh) == doctest::Approx(expected).epsilon(5e-3));
+    CHECK((io::mesh_hash(result.mesh) == io::mesh_hash(native.mesh)) == (mesher.name() == "native"));
+    CHECK(io::mesh_hash(result.mesh) == io::mesh_hash(mesh_by(mesher).mesh));
+  }
+}
+
+TEST_CASE("a surface mesher whose result is not what it should be is found out, and the face named") {
+  CHECK_THROWS_WITH_AS(mesh_by(leaves_a_hole{}), doctest::Contains("face 0: "), mesher_error);
+}
+
+TEST_CASE("a surface mesher that may not run in threads is refused there") {
+  const auto given = in_four_pieces().with_surface_mesher(mesher::gmsh_frontal{});
+  CHECK_THROWS_AS(generate<3>(occt_shape_from(drilled_and_dented()).model, uniform_size(0.12),
+                              given.with_executor(parallel::threads{2})),
+                  usage_error);
+}
