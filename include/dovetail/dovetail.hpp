@@ -29,7 +29,7 @@
 
 // The skeleton, remeshed, without crossings.
 #include "dovetail/intersection/suppression.hpp"
-#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 #include "dovetail/skeleton/subdomain_surface.hpp"
 

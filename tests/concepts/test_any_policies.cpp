@@ -3,6 +3,7 @@
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 
@@ -32,6 +33,34 @@ TEST_CASE("a held mesher passes on its input and its traits") {
   const auto result = held(input, {});
   CHECK(result.mesh.points.size() == 4);
   CHECK(result.mesh.tags == std::vector<local_id>{7});
+}
+
+struct marking_surface {
+  static constexpr bool thread_safe = false;
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& b, const any_sizing& h) const {
+    patch_mesh made;
+    made.inner_uv = b.uv;
+    made.inner_points = {surface.frame({1, 2}).point, {h({}), 0, 0}};
+    return made;
+  }
+};
+
+TEST_CASE("a held surface mesher passes on its input, and whether it may run in threads") {
+  const any_surface_mesher held(marking_surface{}, "marking");
+  CHECK(held.name() == "marking");
+  CHECK_FALSE(held.may_run_in_threads());
+  CHECK(any_surface_mesher().may_run_in_threads());
+  CHECK(any_surface_mesher().name() == "native");
+  patch_boundary boundary;
+  boundary.uv = {{3, 4}};
+  const remesh::plane_surface plane{{5, 0, 0}};
+  const auto made = held(any_surface::view_of(plane), boundary, [](vec3) { return 7.0; });
+  CHECK(made.inner_uv == boundary.uv);
+  CHECK(made.inner_points == std::vector<vec3>{{6, 2, 0}, {7, 0, 0}});
+  // As a mesher of pieces it says the same.
+  using pieces = mesher::by_regions<any_surface_mesher>;
+  CHECK_FALSE(any_mesher<2>(pieces{held}).actual_traits().thread_safe);
+  CHECK(any_mesher<2>(pieces{}).actual_traits().thread_safe);
 }
 
 TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks added") {

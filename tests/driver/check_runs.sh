@@ -83,6 +83,25 @@ done
 expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --background-mesher nonsense
 
+# The surface by every mesher that is offered.
+surface_meshers=$("$driver" mesh --help | tr -s ' \n' ' ' |
+  sed -n 's/.*Mesher of the surface of --dimension 3: \([a-z, ]*\) --.*/\1/p' | tr -d ,)
+[[ $surface_meshers == native* ]] || fault "the surface meshers are '$surface_meshers'"
+for name in $surface_meshers; do
+  mesh --size 0.08 --subdomains 4 --surface-mesher "$name"
+  [[ $(figure surface_mesher) == "$name" ]] || fault "the surface mesher was $(figure surface_mesher)"
+  [[ $name == native || $(figure mesh_hash) != "$hash" ]] || fault "the same mesh as with the native surface"
+  rm -rf "$inputs/by_surface" && cp -r "$sandbox/work/out" "$inputs/by_surface"
+  expect_success check "$inputs/by_surface"
+done
+expect_error "--surface-mesher: there is no 'nonsense'; there are: native" \
+  mesh "$inputs/cube.off" --surface-mesher nonsense
+expect_error "--surface-mesher.*--dimension 2.*--mesher" \
+  mesh "$inputs/cube.off" --dimension 2 --surface-mesher native
+[[ $surface_meshers != *gmsh* ]] ||
+  expect_error "--executor: the surface mesher gmsh cannot run in several threads" \
+    mesh "$inputs/cube.off" --surface-mesher gmsh --executor threads --workers 2
+
 # Improving keeps a mesh valid.
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
 cp "$sandbox/work/better.vtu" "$inputs"
@@ -174,6 +193,13 @@ what="resuming with another size"
 status=$?
 ((status == 1)) || fault "exit code is $status"
 grep -q "cannot be resumed.*sizes" "$sandbox/stderr" || fault "the difference is not named"
+if [[ $surface_meshers == *cgal* ]]; then
+  what="resuming with another surface mesher"
+  (cd "$sandbox/work" && "$driver" "${long[@]}" --surface-mesher cgal --resume) >"$sandbox/stdout" 2>"$sandbox/stderr"
+  status=$?
+  ((status == 1)) || fault "exit code is $status"
+  grep -q "cannot be resumed.*surface mesher" "$sandbox/stderr" || fault "the difference is not named"
+fi
 resume
 expect_error "no run to resume" mesh "$inputs/cube.off" --size 0.2 --resume
 
