@@ -20,9 +20,6 @@ policies_of<D> make_policies_of(const mesh_options& options) {
   auto surface_mesher = make_surface_mesher(options.surface_mesher);
   if (D == 2 && !options.surface_mesher.empty())
     throw command_line_error("--surface-mesher: with --dimension 2 the mesher of triangles is --mesher");
-  if (runs_in_threads(executor) && !surface_mesher.may_run_in_threads())
-    throw command_line_error("--executor: the surface mesher " + surface_mesher.name() +
-                             " cannot run in several threads of one process; use processes");
   return {
       std::move(mesher),        make_partitioner(options.partitioner), make_improver<D>(options.improver),
       std::move(executor),      std::move(background_mesher),          make_simplifier(options.simplifier),

@@ -98,9 +98,6 @@ expect_error "--surface-mesher: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --surface-mesher nonsense
 expect_error "--surface-mesher.*--dimension 2.*--mesher" \
   mesh "$inputs/cube.off" --dimension 2 --surface-mesher native
-[[ $surface_meshers != *gmsh* ]] ||
-  expect_error "--executor: the surface mesher gmsh cannot run in several threads" \
-    mesh "$inputs/cube.off" --surface-mesher gmsh --executor threads --workers 2
 
 # Improving keeps a mesh valid.
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
