@@ -103,8 +103,7 @@ void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& f
 std::string text_of(const std::vector<piece_failure>& failures) {
   std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
   for (const auto& failure : failures) {
-    text += " subdomain " + std::to_string(failure.subdomain) + ": " +
-            (failure.reasons.empty() ? "no reason known" : failure.reasons.back());
+    text += " subdomain " + std::to_string(failure.subdomain) + ": " + joined_reasons(failure.reasons);
     if (!failure.facets.empty())
       text += " (facets in " + failure.facets.string() + ")";
     text += ";";

@@ -1,0 +1,88 @@
+/// @file
+/// What the result of every mesher and improver must satisfy in both dimensions: entries that exist, the
+/// given points bit for bit, and elements that fit together inside the given boundary and nowhere else.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Points that elements refer to exist, and tags are one per element or none. Whatever else looks at a
+/// foreign mesh relies on it.
+template <int D>
+void check_entries(const simplicial_mesh<D>& mesh) {
+  if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
+    throw mesher_error(std::to_string(mesh.tags.size()) + " tags for " +
+                       std::to_string(mesh.elements.size()) + " elements");
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (const local_id v : mesh.elements[e])
+      if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
+        throw mesher_error("element " + std::to_string(e) + " refers to point " + std::to_string(v) +
+                           ", which does not exist");
+}
+
+inline void check_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {
+  if (got.size() < given.size())
+    throw mesher_error(std::to_string(given.size() - got.size()) + " of the boundary's points are lost");
+  static_assert(sizeof(vec3) == 3 * sizeof(double));
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
+      throw mesher_error("boundary point " + std::to_string(v) + " was moved");
+}
+
+/// Oriented simplices added up: one that is passed in both directions adds nothing. Sums of equal chains are
+/// equal; those of different ones are so by a chance of 2^-64.
+class chain_sum {
+public:
+  template <std::size_t N>
+  void add(std::array<local_id, N> side) {
+    bool reversed = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (side[j] < side[i]) {
+        std::swap(side[i], side[j]);
+        reversed = !reversed;
+      }
+    };
+    order(0, 1);
+    if constexpr (N == 3)
+      order(1, 2), order(0, 1);
+    std::uint64_t mixed = 0;
+    for (const local_id v : side)
+      mixed = (mixed ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15ULL, mixed ^= mixed >> 29;
+    mixed *= 0xff51afd7ed558ccdULL;
+    sum_ += reversed ? 0 - mixed : mixed;
+  }
+  bool operator==(const chain_sum&) const = default;
+
+private:
+  std::uint64_t sum_ = 0;
+};
+
+/// Every side inside is passed by its elements as often in one direction as in the other: none of them is
+/// missing, doubled or turned over. With positive elements it follows that they fill the boundary once.
+template <int D>
+void check_fits_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<D>& mesh) {
+  chain_sum expected, found;
+  for (const simplex<D - 1>& side : boundary.elements)
+    expected.add(side);
+  for (const simplex<D>& element : mesh.elements)
+    for (const auto& local : numbering::sides<D>)
+      found.add(pick(element, local));
+  if (found != expected)
+    throw mesher_error("the elements do not fit together inside the boundary: some are lost, doubled or "
+                       "turned over");
+}
+
+} // namespace dovetail::detail

@@ -1,0 +1,252 @@
+#include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "mesher/shapes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+enum class wrong {
+  nothing,
+  throws,
+  never_ends,
+  drops_tags,
+  drops_points,
+  names_foreign_point,
+  moves_frozen,
+  moves_frozen_by_a_bit,
+  loses_element,
+  doubles_element,
+  turns_element,
+  inverts_elements,
+};
+
+/// The harm that a policy does to a mesh, whose last point lies inside.
+template <int D>
+void spoil(wrong how, simplicial_mesh<D>& mesh) {
+  switch (how) {
+  case wrong::nothing:
+    return;
+  case wrong::throws:
+    throw mesh_error("no such luck");
+  case wrong::never_ends:
+    for (;;)
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+  case wrong::drops_tags:
+    mesh.tags.pop_back();
+    return;
+  case wrong::drops_points:
+    mesh.points.resize(2);
+    return;
+  case wrong::names_foreign_point:
+    mesh.elements.front()[0] = 1 << 30;
+    return;
+  case wrong::moves_frozen:
+    mesh.points.front().x += 1e-6;
+    return;
+  case wrong::moves_frozen_by_a_bit:
+    mesh.points.front().x = std::nextafter(mesh.points.front().x, 2.0);
+    return;
+  case wrong::loses_element:
+    mesh.elements.pop_back();
+    mesh.tags.pop_back();
+    return;
+  case wrong::doubles_element:
+    mesh.elements.push_back(mesh.elements.back());
+    mesh.tags.push_back(mesh.tags.back());
+    return;
+  case wrong::turns_element:
+    std::swap(mesh.elements.front()[0], mesh.elements.front()[1]);
+    return;
+  case wrong::inverts_elements:
+    mesh.points.back() += vec3{10, 0, 0};
+    return;
+  }
+}
+
+/// Fills the cube by connecting its surface to the middle, or the square its edges, and spoils that. What its
+/// ladder has is no better.
+template <int D>
+struct spoiling_mesher {
+  static constexpr mesher_traits traits{.keeps_boundary = true};
+  wrong how = wrong::nothing;
+
+  std::vector<spoiling_mesher> fallbacks() const { return {*this}; }
+  mesher_result<D> operator()(const mesher_input<D>& in, const any_sizing&) const {
+    mesher_result<D> result;
+    result.mesh.points = in.boundary.points;
+    const auto middle = static_cast<local_id>(result.mesh.points.size());
+    vec3 sum{};
+    for (const vec3 p : in.boundary.points)
+      sum += p;
+    result.mesh.points.push_back(sum / static_cast<double>(middle));
+    for (const auto& side : in.boundary.elements)
+      if constexpr (D == 3)
+        result.mesh.elements.push_back({side[0], side[2], side[1], middle});
+      else
+        result.mesh.elements.push_back({side[0], side[1], middle});
+    result.mesh.tags.assign(result.mesh.elements.size(), in.material);
+    spoil(how, result.mesh);
+    return result;
+  }
+};
+
+template <int D>
+struct spoiling_improver {
+  static constexpr improver_traits traits{};
+  wrong how = wrong::nothing;
+  report operator()(simplicial_mesh<D>& mesh, const frozen_entities<D>&, const any_sizing&) const {
+    spoil(how, mesh);
+    return {};
+  }
+};
+
+/// What makes good again whatever the mesher did: without a check in between nobody would see it.
+struct concealing_improver {
+  static constexpr improver_traits traits{};
+  mesher_input<3> input;
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>&, const any_sizing& size) const {
+    mesh = spoiling_mesher<3>{}(input, size).mesh;
+    return {};
+  }
+};
+
+template <int D>
+piece_input<D> one_piece(local_id) {
+  piece_input<D> input;
+  if constexpr (D == 3) {
+    input.boundary.boundary = shapes::cube(2);
+  } else {
+    const remesh::plane_surface plane{};
+    input.boundary.boundary = {
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {}};
+    surface_region region;
+    region.surface = {[plane](vec2 uv) { return plane.frame(uv); },
+                      [plane](vec3 p, vec2 seed) { return plane.project(p, seed); },
+                      {}};
+    region.face = 0;
+    input.boundary.regions.push_back(region);
+  }
+  return input;
+}
+
+template <int D>
+meshed_pieces<D> mesh_one(const any_mesher<D>& mesh_it, const any_improver<D>& improve) {
+  meshing_options options;
+  options.limit_seconds = 0.3;
+  const any_sizing unit = [](vec3) { return 1.0; };
+  return mesh_subdomains<D>(1, one_piece<D>, mesh_it, improve, unit, parallel::processes{1}, options);
+}
+
+struct harm {
+  wrong how;
+  std::string reason;
+};
+const std::vector<harm> harms{
+    {wrong::throws, "no such luck"},
+    {wrong::never_ends, "time limit"},
+    {wrong::drops_tags, "tags"},
+    {wrong::drops_points, "does not exist"},
+    {wrong::names_foreign_point, "does not exist"},
+    {wrong::moves_frozen, "boundary point 0 was moved"},
+    {wrong::moves_frozen_by_a_bit, "boundary point 0 was moved"},
+    {wrong::loses_element, "lost"},
+    {wrong::doubles_element, "overlap"},
+    {wrong::turns_element, ""},
+    {wrong::inverts_elements, "flat or inverted"},
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// On a surface that is no plane, elements that are turned by a moved point are left to who finds crossings.
+template <int D>
+bool is_found(wrong how) {
+  return D == 3 || how != wrong::inverts_elements;
+}
+
+template <int D>
+void check_meshers() {
+  for (const harm& h : harms) {
+    if (!is_found<D>(h.how))
+      continue;
+    CAPTURE(h.reason);
+    for (const bool improves : {false, true}) {
+      const any_improver<D> improve = improves ? any_improver<D>(spoiling_improver<D>{}) : any_improver<D>{};
+      const auto result = mesh_one<D>({spoiling_mesher<D>{h.how}, "wrong"}, improve);
+      REQUIRE(result.failures.size() == 1);
+      const auto& reasons = result.failures.front().reasons;
+      CHECK(reasons.size() == (improves ? 3 : 2)); // each rung, and without the improver
+      for (const std::string& reason : reasons) {
+        CAPTURE(reason);
+        CHECK(contains(reason, h.reason));
+        CHECK((h.how == wrong::never_ends || contains(reason, "mesher 'wrong': ")));
+      }
+    }
+  }
+}
+
+template <int D>
+void check_improvers() {
+  for (const harm& h : harms) {
+    if (!is_found<D>(h.how))
+      continue;
+    CAPTURE(h.reason);
+    const auto result = mesh_one<D>(spoiling_mesher<D>{}, {spoiling_improver<D>{h.how}, "bad"});
+    REQUIRE(result.failures.empty());
+    const auto input = one_piece<D>(0);
+    CHECK(result.load(0).mesh.elements.size() == input.boundary.boundary.elements.size());
+    CHECK_NOTHROW(check_mesher_result(input.boundary, result.load(0).mesh));
+    REQUIRE_FALSE(result.summary.warnings.empty());
+    const std::string& warning = result.summary.warnings.back();
+    CAPTURE(warning);
+    CHECK(contains(warning, "left unimproved after attempts 1, 2: "));
+    CHECK(contains(warning, h.reason));
+    CHECK((h.how == wrong::never_ends || contains(warning, "improver 'bad': ")));
+  }
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("The policies of these tests are legal but for the harm they do", Dimension,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int D = Dimension::value;
+  const auto result = mesh_one<D>(spoiling_mesher<D>{}, spoiling_improver<D>{});
+  CHECK(result.failures.empty());
+  CHECK(result.summary.warnings.empty());
+}
+
+TEST_CASE("A mesher of solids that breaks its promises fails on every rung, by name") {
+  check_meshers<3>();
+}
+
+TEST_CASE("A mesher of surfaces that breaks its promises fails on every rung, by name") {
+  check_meshers<2>();
+}
+
+TEST_CASE("An improver of tetrahedra that breaks its promises is left out, and the reasons are told") {
+  check_improvers<3>();
+}
+
+TEST_CASE("An improver of triangles that breaks its promises is left out, and the reasons are told") {
+  check_improvers<2>();
+}
+
+TEST_CASE("What is wrong with a mesher's result is found before an improver hides it") {
+  const concealing_improver conceals{one_piece<3>(0).boundary};
+  CHECK(mesh_one<3>(spoiling_mesher<3>{}, conceals).failures.empty());
+  for (const wrong how : {wrong::moves_frozen, wrong::inverts_elements, wrong::loses_element})
+    CHECK(mesh_one<3>(spoiling_mesher<3>{how}, conceals).failures.size() == 1);
+}
