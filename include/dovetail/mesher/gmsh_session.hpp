@@ -202,6 +202,7 @@ inline mesher_result<3> mesh_with_gmsh(const gmsh_settings& settings, const mesh
   mesher_result<3> result;
   result.mesh = with_given_points_first(input.boundary.points, answer.points, std::move(answer.elements));
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
+  check_mesher_result(input, result.mesh);
   result.summary.name = settings.name;
   result.summary.seconds = clock.seconds();
   result.summary.set("sizing_calls", static_cast<double>(answer.sizing_calls));

@@ -192,6 +192,7 @@ inline mesher_result<3> netgen::operator()(const mesher_input<3>& input, const a
   mesher_result<3> result;
   result.mesh = with_given_points_first(input.boundary.points, points, answer.array<simplex<3>>());
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
+  check_mesher_result(input, result.mesh);
   result.summary.name = "netgen";
   result.summary.seconds = clock.seconds();
   result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));

@@ -47,21 +47,18 @@ inline void check_points_kept(const std::vector<vec3>& given, const std::vector<
 class chain_sum {
 public:
   template <std::size_t N>
-  void add(std::array<local_id, N> side) {
-    bool reversed = false;
-    const auto order = [&](std::size_t i, std::size_t j) {
-      if (side[j] < side[i]) {
-        std::swap(side[i], side[j]);
-        reversed = !reversed;
-      }
-    };
-    order(0, 1);
+  void add(const std::array<local_id, N>& side) {
+    std::size_t descents = 0; // in cyclic order, so that an even permutation keeps their parity
+    for (std::size_t k = 0; k < N; ++k)
+      descents += side[k] > side[(k + 1) % N] ? 1 : 0;
+    const bool reversed = N == 3 ? descents == 2 : side[0] > side[1];
+    const auto sorted = sorted_vertices(side);
+    const auto bits = [&](std::size_t k) { return std::uint64_t{static_cast<std::uint32_t>(sorted[k])}; };
+    std::uint64_t mixed = (bits(0) << 32 | bits(1)) * 0x9e3779b97f4a7c15ULL;
     if constexpr (N == 3)
-      order(1, 2), order(0, 1);
-    std::uint64_t mixed = 0;
-    for (const local_id v : side)
-      mixed = (mixed ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15ULL, mixed ^= mixed >> 29;
-    mixed *= 0xff51afd7ed558ccdULL;
+      mixed = ((mixed ^ mixed >> 32) + bits(2)) * 0xd6e8feb86659fd93ULL;
+    mixed = (mixed ^ mixed >> 32) * 0xff51afd7ed558ccdULL;
+    mixed ^= mixed >> 32;
     sum_ += reversed ? 0 - mixed : mixed;
   }
   bool operator==(const chain_sum&) const = default;
@@ -70,19 +67,23 @@ private:
   std::uint64_t sum_ = 0;
 };
 
-/// Every side inside is passed by its elements as often in one direction as in the other: none of them is
-/// missing, doubled or turned over. With positive elements it follows that they fill the boundary once.
+/// Whether every side inside is passed by its elements as often in one direction as in the other, and one of
+/// the boundary once more as it is listed: none of them is missing, doubled or turned over. With positive
+/// elements it follows that they fill the boundary once.
 template <int D>
-void check_fits_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<D>& mesh) {
+bool fit_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<D>& mesh) {
   chain_sum expected, found;
   for (const simplex<D - 1>& side : boundary.elements)
     expected.add(side);
   for (const simplex<D>& element : mesh.elements)
     for (const auto& local : numbering::sides<D>)
       found.add(pick(element, local));
-  if (found != expected)
-    throw mesher_error("the elements do not fit together inside the boundary: some are lost, doubled or "
-                       "turned over");
+  return found == expected;
+}
+
+[[noreturn]] inline void throw_no_fit() {
+  throw mesher_error("the elements do not fit together inside the boundary: some are lost, doubled or turned "
+                     "over");
 }
 
 } // namespace dovetail::detail

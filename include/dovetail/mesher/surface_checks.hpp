@@ -122,7 +122,8 @@ inline void check_mesher_result(const mesher_input<2>& input, const simplicial_m
   detail::check_entries(input, mesh);
   detail::check_points_kept(input.boundary.points, mesh.points);
   detail::check_lines_kept(input.boundary, mesh);
-  detail::check_fits_together<2>(input.boundary, mesh);
+  if (!detail::fit_together<2>(input.boundary, mesh))
+    detail::throw_no_fit();
   const bool planes = std::all_of(input.regions.begin(), input.regions.end(),
                                   [](const surface_region& r) { return r.surface.plane.has_value(); });
   if (planes && !input.regions.empty())

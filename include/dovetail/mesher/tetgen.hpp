@@ -233,6 +233,7 @@ inline mesher_result<3> tetgen::operator()(const mesher_input<3>& input, const a
   drop_outside(result.mesh, label_elements(result.mesh, input.boundary.elements),
                input.boundary.points.size());
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
+  check_mesher_result(input, result.mesh);
   result.summary.name = "tetgen";
   result.summary.seconds = clock.seconds();
   result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
