@@ -1,13 +1,23 @@
+#include "dovetail/geometry/plane_read.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/partition/greedy.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/simplify.hpp"
 #include "mesher/shapes.hpp"
+#include "pipeline/plane_meshes.hpp"
+#include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -218,6 +228,63 @@ void check_improvers() {
   }
 }
 
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+plane_domain unit_square() {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};
+  return plane_domain(drawing);
+}
+
+/// What is said when the square is meshed in four parts with such parameters; empty when nothing is wrong.
+template <class Error, class Parameters>
+std::string complaint(const Parameters& given, const any_sizing& size = uniform_size(0.05)) {
+  generate_options options;
+  options.subdomains = 4;
+  try {
+    generate<2>(unit_square(), size, given.with_options(options));
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+/// A good partition, changed.
+struct changed_partition {
+  std::function<void(std::vector<local_id>&)> change;
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    auto part = partition::greedy{}(graph, parts);
+    change(part);
+    return part;
+  }
+};
+
+std::string complaint_of_partition(std::function<void(std::vector<local_id>&)> change) {
+  return complaint<partition_error>(
+      parameters<>{}.with_partitioner(any_partitioner(changed_partition{std::move(change)}, "mine")));
+}
+
+/// The paper's rule, changed.
+struct changed_rule : simplifier::paper {
+  std::function<void(side_judgement&)> change = [](side_judgement&) {};
+  std::optional<double> other_price = {};
+
+  template <int D>
+  side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {
+    auto judged = simplifier::paper::operator()(mesh, sides);
+    change(judged);
+    return judged;
+  }
+  double price(const shortfall& missed) const {
+    return other_price ? *other_price : simplifier::paper::price(missed);
+  }
+};
+
+std::string complaint_of_rule(changed_rule rule) {
+  rule.surface_shape_deg = 180; // all sides are candidates, so that some are refused
+  return complaint<usage_error>(parameters<>{}.with_simplifier(rule));
+}
+
 } // namespace
 
 TEST_CASE_TEMPLATE("The policies of these tests are legal but for the harm they do", Dimension,
@@ -249,4 +316,59 @@ TEST_CASE("What is wrong with a mesher's result is found before an improver hide
   CHECK(mesh_one<3>(spoiling_mesher<3>{}, conceals).failures.empty());
   for (const wrong how : {wrong::moves_frozen, wrong::inverts_elements, wrong::loses_element})
     CHECK(mesh_one<3>(spoiling_mesher<3>{how}, conceals).failures.size() == 1);
+}
+
+TEST_CASE("A partitioner that breaks its promises is refused by name") {
+  CHECK(complaint_of_partition([](auto&) {}).empty());
+  CHECK(contains(complaint_of_partition([](auto& part) { part.front() = 99; }),
+                 "'mine' put node 0 into part 99"));
+  CHECK(contains(complaint_of_partition([](auto& part) { part.back() = -1; }), "into part -1"));
+  CHECK(contains(complaint_of_partition([](auto& part) { part.pop_back(); }),
+                 "nodes into parts, the graph has"));
+  CHECK(contains(complaint_of_partition([](auto& part) { part.push_back(0); }),
+                 "nodes into parts, the graph has"));
+  CHECK(contains(complaint_of_partition([](auto& part) { part.clear(); }), "put 0 nodes"));
+  CHECK(contains(complaint_of_partition([](auto& part) { std::replace(part.begin(), part.end(), 2, 1); }),
+                 "left part 2 of 4 without a node"));
+}
+
+TEST_CASE("A rule of simplification that says what is no number is refused") {
+  CHECK(complaint_of_rule({}).empty());
+  changed_rule rule;
+  rule.change = [](side_judgement& judged) { judged.quality.assign(judged.quality.size(), no_number); };
+  CHECK(contains(complaint_of_rule(rule), "quality nan"));
+  rule.change = [](side_judgement& judged) { judged.quality.assign(judged.quality.size(), -1.0); };
+  CHECK(contains(complaint_of_rule(rule), "quality -1"));
+  rule.change = [](side_judgement& judged) { judged.quality.pop_back(); };
+  CHECK(contains(complaint_of_rule(rule), "it must give one quality each"));
+  rule.change = [](side_judgement& judged) { judged.wanted_angle_deg = no_number; };
+  CHECK(contains(complaint_of_rule(rule), "wedges of nan"));
+  for (const double price : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
+    changed_rule priced;
+    priced.other_price = price;
+    CHECK(contains(complaint_of_rule(priced), "the price"));
+  }
+}
+
+TEST_CASE("A rule that couples by what is no number is refused") {
+  const auto mesh = dovetail_test::jittered_cubes(3);
+  const auto sides = build_sides(mesh);
+  const auto with = [&](const shortfall& missed) {
+    const coupled_ridge<3> ridge{{21, 22}, {missed}};
+    return simplify<3>(mesh, sides, simplifier::paper{}, {.coupled_ridges = std::span(&ridge, 1)});
+  };
+  CHECK_NOTHROW(with({1, 2}));
+  CHECK_THROWS_AS(with({no_number, 2}), usage_error);
+  CHECK_THROWS_AS(with({-1, 2}), usage_error);
+  CHECK_THROWS_AS(with({1, no_number}), usage_error);
+}
+
+TEST_CASE("Sizes that are no sizes somewhere are refused, with the place") {
+  for (const double bad : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
+    CAPTURE(bad);
+    const any_sizing size = [bad](vec3 p) { return p.x > 0.8 && p.y > 0.8 ? bad : 0.05; };
+    CHECK(contains(complaint<sizing_error>(parameters<>{}, size), "the size at ("));
+    CHECK(contains(complaint<sizing_error>(parameters<>{}.with_executor(parallel::processes{2}), size),
+                   "the size at ("));
+  }
 }
