@@ -78,7 +78,8 @@ void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   figures.coarse_interfaces = figures_of(result.coarse_angles);
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = stage_report(summary, "intersection");
-  figures.merges = static_cast<std::int64_t>(intersection.get("merges"));
+  figures.merges = static_cast<std::int64_t>(intersection.get("merges") +
+                                             stage_report(summary, "meshing").get("merged_after_failure"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
   const double geometry = figures.seconds.geometry;
   figures.seconds = seconds_of_stages(summary);
