@@ -86,6 +86,12 @@ expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
 # Improving keeps a mesh valid.
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
 cp "$sandbox/work/better.vtu" "$inputs"
+grep -qE "not kept of .*mesh.msh: [0-9]+ triangles with their tags" "$sandbox/stderr" || fault "what is lost is not named"
+grep -qa 'Name="region_names" NumberOfTuples="1"' "$inputs/better.vtu" || fault "the name of the region is lost"
+expect_success improve "$inputs/mesh_partitioned.msh" --out better.msh --preset fast
+grep -q "triangles with their tags, the subdomains of elements" "$sandbox/stderr" || fault "what is lost is not named"
+expect_success improve "$inputs/better.vtu" --out best.vtu --preset fast
+[[ ! -s $sandbox/stderr ]] || fault "something is lost"
 expect_success check "$inputs/better.vtu"
 expect_success plan "$inputs/cube.off" --size 0.08
 grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no prediction"
