@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
 #include <string>
@@ -51,9 +52,9 @@ struct decomposed_shell {
   }
 
   realized_skeleton realize_with(merge_account& account) const {
-    patch_cache cache;
+    skeleton_store made(std::make_shared<entity_store>());
     return realize(model, background.mesh, sides, states, pieces.part_of_element, account, background.size,
-                   {}, cache, given);
+                   {}, made, given);
   }
 
   any_geometry model;
