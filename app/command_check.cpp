@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
+#include "file_checksums.hpp"
 #include "mesh_files.hpp"
 #include "run_figures.hpp"
 
@@ -92,6 +93,16 @@ int with_mesh_of(const std::string& file, const F& f) {
 } // namespace
 
 int run_check(const check_options& options) {
+  if (!options.report.empty()) {
+    const report_files given = files_of_report(options.report);
+    if (const std::string faults = faults_of(given); !faults.empty()) {
+      complain(options.report + ": not as it was written: " + faults);
+      return exit_failure;
+    }
+    std::printf("%s: %zu files are as they were written\n", options.report.c_str(), given.files.size());
+    if (options.mesh.empty())
+      return exit_ok;
+  }
   if (const auto result = check_streamed(options.mesh))
     return *result;
   return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {

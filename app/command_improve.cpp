@@ -103,14 +103,20 @@ int run_improve(const improve_options& options) {
   const auto improve_tetrahedra = make_improver<3>(options.preset);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
-  if (!is_of_triangles(loaded)) {
+  const bool of_triangles = is_of_triangles(loaded);
+  const std::string lost = left_out(loaded, of_triangles ? 2 : 3);
+  const io::tag_names names = loaded.region_names;
+  if (of_triangles) {
+    simplicial_mesh<2> surface = take_triangles(std::move(loaded));
+    improve_and_report(make_improver<2>(options.preset), surface, options,
+                       [&] { write_mesh_file(surface, names, options.out); });
+  } else {
     improve_and_report(improve_tetrahedra, loaded.mesh, options,
-                       [&] { write_mesh_file(loaded, options.out); });
-    return exit_ok;
+                       [&] { write_mesh_file(loaded.mesh, names, options.out); });
   }
-  simplicial_mesh<2> surface = take_triangles(std::move(loaded));
-  improve_and_report(make_improver<2>(options.preset), surface, options,
-                     [&] { write_mesh_file(surface, options.out); });
+  if (!lost.empty())
+    std::fprintf(stderr, "warning: %s: not kept of %s: %s\n", options.out.c_str(), options.input.c_str(),
+                 lost.c_str());
   return exit_ok;
 }
 

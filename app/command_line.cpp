@@ -119,7 +119,10 @@ struct parser {
   }
   void add_check() {
     auto& command = *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, MSH) is a valid mesh");
-    command.add_option("MESH", check.mesh, "Mesh file")->required();
+    command.add_option("MESH", check.mesh, "Mesh file");
+    command.add_option("--report", check.report,
+                       "Report of a run: check that its files are as it wrote them");
+    command.require_option(1, 2);
     command.callback([this] { chosen = [this] { return run_check(check); }; });
   }
   void add_stats() {

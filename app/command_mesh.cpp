@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
+#include "finished_run.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
 #include "run_figures.hpp"
@@ -68,6 +69,12 @@ void collect_warnings(const report& from, std::vector<std::string>& to) {
     collect_warnings(part, to);
 }
 
+void append_files(const report& from, std::vector<std::string>& to) {
+  to.insert(to.end(), from.files.begin(), from.files.end());
+  for (const auto& part : from.children)
+    append_files(part, to);
+}
+
 template <int D>
 void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   const report& summary = result.summary;
@@ -78,7 +85,8 @@ void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   figures.coarse_interfaces = figures_of(result.coarse_angles);
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = stage_report(summary, "intersection");
-  figures.merges = static_cast<std::int64_t>(intersection.get("merges"));
+  figures.merges = static_cast<std::int64_t>(intersection.get("merges") +
+                                             stage_report(summary, "meshing").get("merged_after_failure"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
   const double geometry = figures.seconds.geometry;
   figures.seconds = seconds_of_stages(summary);
@@ -103,8 +111,7 @@ void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& f
 std::string text_of(const std::vector<piece_failure>& failures) {
   std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
   for (const auto& failure : failures) {
-    text += " subdomain " + std::to_string(failure.subdomain) + ": " +
-            (failure.reasons.empty() ? "no reason known" : failure.reasons.back());
+    text += " subdomain " + std::to_string(failure.subdomain) + ": " + joined_reasons(failure.reasons);
     if (!failure.facets.empty())
       text += " (facets in " + failure.facets.string() + ")";
     text += ";";
@@ -131,9 +138,22 @@ public:
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const output_folder folder(options_.out);
-    if (!options_.resume)
+    const auto spooled = folder.path() / "spool";
+    const run_identity identity = identity_of_run(options_, source);
+    const finished_run finished(folder.path(), identity, options_);
+    if (options_.resume && finished.is_there()) {
+      if (spool::is_started(spooled)) // killed when all was done but this
+        run_spool(spooled, identity, true).finish();
+      lines_.reset();
+      if (!options_.quiet)
+        std::printf("The mesh is in %s: this run is finished, nothing is left to do\n", options_.out.c_str());
+      return exit_ok;
+    }
+    const bool resumes = options_.resume && spool::is_started(spooled);
+    if (!resumes)
       io::unfinished_folder::remove(folder.path());
-    run_spool store(folder.path() / "spool", identity_of_run(options_, source), options_.resume);
+    run_spool store(spooled, identity, resumes);
+    finished.forget();
     parameters_.store = store.get();
     parameters_.failure_folder = folder.path() / "failed";
 
@@ -144,8 +164,10 @@ public:
       throw mesher_error(text_of(result.failures));
     }
     write(result.mesh, folder.path());
-    store.finish();
     finish();
+    if (!formats_.empty())
+      finished.record(figures_.files);
+    store.finish();
     return exit_ok;
   }
 
@@ -212,6 +234,10 @@ private:
       show(("writing " + format->name).c_str());
       figures_.details.children.push_back(format->write(mesh, folder, format == in_one_file.back()));
     }
+    std::vector<std::string> names;
+    for (const report& part : figures_.details.children)
+      append_files(part, names);
+    figures_.files = read_back(folder, names, policies_.executor);
     figures_.seconds.output = output.seconds();
     if (!formats_.empty())
       figures_.out = options_.out;

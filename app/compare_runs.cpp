@@ -142,7 +142,7 @@ comparison_row run_combination(const model_source& source, const combination& po
       const auto& first = result.failures.front();
       throw mesher_error(std::to_string(result.failures.size()) +
                          " subdomains could not be meshed; subdomain " + std::to_string(first.subdomain) +
-                         ": " + (first.reasons.empty() ? "no reason known" : first.reasons.back()));
+                         ": " + joined_reasons(first.reasons));
     }
     add_figures(result, row);
     observe(row, result);

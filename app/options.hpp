@@ -45,7 +45,8 @@ struct plan_options {
 };
 
 struct check_options {
-  std::string mesh;
+  std::string mesh;   ///< empty: none
+  std::string report; ///< of a run, whose files are to be checked; empty: none
 };
 
 struct stats_options {

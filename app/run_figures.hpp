@@ -2,6 +2,8 @@
 /// What a run is described by, and its two forms: the summary on the terminal and the JSON report.
 #pragma once
 
+#include "file_checksums.hpp"
+
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/quality.hpp"
 
@@ -58,7 +60,8 @@ struct run_figures {
   std::uint64_t mesh_hash = 0;
   std::vector<std::string> warnings;
   std::string out; ///< folder with the mesh
-  report details;  ///< the library's own report, all of it
+  std::vector<written_file> files = {};
+  report details; ///< the library's own report, all of it
 };
 
 /// What `plan` predicts.

@@ -1,33 +1,16 @@
 #include "run_identity.hpp"
 
+#include "file_checksums.hpp"
 #include "policies.hpp"
 
 #include "dovetail/core/hash.hpp"
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <vector>
 
 namespace dovetail::app {
 namespace {
-
-std::string hexadecimal(std::uint64_t value) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-  return text.data();
-}
-
-std::string content_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  content_hash hash;
-  std::vector<char> block(1 << 20);
-  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    hash.bytes(std::as_bytes(std::span(block.data(), static_cast<std::size_t>(file.gcount()))));
-  return hexadecimal(hash.value());
-}
 
 /// The field itself, at points of a lattice of irrational steps: whatever file or option it comes from.
 std::string values_of_field(const any_sizing& size, const box3& box) {
@@ -50,13 +33,13 @@ std::string values_of_field(const any_sizing& size, const box3& box) {
 
 run_identity identity_of_run(const mesh_options& options, const model_source& source) {
   run_identity identity{{"model", source.name}};
-  identity.emplace_back("build", content_of_file("/proc/self/exe"));
+  identity.emplace_back("build", checksum_of_file("/proc/self/exe"));
   if (!options.model.input.empty()) {
-    identity.emplace_back("file", content_of_file(options.model.input));
+    identity.emplace_back("file", checksum_of_file(options.model.input));
     identity.emplace_back("unit", options.model.unit);
   }
   if (std::filesystem::is_regular_file(options.model.sizing)) // not a pipe, which is read already
-    identity.emplace_back("sizing", content_of_file(options.model.sizing));
+    identity.emplace_back("sizing", checksum_of_file(options.model.sizing));
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");

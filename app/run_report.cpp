@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 
 #include <sys/resource.h>
 
@@ -65,10 +64,19 @@ json details_json(const report& details) {
           {"children", children}};
 }
 
-std::string hash_text(std::uint64_t hash) {
-  char buffer[17];
-  std::snprintf(buffer, sizeof buffer, "%016llx", static_cast<unsigned long long>(hash));
-  return buffer;
+/// The files by their names in the folder, which is told from the report's own, so that both may be moved.
+json files_json(const std::vector<written_file>& files) {
+  json listed = json::array();
+  for (const auto& file : files)
+    listed.push_back({{"name", file.name}, {"bytes", file.bytes}, {"checksum", file.checksum}});
+  return listed;
+}
+
+std::string folder_from(const std::filesystem::path& report, const std::string& folder) {
+  if (folder.empty())
+    return {};
+  const auto from = std::filesystem::absolute(report).lexically_normal().parent_path();
+  return std::filesystem::absolute(folder).lexically_normal().lexically_relative(from).string();
 }
 
 void write_json(const json& document, const std::filesystem::path& path) {
@@ -106,7 +114,9 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"largest_merged", figures.largest_merged},
               {"failed_subdomains", figures.failed_subdomains},
               {"peak_rss_bytes", figures.peak_rss_bytes},
-              {"mesh_hash", hash_text(figures.mesh_hash)},
+              {"mesh_hash", hexadecimal(figures.mesh_hash)},
+              {"folder", folder_from(file, figures.out)},
+              {"files", files_json(figures.files)},
               {"warnings", figures.warnings},
               {"details", details_json(figures.details)}},
              file);

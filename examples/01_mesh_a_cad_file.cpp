@@ -22,7 +22,8 @@ void mesh_file(const char* file, const char* folder, double edge_length) {
                             .with_executor(parallel::processes{});
   const auto result = generate<3>(model, size, policies);
   for (const auto& failure : result.failures)
-    throw mesher_error("subdomain " + std::to_string(failure.subdomain) + ": " + failure.reasons.back());
+    throw mesher_error("subdomain " + std::to_string(failure.subdomain) + ": " +
+                       joined_reasons(failure.reasons));
   io::vtu_writer{}(result.mesh, folder);
   // end
   std::printf("%lld tetrahedra in %zu subdomains, smallest dihedral angle %.1f degrees\n",

@@ -95,15 +95,15 @@ tetrahedron() { # its four facets, with a shift along x
   facet "$c" "$a" "$d"
 }
 { echo "solid open"; tetrahedron 0 | head -n 21; echo "endsolid"; } >"$inputs/open.stl"
-expect_error "open.stl|open" mesh "$inputs/open.stl"
+expect_error "open.stl: the surface is open: 3 edges" mesh "$inputs/open.stl"
 { echo "solid cut"; tetrahedron 0 | head -n 17; } >"$inputs/truncated.stl"
-expect_error "truncated.stl" mesh "$inputs/truncated.stl"
+expect_error "truncated.stl:18: .*truncated" mesh "$inputs/truncated.stl"
 { echo "solid words"; tetrahedron 0 | sed 's/1/one/'; echo "endsolid"; } >"$inputs/words.stl"
-expect_error "words.stl" mesh "$inputs/words.stl"
+expect_error 'words.stl:5: .*instead of "one"' mesh "$inputs/words.stl"
 { echo "solid nan"; tetrahedron 0 | sed 's/1/nan/'; echo "endsolid"; } >"$inputs/nan.stl"
-expect_error "nan.stl" mesh "$inputs/nan.stl"
+expect_error 'nan.stl:5: .*instead of "nan"' mesh "$inputs/nan.stl"
 printf '%080d\377\377\377\177' 0 >"$inputs/promise.stl" # a binary file that promises 2^31 triangles and has none
-expect_error "promise.stl" mesh "$inputs/promise.stl"
+expect_error "promise.stl: .*announces 2147483647 triangles" mesh "$inputs/promise.stl"
 
 # Plane domains.
 svg() { printf '<svg><path d="%s"/></svg>\n' "$2" >"$inputs/$1.svg"; }
@@ -120,23 +120,35 @@ printf '<svg><path d="M0 0 L9 0 L9' >"$inputs/cut.svg"
 printf 'polygon a\n0 0\n9 0\n9 9\n0 9\nline c\n-5 4\n5 4\n' >"$inputs/line_leaves.txt"
 printf 'polygon a\n0 0\nnan 0\n9 9\n' >"$inputs/nan.txt"
 printf '0 0\n9 0\n9 9\n' >"$inputs/no_heading.txt"
-for name in bow.svg words.svg open.svg two_points.svg nothing.svg far.svg cut.svg line_leaves.txt nan.txt no_heading.txt; do
-  expect_error "$name" mesh "$inputs/$name" --dimension 2
-done
+while IFS='|' read -r name reason; do
+  expect_error "$name.*$reason" mesh "$inputs/$name" --dimension 2
+done <<'REASONS'
+bow.svg|crosses itself: segments 2 and 0
+words.svg|a number is expected at character 7
+open.svg|path is open
+two_points.svg|has 2 points
+nothing.svg|no closed path
+far.svg|too large
+cut.svg|ends in an attribute
+line_leaves.txt|'a' and line 0 'c' meet
+nan.txt|point 1 is not a number
+no_heading.txt|points come after a line
+REASONS
 cp "$inputs/square.svg" "$inputs/UPPER.SVG"
 expect_success mesh "$inputs/UPPER.SVG" --dimension 2 --format none
 
 # Sizing files.
-json() { printf '%s' "$2" >"$inputs/$1.json"; }
-json broken '{ "type": "uniform", '
-json unknown_key '{ "type": "uniform", "size": 1, "colour": "red" }'
-json unknown_type '{ "type": "nonsense" }'
-json negative '{ "type": "uniform", "size": -1 }'
-json wrong_type '{ "type": "uniform", "size": "one" }'
-json list '[ 1, 2, 3 ]'
-for name in missing broken unknown_key unknown_type negative wrong_type list; do
-  expect_error "$name.json" mesh --model combustor --sizing "$inputs/$name.json"
-done
+expect_error "missing.json" mesh --model combustor --sizing "$inputs/missing.json"
+bad_sizing() { # name, reason, text
+  printf '%s' "$3" >"$inputs/$1.json"
+  expect_error "$1.json:1: .*$2" mesh --model combustor --sizing "$inputs/$1.json"
+}
+bad_sizing broken 'not valid JSON' '{ "size": 1, '
+bad_sizing unknown_key 'unknown key "colour"' '{ "size": 1, "colour": "red" }'
+bad_sizing unknown_type 'unknown source type "nonsense"' '{ "size": 1, "sources": [{ "type": "nonsense" }] }'
+bad_sizing negative '"size" is -1' '{ "size": -1 }'
+bad_sizing wrong_type '"size" must be a finite number' '{ "size": "one" }'
+bad_sizing list 'must be an object' '[ 1, 2, 3 ]'
 cp "$inputs/noise" "$inputs/noise.json"
 expect_error "noise.json" mesh --model combustor --sizing "$inputs/noise.json"
 
@@ -148,7 +160,7 @@ cat >"$inputs/truncated.vtu" <<'VTU'
 <Piece NumberOfPoints="4" NumberOfCells="1">
 <Points>
 VTU
-expect_error "truncated.vtu" check "$inputs/truncated.vtu"
+expect_error "truncated.vtu: .*ends early" check "$inputs/truncated.vtu"
 printf '$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n' >"$inputs/truncated.msh"
-expect_error "truncated.msh" check "$inputs/truncated.msh"
+expect_error "truncated.msh: .*ends where a number is expected" check "$inputs/truncated.msh"
 finish

@@ -27,7 +27,7 @@ elements=$(figure elements)
 [[ $(figure failed_subdomains) == 0 ]] || fault "failed subdomains"
 [[ $hash =~ ^[0-9a-f]{16}$ && ! $hash =~ ^0*$ ]] || fault "the hash is '$hash'"
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
-diff "$sandbox/listing" - <<<$'interfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||
+diff "$sandbox/listing" - <<<$'finished_run.txt\ninterfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||
   fault "other files than expected"
 cp -r "$sandbox/work/out" "$inputs/mesh"
 
@@ -102,6 +102,12 @@ expect_error "--surface-mesher.*--dimension 2.*--mesher" \
 # Improving keeps a mesh valid.
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
 cp "$sandbox/work/better.vtu" "$inputs"
+grep -qE "not kept of .*mesh.msh: [0-9]+ triangles with their tags" "$sandbox/stderr" || fault "what is lost is not named"
+grep -qa 'Name="region_names" NumberOfTuples="1"' "$inputs/better.vtu" || fault "the name of the region is lost"
+expect_success improve "$inputs/mesh_partitioned.msh" --out better.msh --preset fast
+grep -q "triangles with their tags, the subdomains of elements" "$sandbox/stderr" || fault "what is lost is not named"
+expect_success improve "$inputs/better.vtu" --out best.vtu --preset fast
+[[ ! -s $sandbox/stderr ]] || fault "something is lost"
 expect_success check "$inputs/better.vtu"
 expect_success plan "$inputs/cube.off" --size 0.08
 grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no prediction"
@@ -150,7 +156,8 @@ kill_finishing() {
     cd "$sandbox/work" || exit 1
     "$driver" "${written[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null &
     local process=$!
-    while kill -0 $process 2>/dev/null && ! compgen -G "out/unfinished/0/mesh_*.vtu" >/dev/null; do sleep 0.01; done
+    # One worker: where the second file is complete, the first one's piece is given up.
+    while kill -0 $process 2>/dev/null && (($(compgen -G "out/unfinished/0/mesh_*.vtu" | wc -l) < 2)); do sleep 0.01; done
     kill -KILL $process 2>/dev/null
     wait $process 2>/dev/null
     cd "$OLDPWD" || exit 1
@@ -198,7 +205,53 @@ if [[ $surface_meshers == *cgal* ]]; then
   grep -q "cannot be resumed.*surface mesher" "$sandbox/stderr" || fault "the difference is not named"
 fi
 resume
-expect_error "no run to resume" mesh "$inputs/cube.off" --size 0.2 --resume
+
+# A batch script always says --resume: what is finished is left alone, what is not there is started.
+inode=$(stat -c %i "$sandbox/work/out/mesh.pvtu")
+what="resuming a finished run"
+resume_again() {
+  (cd "$sandbox/work" && timeout $limit "$driver" "${long[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr")
+  status=$?
+  ((status == 0)) || fault "exit code is $status"
+}
+resume_again
+grep -q "this run is finished" "$sandbox/stdout" || fault "nothing is said"
+[[ $(stat -c %i "$sandbox/work/out/mesh.pvtu") == "$inode" ]] || fault "the mesh was written again"
+rm "$sandbox/work/out/mesh_0003.vtu"
+what="resuming a finished run that has lost a file"
+resume
+expect_same_files "$inputs/resumed"
+what="resuming what was killed before it was begun"
+rm -rf "$sandbox/work/out" && mkdir -p "$sandbox/work/out/spool" && echo "dove" >"$sandbox/work/out/spool/manifest.txt.part"
+resume
+expect_same_files "$inputs/resumed"
+what="another run in the folder of a finished one"
+(cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --size 0.2 --subdomains 2 --resume) >"$sandbox/stdout" 2>"$sandbox/stderr"
+status=$?
+((status == 0)) || fault "exit code is $status"
+grep -q "this run is finished" "$sandbox/stdout" && fault "it was taken for the finished one"
+
+# The report tells whether files are as they were written.
+check_report() { # expression, status
+  what="dovetail check --report, $1"
+  (cd "$sandbox" && "$driver" check --report work/report.json >"$sandbox/stdout" 2>"$sandbox/stderr")
+  status=$?
+  ((status == $2)) || fault "exit code is $status"
+  cat "$sandbox/stdout" "$sandbox/stderr" | grep -qE "$1" || fault "it does not say '$1'"
+}
+mesh --size 0.2 --subdomains 2
+check_report "5 files are as they were written" 0
+[[ $(stat -c %s "$sandbox/work/out/mesh_0001.vtu") == "$(grep -A1 mesh_0001 "$sandbox/work/report.json" | tr -dc '0-9\n' | tail -n 1)" ]] ||
+  fault "another size in the report"
+printf x | dd of="$sandbox/work/out/mesh_0001.vtu" bs=1 seek=3000 conv=notrunc 2>/dev/null
+check_report "mesh_0001.vtu has another content" 1
+echo >>"$sandbox/work/out/mesh_0001.vtu"
+check_report "mesh_0001.vtu has another size" 1
+rm "$sandbox/work/out/mesh_0000.vtu"
+check_report "mesh_0000.vtu is missing, .*mesh_0001.vtu has another size" 1
+expect_error "not a report" check --report "$inputs/cube.off"
+expect_error "cannot read" check --report nowhere.json
+expect_error "required" check
 
 # Triangles by every mesher that is offered.
 surface_meshers=$("$driver" mesh --help | sed -n 's/.*of --dimension 2: //p' | tr -d ,)

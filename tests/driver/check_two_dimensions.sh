@@ -104,7 +104,7 @@ drawn=$elements
 about "$boundary" 160
 [[ $(figure subdomains) == 4 ]] || fault "$(figure subdomains) subdomains"
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
-diff "$sandbox/listing" - <<<$'lines.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu' ||
+diff "$sandbox/listing" - <<<$'finished_run.txt\nlines.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu' ||
   fault "other files than expected"
 drawing_hash=$hash
 mesh domain.svg --size 0.3 --subdomains 4 --executor serial --format none

@@ -204,7 +204,8 @@ TEST_CASE("a combination that fails is a row that names the kind of error, and t
   CHECK(run({"failing", "only", "good", "paper"}, backgrounds, &observed).error ==
         "partition_error: part 2 is empty");
   const auto incomplete = run({"incomplete", "only", "good", "paper"}, backgrounds, &observed);
-  CHECK(incomplete.error == "mesher_error: 1 subdomains could not be meshed; subdomain 1: still too thin");
+  CHECK(incomplete.error == "mesher_error: 1 subdomains could not be meshed; subdomain 1: "
+                            "attempt 1: too thin; attempt 2: still too thin");
   CHECK(observed == 0);
   CHECK_FALSE(run({"first", "only", "good", "paper"}, backgrounds, &observed).failed());
 }

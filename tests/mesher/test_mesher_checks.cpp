@@ -33,15 +33,14 @@ TEST_CASE("A right result passes the checks") {
 TEST_CASE("A lost element is found") {
   auto mesh = two_tetrahedra();
   mesh.elements.pop_back();
-  CHECK_THROWS_WITH_AS(check_mesher_result(hull_of_both(), mesh), "the mesher lost 3 of 6 boundary triangles",
+  CHECK_THROWS_WITH_AS(check_mesher_result(hull_of_both(), mesh), "3 of 6 boundary triangles are lost",
                        mesher_error);
 }
 
 TEST_CASE("A moved point is found, whatever the distance") {
   auto mesh = two_tetrahedra();
   mesh.points[1].x = std::nextafter(1.0, 2.0);
-  CHECK_THROWS_WITH_AS(check_mesher_result(hull_of_both(), mesh), "the mesher moved boundary point 1",
-                       mesher_error);
+  CHECK_THROWS_WITH_AS(check_mesher_result(hull_of_both(), mesh), "boundary point 1 was moved", mesher_error);
 }
 
 TEST_CASE("A lost point is found") {
@@ -79,6 +78,22 @@ TEST_CASE("Missing volume is found even when the boundary is whole") {
   mesh.points.push_back({2.9, 1.5, 1.5});
   mesh.elements.front()[3] = center + 1; // positive still, but another shape
   CHECK_THROWS_AS(check_mesher_result({outer, 0}, mesh), mesher_error);
+}
+
+TEST_CASE("A lost inner element is found, however small it is beside the whole") {
+  const auto input = hull_of_both();
+  auto mesh = two_tetrahedra();
+  const vec3 p{0.2, 0.2, 0.2};
+  mesh.points.push_back(p); // 5, in the first element
+  mesh.points.push_back(p + 1e-12 * (mesh.points[0] + mesh.points[2] + mesh.points[3] - 3.0 * p)); // 6
+  mesh.elements = {{5, 1, 2, 3}, {0, 1, 5, 3}, {0, 1, 2, 5}, {0, 2, 1, 4},
+                   {0, 6, 2, 3}, {0, 5, 6, 3}, {0, 5, 2, 6}, {6, 5, 2, 3}};
+  CHECK_NOTHROW(check_mesher_result(input, mesh));
+  mesh.elements.pop_back();
+  CHECK_THROWS_WITH_AS(check_mesher_result(input, mesh),
+                       "the elements do not fit together inside the boundary: some are lost, doubled or "
+                       "turned over",
+                       mesher_error);
 }
 
 TEST_CASE("The volume check does not lose digits far from the origin") {

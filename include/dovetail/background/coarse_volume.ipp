@@ -139,7 +139,7 @@ inline void append_piece(simplicial_mesh<3>& mesh, const mesh_piece& piece) {
   const piece_failure& first = failures.front();
   std::string text =
       name_of("solid", first.subdomain, topology.solids[static_cast<std::size_t>(first.subdomain)].name) +
-      " could not be filled with a coarse mesh: " + first.reasons.front();
+      " could not be filled with a coarse mesh: " + joined_reasons(first.reasons);
   if (first.crossing_facets > 0)
     text += "; " + std::to_string(first.crossing_facets) + " of its surface triangles cross others";
   if (!first.facets.empty())

@@ -25,15 +25,29 @@
 
 namespace dovetail {
 
+/// Waits until a folder's names are on the disk. What cannot be synchronised is left as it is.
+inline void sync_to_disk(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0)
+    return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
 /// A buffered, sequential output file. It is written as `<path>.part` and gets its final name in `commit`;
-/// without a commit the destructor removes it. Every failure throws `io_error` naming the path. (A process
-/// that wants an `io_error` at a file size limit must ignore SIGXFSZ, as for any program.)
-/// What is no plain file (`/dev/null`, `/dev/stdout`, a pipe) is written to as it is, since a rename would
-/// put a file in its place; a symbolic link stays, and the file it names is replaced.
+/// without a commit the destructor removes it. A name is given to what is on the disk only, so that a power
+/// failure leaves no half file either, unless `in_cache` says that the file can be made again. Every failure
+/// throws `io_error` naming the path. (A process that wants an `io_error` at a file size limit must ignore
+/// SIGXFSZ, as for any program.) What is no plain file (`/dev/null`, `/dev/stdout`, a pipe) is written to as
+/// it is, since a rename would put a file in its place; a symbolic link stays, and the file it names is
+/// replaced.
 class output_file {
 public:
-  explicit output_file(std::filesystem::path path)
+  enum class lasting { on_disk, in_cache };
+
+  explicit output_file(std::filesystem::path path, lasting how = lasting::on_disk)
       : path_(std::move(path)), target_(behind_links(path_)), in_place_(is_special(path_)),
+        on_disk_(how == lasting::on_disk && !in_place_),
         part_(in_place_ ? path_.string() : target_ + ".part") {
     descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
@@ -94,6 +108,8 @@ public:
     if (descriptor_ < 0)
       return;
     flush();
+    if (on_disk_ && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS)
+      fail("cannot write");
     if (::close(std::exchange(descriptor_, -1)) != 0)
       fail("cannot write");
     buffer_.reset();
@@ -104,6 +120,8 @@ public:
     if (!in_place_ && ::rename(part_.c_str(), target_.c_str()) != 0)
       fail("cannot rename the finished file to");
     committed_ = true;
+    if (on_disk_)
+      sync_to_disk(std::filesystem::path(target_).parent_path());
   }
 
 private:
@@ -143,6 +161,7 @@ private:
   std::filesystem::path path_;
   std::string target_; ///< what a link names; the path itself otherwise
   bool in_place_;      ///< no plain file: neither renamed nor removed
+  bool on_disk_;       ///< is synchronised before it is renamed
   std::string part_;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;

@@ -16,6 +16,7 @@ struct report {
   std::vector<std::pair<std::string, double>> counters; ///< in the order they were set
   std::vector<std::string> warnings;                    ///< one sentence each, naming the entity
   std::vector<report> children;
+  std::vector<std::string> files = {}; ///< written by it, by their names in its folder
 
   /// Sets a counter, replacing an earlier value.
   void set(const std::string& key, double value) {

@@ -25,6 +25,9 @@ inline void encode(byte_writer& to, const report& r) {
   to.value<std::uint64_t>(r.children.size());
   for (const report& child : r.children)
     encode(to, child);
+  to.value<std::uint64_t>(r.files.size());
+  for (const std::string& file : r.files)
+    to.text(file);
 }
 
 inline report decode_report(byte_reader& from) {
@@ -40,6 +43,8 @@ inline report decode_report(byte_reader& from) {
     r.warnings.push_back(from.text());
   for (auto left = from.value<std::uint64_t>(); left > 0; --left)
     r.children.push_back(decode_report(from));
+  for (auto left = from.value<std::uint64_t>(); left > 0; --left)
+    r.files.push_back(from.text());
   return r;
 }
 

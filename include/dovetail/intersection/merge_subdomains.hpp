@@ -5,9 +5,12 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -41,6 +44,43 @@ inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::v
     s = number[static_cast<std::size_t>(s)];
   sizes = std::move(merged_sizes);
 }
+
+/// What a run has merged so far, in all its rounds and attempts, and how much it may.
+class merge_account {
+public:
+  /// `largest_fraction` of the subdomains may be merged into others; two of eight and one of fewer always
+  /// may.
+  merge_account(local_id subdomains, double largest_fraction)
+      : sizes_(static_cast<std::size_t>(subdomains), 1), started_with_(subdomains),
+        allowed_(std::max(largest_fraction * subdomains, std::clamp(subdomains / 4, 1, 2) * 1.0)) {}
+
+  local_id subdomains() const { return static_cast<local_id>(sizes_.size()); }
+  /// Subdomains that are no more, since their interfaces crossed something or no attempt could mesh them.
+  local_id merged() const { return started_with_ - subdomains(); }
+  /// How many original subdomains the largest one is made of.
+  local_id largest() const { return *std::max_element(sizes_.begin(), sizes_.end()); }
+
+  /// `merge_subdomains`, unless that would be more than is allowed: then nothing is done and the answer is
+  /// what to say.
+  std::string merge(std::vector<local_id>& subdomain_of_element,
+                    const std::vector<std::array<local_id, 2>>& merges) {
+    auto of_element = subdomain_of_element;
+    auto sizes = sizes_;
+    merge_subdomains(of_element, sizes, merges);
+    if (const auto merged = started_with_ - static_cast<local_id>(sizes.size()); merged > allowed_)
+      return std::to_string(merged) + " of " + std::to_string(started_with_) +
+             " subdomains would have to be merged, " + std::to_string(static_cast<local_id>(allowed_)) +
+             " may be";
+    subdomain_of_element = std::move(of_element);
+    sizes_ = std::move(sizes);
+    return {};
+  }
+
+private:
+  std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of
+  local_id started_with_;
+  double allowed_;
+};
 
 namespace detail {
 

@@ -37,7 +37,7 @@ struct msh_surface_writer {
     write_nodes(out, mesh, numbers, blocks.front().face);
     write_elements(out, mesh, numbers, blocks);
     files.commit();
-    report summary{"msh", clock.seconds(), {}, {}, {}};
+    report summary{"msh", clock.seconds(), {}, {}, {}, {stem + ".msh"}};
     summary.set("elements", static_cast<double>(numbers.elements()));
     summary.set("bytes", static_cast<double>(files.size()));
     return summary;

@@ -323,7 +323,7 @@ DOVETAIL_INLINE report msh_writer::operator()(const distributed_mesh& mesh,
     detail::write_ghosts(out, ghost_layer);
   file.commit();
 
-  report summary{"msh", clock.seconds(), {}, {}, {}};
+  report summary{"msh", clock.seconds(), {}, {}, {}, {stem + ".msh"}};
   summary.set("elements", static_cast<double>(document.numbers.elements()));
   summary.set("bytes", static_cast<double>(file.size()));
   summary.set("files", 1);

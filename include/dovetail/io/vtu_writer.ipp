@@ -303,17 +303,18 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     std::filesystem::remove(folder / (stem + ".pvtu"), ignored);
     if (mesh.counts.size() == 1)
       std::filesystem::remove(folder / "interfaces.vtp", ignored);
+    report summary{"vtu", 0, {}, {}, {}, sources};
+    append(summary.files, skeleton_files);
+    summary.files.push_back(stem + ".pvtu");
     std::uint64_t bytes = 0;
-    for (const auto* names : {&sources, &skeleton_files})
-      for (const auto& name : *names)
-        bytes += move_file(unfinished / name, folder / name);
-    bytes += move_file(unfinished / (stem + ".pvtu"), folder / (stem + ".pvtu"));
+    for (const auto& name : summary.files)
+      bytes += move_file(unfinished / name, folder / name);
     detail::remove_stale_pieces(folder, stem, sources);
+    sync_to_disk(folder);
 
-    report summary{"vtu", 0, {}, {}, {}};
     summary.set("elements", static_cast<double>(shared->numbers.elements()));
     summary.set("bytes", static_cast<double>(bytes));
-    summary.set("files", static_cast<double>(sources.size() + skeleton_files.size() + 1));
+    summary.set("files", static_cast<double>(summary.files.size()));
     return summary;
   };
   return output;

@@ -19,8 +19,9 @@ void require_meshable(const simplicial_mesh<2>& boundary);
 /// Throws `mesher_error` naming the first element that is flat or inverted.
 void check_elements_positive(const simplicial_mesh<3>& mesh);
 
-/// Checks a mesher's result against its input; throws `mesher_error` that says what is wrong. Linear time,
-/// about 0.1 us per element.
+/// Checks a mesher's or improver's result against the mesher's input; throws `mesher_error` that says what is
+/// wrong. The pipeline does so with every result. Linear time, about 0.04 us per
+/// element.
 void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh);
 
 } // namespace dovetail

@@ -10,12 +10,12 @@
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/result_checks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <span>
 #include <string>
@@ -38,19 +38,14 @@ DOVETAIL_INLINE double enclosed_volume(std::span<const vec3> points, std::span<c
 
 namespace detail {
 
-inline void check_points_kept(std::span<const vec3> given, std::span<const vec3> got) {
-  if (got.size() < given.size())
-    throw mesher_error("the mesher lost " + std::to_string(given.size() - got.size()) +
-                       " of the boundary's points");
-  static_assert(sizeof(vec3) == 3 * sizeof(double));
-  for (std::size_t v = 0; v < given.size(); ++v)
-    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
-      throw mesher_error("the mesher moved boundary point " + std::to_string(v));
-}
-
-/// Every listed triangle is a side of exactly one element, on the side it is listed for, and of no other.
+/// Every listed triangle is a side of exactly one element, on the side it is listed for, and of no other;
+/// the elements fit together. With positive elements the second says the first, but for triangles listed in
+/// both directions, so that single ones are looked at where there is something to find.
 inline void check_boundary_kept(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
   const boundary_sides sides(span_of(boundary.elements));
+  const bool fit = fit_together<3>(boundary, mesh);
+  if (fit && sides.entries().size() == boundary.elements.size())
+    return;
   std::vector<std::array<int, 2>> uses(sides.entries().size(), {0, 0});
   for (const auto& element : mesh.elements)
     for (const auto& local : numbering::sides<3>)
@@ -62,24 +57,35 @@ inline void check_boundary_kept(const simplicial_mesh<2>& boundary, const simpli
       const bool listed = sides.entries()[k].listed[p] != no_id;
       if (uses[k][p] > (listed ? 1 : 0))
         throw mesher_error(
-            "the mesh overlaps itself or the outside at boundary triangle " +
+            "the elements overlap each other or the outside at boundary triangle " +
             std::to_string(std::max(sides.entries()[k].listed[0], sides.entries()[k].listed[1])));
       lost += listed && uses[k][p] == 0;
     }
   if (lost > 0)
-    throw mesher_error("the mesher lost " + std::to_string(lost) + " of " +
-                       std::to_string(boundary.elements.size()) + " boundary triangles");
+    throw mesher_error(std::to_string(lost) + " of " + std::to_string(boundary.elements.size()) +
+                       " boundary triangles are lost");
+  if (!fit)
+    throw_no_fit();
 }
 
-inline void check_volume(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
+inline void throw_not_positive(std::size_t element) {
+  throw mesher_error("element " + std::to_string(element) + " is flat or inverted");
+}
+
+/// All elements are positive and together as large as what the boundary encloses.
+inline void check_volumes(const simplicial_mesh<2>& boundary, const simplicial_mesh<3>& mesh) {
   const double expected = enclosed_volume(span_of(boundary.points), span_of(boundary.elements));
   box3 box;
   for (const vec3 p : boundary.points)
     box.include(p);
   double volume = 0;
   const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
-  for (const auto& [a, b, c, d] : mesh.elements)
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto& [a, b, c, d] = mesh.elements[e];
+    if (!(orient3d(at(a), at(b), at(c), at(d)) > 0))
+      throw_not_positive(e);
     volume += signed_volume(at(a), at(b), at(c), at(d));
+  }
   // Rounding of coordinates: relative to the sum for the elements, to the box for thin bodies.
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::pow(box.diagonal(), 3);
   if (!(std::abs(volume - expected) <= 1e-9 * std::abs(expected) + rounding))
@@ -94,7 +100,7 @@ DOVETAIL_INLINE void check_elements_positive(const simplicial_mesh<3>& mesh) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& [a, b, c, d] = mesh.elements[e];
     if (!(orient3d(at(a), at(b), at(c), at(d)) > 0))
-      throw mesher_error("element " + std::to_string(e) + " of the mesher's result is flat or inverted");
+      detail::throw_not_positive(e);
   }
 }
 
@@ -109,10 +115,10 @@ DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
 }
 
 DOVETAIL_INLINE void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {
-  detail::check_points_kept(span_of(input.boundary.points), span_of(mesh.points));
+  detail::check_entries(mesh);
+  detail::check_points_kept(input.boundary.points, mesh.points);
   detail::check_boundary_kept(input.boundary, mesh);
-  check_elements_positive(mesh);
-  detail::check_volume(input.boundary, mesh);
+  detail::check_volumes(input.boundary, mesh);
 }
 
 } // namespace dovetail

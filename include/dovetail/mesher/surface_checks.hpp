@@ -6,13 +6,13 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/result_checks.hpp"
 #include "dovetail/remesh/kept_lines.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -29,13 +29,19 @@ inline void check_lines_kept(const simplicial_mesh<1>& boundary, const simplicia
   line_passages(boundary.elements, std::move(passed)).check();
 }
 
-inline void check_line_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {
-  if (got.size() < given.size())
-    throw mesher_error("the mesher lost " + std::to_string(given.size() - got.size()) +
-                       " of the boundary's points");
-  for (std::size_t v = 0; v < given.size(); ++v)
-    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
-      throw mesher_error("the mesher moved boundary point " + std::to_string(v));
+/// `check_entries`, and every element lies on a face that was to be meshed.
+inline void check_entries(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
+  check_entries(mesh);
+  if (input.regions.empty())
+    return;
+  const region_of_face find(input.regions);
+  if (mesh.tags.size() != mesh.elements.size())
+    throw mesher_error(std::to_string(mesh.tags.size()) + " faces are given for " +
+                       std::to_string(mesh.elements.size()) + " elements");
+  for (std::size_t e = 0; e < mesh.tags.size(); ++e)
+    if (!find.has(mesh.tags[e]))
+      throw mesher_error("element " + std::to_string(e) + " is on face " + std::to_string(mesh.tags[e]) +
+                         ", which is not of this piece");
 }
 
 /// The area that the segments of a region enclose in its parameter plane.
@@ -63,7 +69,7 @@ inline void check_planes_filled(const mesher_input<2>& input, const simplicial_m
     if (region.reversed)
       std::swap(at[1], at[2]);
     if (!(orient2d(at[0], at[1], at[2]) > 0))
-      throw mesher_error("element " + std::to_string(e) + " of the mesher's result is flat or inverted");
+      throw mesher_error("element " + std::to_string(e) + " is flat or inverted");
     area += 0.5 * cross(at[1] - at[0], at[2] - at[0]);
   }
   box3 box;
@@ -80,8 +86,11 @@ inline void check_planes_filled(const mesher_input<2>& input, const simplicial_m
 /// Checks a mesher's or improver's result against its input; throws `mesher_error` that says what is wrong.
 /// Linear but for sorting the edges between boundary points.
 inline void check_mesher_result(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
-  detail::check_line_points_kept(input.boundary.points, mesh.points);
+  detail::check_entries(input, mesh);
+  detail::check_points_kept(input.boundary.points, mesh.points);
   detail::check_lines_kept(input.boundary, mesh);
+  if (!detail::fit_together<2>(input.boundary, mesh))
+    detail::throw_no_fit();
   const bool planes = std::all_of(input.regions.begin(), input.regions.end(),
                                   [](const surface_region& r) { return r.surface.plane.has_value(); });
   if (planes && !input.regions.empty())

@@ -28,7 +28,7 @@ using subdomain_source = piece_source<3>;
 /// A subdomain that no rung of the ladder could mesh.
 struct piece_failure {
   local_id subdomain = no_id;
-  std::vector<std::string> reasons; ///< one per rung
+  std::vector<std::string> reasons; ///< one per attempt, naming the policy unless its worker died
   bool timed_out = false;           ///< some rung reached the wall-clock limit: the mesh may differ next time
   std::size_t crossing_facets = 0;  ///< boundary triangles that cross others; known when a file was written
   std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
@@ -72,8 +72,8 @@ template <int D>
 void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& improve,
                       const any_executor& run_tasks);
 
-/// Meshes subdomains 0 .. count-1. In the worker, right after meshing: improvement, the checks of
-/// `check_mesher_result` on the final mesh, quality, and the write to the store, under a key of the piece's
+/// Meshes subdomains 0 .. count-1. In the worker, right after meshing: the checks of `check_mesher_result`,
+/// improvement, the same checks again, quality, and the write to the store, under a key of the piece's
 /// boundary: what the store has is not made again, whatever its number was then. A round ends before the next
 /// begins, and what it tries depends on its number only, so the result does not depend on the number of
 /// workers, nor on whether the run was interrupted and resumed.

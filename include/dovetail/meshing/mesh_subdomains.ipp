@@ -158,10 +158,10 @@ public:
 private:
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
   std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
-  byte_buffer attempt(local_id subdomain, const piece_input<D>& input, std::size_t rung) const {
-    if (rung < ladder_.size())
-      return make_piece<D>(subdomain, input, ladder_[rung], &improve_, size_, rung);
-    return make_piece<D>(subdomain, input, ladder_[0], nullptr, size_, rung);
+  byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
+    const bool climbs = rung < ladder_.size();
+    return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
+                         size_, piece.reasons);
   }
 
   void run_round(std::size_t rung) {
@@ -171,7 +171,7 @@ private:
     round.on_progress = options_.on_progress;
     round.stage = rung == 0 ? "meshing" : "meshing again";
     auto outcomes = run_tasks_.run(
-        pending_.size(), [&](std::size_t k) { return reply(pending_[k].subdomain, rung); }, round);
+        pending_.size(), [&](std::size_t k) { return reply(pending_[k], rung); }, round);
     std::vector<piece_failure> failed;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
       if (!accept(pending_[k], outcomes[k]))
@@ -194,9 +194,9 @@ private:
   }
 
   /// Runs in the worker.
-  byte_buffer reply(local_id subdomain, std::size_t rung) const {
+  byte_buffer reply(const piece_failure& piece, std::size_t rung) const {
     try {
-      piece_input<D> input = source_(subdomain);
+      piece_input<D> input = source_(piece.subdomain);
       entity_store& store = shelf_->store();
       piece_receipt receipt{.key = key_of(input, options_.field)};
       auto finished = store.find(receipt.key);
@@ -204,7 +204,7 @@ private:
         finished = shelf_->find_released(receipt.key);
       receipt.reused = finished.has_value();
       if (!finished)
-        finished = attempt(subdomain, input, rung);
+        finished = attempt(piece, input, rung);
       receipt.summary = summary_of(*finished);
       receipt.skeleton_points = std::move(input.skeleton_points);
       if (!receipt.reused && !store.is_shared())

@@ -6,6 +6,7 @@
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/remesh/chords.hpp"
 
 #include <algorithm>
@@ -136,6 +137,7 @@ report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& i
   for (int attempt = 1;; ++attempt) {
     simplicial_mesh<2> improved = mesh;
     report result = improve(improved, frozen);
+    check_entries(input, improved);
     const auto found = forbidden_chords(improved, input);
     std::vector<std::array<local_id, 3>> chords;
     std::set_difference(found.begin(), found.end(), as_meshed.begin(), as_meshed.end(),

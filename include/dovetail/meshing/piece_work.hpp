@@ -4,6 +4,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -14,6 +15,9 @@
 #include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +55,24 @@ content_key key_of(const piece_input<D>& input, content_key field) {
           b.forbidden_edges);
     }
   return make.key();
+}
+
+/// The reasons of failed attempts in one line, equal ones once: "attempts 1, 3: ...; attempt 2: ...".
+inline std::string joined_reasons(const std::vector<std::string>& reasons) {
+  std::string joined;
+  for (std::size_t k = 0; k < reasons.size(); ++k) {
+    if (std::find(reasons.begin(), reasons.begin() + static_cast<std::ptrdiff_t>(k), reasons[k]) !=
+        reasons.begin() + static_cast<std::ptrdiff_t>(k))
+      continue;
+    std::string attempts;
+    std::size_t count = 0;
+    for (std::size_t other = k; other < reasons.size(); ++other)
+      if (reasons[other] == reasons[k])
+        attempts += (count++ > 0 ? ", " : " ") + std::to_string(other + 1);
+    joined += (joined.empty() ? "" : "; ") + std::string(count > 1 ? "attempts" : "attempt") + attempts +
+              ": " + reasons[k];
+  }
+  return joined.empty() ? "no attempt" : joined;
 }
 
 namespace detail {
@@ -92,10 +114,40 @@ simplicial_piece<D> piece_of(const byte_buffer& finished) {
   return decode_piece<D>(reader);
 }
 
-/// Improves a mesh inside its frozen boundary and checks that the boundary is still there.
+/// Does a policy's work on a piece, so that what goes wrong in it names the policy. Errors that no other
+/// policy can mend stay what they are.
+template <class Work>
+auto by_policy(const char* role, const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const io_error&) {
+    throw;
+  } catch (const sizing_error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw mesher_error(role + (name.empty() ? name : " '" + name + "'") + ": " + e.what());
+  }
+}
+
+/// Meshes a piece and checks the result before anything else looks at it: an improver might hide what is
+/// wrong, or be blamed for it.
 template <int D>
-report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, const any_improver<D>& improve,
-                      const any_sizing& size) {
+mesher_result<D> mesh_checked(const mesher_input<D>& input, const any_mesher<D>& mesh_it,
+                              const any_sizing& size) {
+  auto made = mesh_it(input, size);
+  check_mesher_result(input, made.mesh);
+  if constexpr (D == 2)
+    if (!made.corner_uv.empty() && made.corner_uv.size() != made.mesh.elements.size())
+      throw mesher_error("parameters of " + std::to_string(made.corner_uv.size()) + " triangles for " +
+                         std::to_string(made.mesh.elements.size()));
+  made.summary.name = "mesher";
+  return made;
+}
+
+/// Improves a mesh inside its frozen boundary and checks the result again.
+template <int D>
+report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, const any_improver<D>& improve,
+                       const any_sizing& size) {
   const stopwatch clock;
   report summary = improve_piece(made, input, improve, size);
   summary.name = "improver";
@@ -104,24 +156,28 @@ report improve_inside(mesher_result<D>& made, const mesher_input<D>& input, cons
   return summary;
 }
 
-/// From the boundary of a subdomain to its finished bytes; without improvement when `improve` is null or
-/// holds nothing. Throws what the mesher, the improver and the checks throw.
+/// From the boundary of a subdomain to its finished bytes. `failed` are the reasons of the attempts before,
+/// kept in the summary. The piece stays as meshed when `improve` is null, for the last attempt, or holds
+/// nothing. Throws what the mesher, the improver and the checks throw, as `mesher_error` that names the
+/// policy.
 template <int D>
 byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
-                       const any_improver<D>* improve, const any_sizing& size, std::size_t rung) {
+                       const any_improver<D>* improve, const any_sizing& size,
+                       const std::vector<std::string>& failed) {
   const stopwatch clock;
-  auto made = mesh_it(input.boundary, size);
+  auto made =
+      by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
   piece_summary summary;
   summary.summary.name = piece_name(subdomain);
-  summary.summary.set("rung", static_cast<double>(rung));
-  made.summary.name = "mesher";
+  summary.summary.set("rung", static_cast<double>(failed.size()));
   summary.summary.children.push_back(std::move(made.summary));
   if (improve != nullptr && *improve)
-    summary.summary.children.push_back(improve_inside<D>(made, input.boundary, *improve, size));
-  else
-    check_mesher_result(input.boundary, made.mesh);
-  if (improve == nullptr)
-    summary.summary.warnings.push_back("left unimproved, since every attempt to improve it failed");
+    summary.summary.children.push_back(by_policy("improver", improve->name(), [&] {
+      return improve_checked<D>(made, input.boundary, *improve, size);
+    }));
+  if (!failed.empty())
+    summary.summary.warnings.push_back((improve != nullptr ? "meshed after " : "left unimproved after ") +
+                                       joined_reasons(failed));
   summary.counts.material = input.boundary.material;
   summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());
   summary.counts.inner_points =

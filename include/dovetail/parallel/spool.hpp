@@ -48,6 +48,12 @@ public:
     return {folder, manifest};
   }
 
+  /// Whether there is a spool in a folder, of whatever run.
+  static bool is_started(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(folder / manifest_name, ignored);
+  }
+
   /// Opens the spool of an earlier run of the same identity. Throws `usage_error` naming what differs, or
   /// that there is nothing to resume.
   static spool resume(const std::filesystem::path& folder, const run_identity& identity) {
@@ -70,7 +76,7 @@ public:
   /// Stores a blob, replacing an earlier one at once. Throws `io_error`, for example when the disk is full,
   /// and then leaves nothing under the name.
   void write(std::string_view name, const byte_buffer& blob) const {
-    output_file file(path_of(name));
+    output_file file(path_of(name), output_file::lasting::in_cache); // its checksum tells
     file.value(header{magic, blob.size(), checksum(name, blob)});
     file.bytes(blob.data(), blob.size());
     file.commit();

@@ -2,9 +2,11 @@
 /// Any graph partitioner behind one type, so that the pipeline is compiled once and not once per partitioner.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/partition/concepts.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <utility>
@@ -12,7 +14,9 @@
 
 namespace dovetail {
 
-/// Holds any graph partitioner by value; a partitioner converts to it. A call costs one indirect call.
+/// Holds any graph partitioner by value; a partitioner converts to it. A call costs one indirect call and a
+/// look at the result: a part in [0, parts) for every node, none empty where there are nodes enough. Throws
+/// `partition_error` that names the partitioner otherwise.
 class any_partitioner {
 public:
   template <class P>
@@ -22,9 +26,32 @@ public:
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
-  std::vector<local_id> operator()(const csr_graph& graph, int parts) const { return call_(graph, parts); }
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    std::vector<local_id> part = call_(graph, parts);
+    check(part, graph.node_weights.size(), parts);
+    return part;
+  }
 
 private:
+  void check(const std::vector<local_id>& part, std::size_t nodes, int parts) const {
+    const auto refuse = [&](const std::string& why) {
+      throw partition_error("the partitioner" + (name_.empty() ? name_ : " '" + name_ + "'") + " " + why);
+    };
+    if (part.size() != nodes)
+      refuse("put " + std::to_string(part.size()) + " nodes into parts, the graph has " +
+             std::to_string(nodes));
+    std::vector<bool> has_node(static_cast<std::size_t>(parts), false);
+    for (std::size_t v = 0; v < nodes; ++v) {
+      if (part[v] < 0 || part[v] >= parts)
+        refuse("put node " + std::to_string(v) + " into part " + std::to_string(part[v]) + " of " +
+               std::to_string(parts));
+      has_node[static_cast<std::size_t>(part[v])] = true;
+    }
+    for (std::size_t p = 0; p < has_node.size(); ++p)
+      if (!has_node[p] && nodes >= has_node.size())
+        refuse("left part " + std::to_string(p) + " of " + std::to_string(parts) + " without a node");
+  }
+
   std::string name_;
   std::function<std::vector<local_id>(const csr_graph&, int)> call_;
 };

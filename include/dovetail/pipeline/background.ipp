@@ -11,6 +11,7 @@
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/kept_background.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
@@ -23,12 +24,10 @@ namespace dovetail {
 
 namespace detail {
 
-/// A size is refused where it makes no sense: not positive, or larger than the model.
+/// A size is refused where it makes no sense: larger than the model.
 inline void require_usable_size(const any_geometry& model, const erased_sizing& size) {
   const box3 box = model.bounds();
   const double h = size(box.center());
-  if (!std::isfinite(h) || h <= 0)
-    throw sizing_error("the size at the model's center is " + std::to_string(h) + "; give a positive size");
   if (h > box.diagonal())
     throw sizing_error("the size " + std::to_string(h) + " is larger than the model, whose diagonal is " +
                        std::to_string(box.diagonal()) + "; give a smaller size");
@@ -138,8 +137,9 @@ any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>&
 }
 
 template <int D>
-mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_size,
                           const std::type_identity_t<any_parameters<D>>& given) {
+  const erased_sizing size(checked_sizing{given_size});
   require_policies(given.mesh_it, given.improve_it, given.run_tasks);
   detail::require_usable_size(model, size);
   const generate_options& options = given.options;
@@ -160,9 +160,10 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
 }
 
 template <int D>
-background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
+background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
                                      const any_parameters<D>& given) {
   const stopwatch clock;
+  const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
   if (auto kept = find_background<D>(options.store, size))
     return *std::move(kept);

@@ -11,45 +11,56 @@
 #include "dovetail/pipeline/piece_meshing.hpp"
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
 namespace detail {
 
 /// Realizes a decomposition and meshes its subdomains. What no rung of the mesher's ladder can mesh is merged
-/// with a neighbour, and what that changes is done again, until nothing fails or nothing can be merged. So it
-/// is, with a smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when that
-/// does not help.
+/// with a neighbour, and what that changes is done again, until nothing fails or nothing more may be merged.
+/// So it is, with a smaller size there, where finished pieces cross (D = 2); throws `intersection_error` when
+/// that does not help.
 template <int D>
 std::pair<realized<D>, meshed_pieces<D>>
 realize_and_mesh(const any_geometry& model, const simplicial_background<D>& mesh, const side_table<D>& sides,
                  std::span<const side_state> side_states, decomposition pieces,
                  std::span<const double> weights, const any_sizing& size, const any_parameters<D>& given) {
-  std::vector<local_id> sizes(static_cast<std::size_t>(pieces.parts), 1);
+  merge_account account(pieces.parts, given.options.largest_merged_fraction);
+  local_id merged_after_failure = 0;
+  std::vector<std::string> told;
   piece_crossing_rounds crossing_rounds(size, given.options.refinement_rounds);
   const auto store = std::make_shared<entity_store>(given.options.store);
   skeleton_store skeleton_parts(std::make_shared<entity_store>(given.options.store, "skeleton"));
   for (;;) {
-    auto skeleton =
-        realize(model, mesh, sides, side_states, pieces.part_of_element, static_cast<local_id>(sizes.size()),
-                crossing_rounds.size(), crossing_rounds.field(), skeleton_parts, given);
+    auto skeleton = realize(model, mesh, sides, side_states, pieces.part_of_element, account,
+                            crossing_rounds.size(), crossing_rounds.field(), skeleton_parts, given);
+    pieces.part_of_element = skeleton.subdomain_of_element;
     auto meshed = mesh_all_pieces(model, mesh, skeleton, weights, store, given);
     std::vector<local_id> failed;
     for (const piece_failure& failure : meshed.failures)
       failed.push_back(failure.subdomain);
-    const auto merges = merges_of_failed(skeleton.fine, failed);
-    meshed.summary.set("merged_after_failure",
-                       static_cast<double>(pieces.parts) - static_cast<double>(sizes.size()));
-    if (merges.empty()) {
-      if (!crossing_rounds.accept(model, skeleton, meshed, given))
+    if (const auto merges = merges_of_failed(skeleton.fine, failed); !merges.empty()) {
+      const local_id before = account.merged();
+      const std::string refused = account.merge(pieces.part_of_element, merges);
+      merged_after_failure += account.merged() - before;
+      for (const piece_failure& failure : meshed.failures)
+        told.push_back("no attempt could mesh a subdomain, " +
+                       (refused.empty() ? "merged with a neighbour" : "and " + refused) + ": " +
+                       joined_reasons(failure.reasons));
+      if (refused.empty())
         continue;
-      crossing_rounds.add_to(skeleton.intersection_summary);
-      return {std::move(skeleton), std::move(meshed)};
+    } else if (!crossing_rounds.accept(model, skeleton, meshed, given)) {
+      continue;
     }
-    pieces.part_of_element = skeleton.subdomain_of_element;
-    sizes.assign(skeleton.material_of_subdomain.size(), 1);
-    merge_subdomains(pieces.part_of_element, sizes, merges);
+    crossing_rounds.add_to(skeleton.intersection_summary);
+    skeleton.intersection_summary.set("merges", account.merged() - merged_after_failure);
+    skeleton.intersection_summary.set("largest_merged", account.largest());
+    meshed.summary.set("merged_after_failure", merged_after_failure);
+    append(meshed.summary.warnings, told);
+    return {std::move(skeleton), std::move(meshed)};
   }
 }
 

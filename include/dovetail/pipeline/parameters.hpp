@@ -41,10 +41,10 @@ struct generate_options {
   double interface_angle_deg = 30;
   double surface_angle_deg = 50;
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
-  double largest_merged_fraction =
-      0.05;                   ///< more subdomains merged than this is a failure (at least 2 are allowed)
-  int refinement_rounds = 6;  ///< rounds of local refinement where two CAD regions cross
-  double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
+  /// More subdomains merged than this, in the whole run, is a failure; 2 of 8, or 1 of fewer, always may be.
+  double largest_merged_fraction = 0.05;
+  int refinement_rounds = 6;                 ///< rounds of local refinement where two CAD regions cross
+  double limit_seconds = 600;                ///< wall clock per subdomain and attempt; the last resort
   std::optional<spool> store = std::nullopt; ///< where finished subdomains go; none: they stay in memory
   std::filesystem::path failure_folder =
       {}; ///< where facets of failed subdomains are written; empty: nowhere

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
@@ -28,8 +29,7 @@ struct realized<3> {
   any_sizing size;                             ///< the field given, smaller where CAD regions came too close
   content_key field;                           ///< of `size`
   report skeleton_summary;
-  report
-      intersection_summary; ///< "crossings", "merges", "largest_merged" (original subdomains in the largest)
+  report intersection_summary; ///< "crossings", "rounds", "refinements"
 };
 
 /// In D = 2 the boundaries are the lines; the regions between them are meshed as pieces.
@@ -53,16 +53,17 @@ using realized_skeleton = realized<3>;
 /// induce on the surface, before it fills the regions between the lines. Throws what the geometry throws.
 realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                     const side_table<2>& sides, std::span<const side_state>,
-                    std::vector<local_id> subdomain_of_element, local_id subdomains, const any_sizing& size,
+                    std::vector<local_id> subdomain_of_element, merge_account& merges, const any_sizing& size,
                     content_key field, skeleton_store& made, const any_parameters<2>& given);
 
 /// Remeshes the skeleton of a decomposition until nothing crosses. `side_states` are what the simplification
-/// decided about the sides of the coarse volume. Throws `intersection_error` when too many subdomains would
-/// have to be merged or two CAD faces cross, `mesher_error` when a region cannot be remeshed. `field` is the
-/// key of `size`; `made` carries lines and patches from one call to the next, as in `remesh_skeleton`.
+/// decided about the sides of the coarse volume, `merges` what was merged before in this run. Throws
+/// `intersection_error` when too many subdomains would have to be merged in all or two CAD faces cross,
+/// `mesher_error` when a region cannot be remeshed. `field` is the key of `size`; `made` carries lines and
+/// patches from one call to the next, as in `remesh_skeleton`.
 realized_skeleton realize(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
                           std::span<const side_state> side_states, std::vector<local_id> subdomain_of_element,
-                          local_id subdomains, const any_sizing& size, content_key field,
+                          merge_account& merges, const any_sizing& size, content_key field,
                           skeleton_store& made, const any_parameters<3>& given);
 
 } // namespace dovetail

@@ -14,6 +14,7 @@
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 #include <set>
+#include <string>
 
 namespace dovetail {
 
@@ -23,16 +24,15 @@ namespace detail {
 class skeleton_rounds {
 public:
   skeleton_rounds(const any_geometry& model, const background_mesh& mesh, const side_table<3>& sides,
-                  std::span<const side_state> side_states, const any_sizing& size, content_key field,
-                  skeleton_store& made, const any_parameters<3>& given)
-      : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), size_(size), field_(field),
-        store_(made), given_(given) {}
+                  std::span<const side_state> side_states, merge_account& merges, const any_sizing& size,
+                  content_key field, skeleton_store& made, const any_parameters<3>& given)
+      : model_(model), mesh_(mesh), sides_(sides), side_states_(side_states), merges_(merges), size_(size),
+        field_(field), store_(made), given_(given) {}
 
-  realized_skeleton run(std::vector<local_id> subdomain_of_element, local_id subdomains) {
+  realized_skeleton run(std::vector<local_id> subdomain_of_element) {
     result_.subdomain_of_element = std::move(subdomain_of_element);
     result_.size = size_;
     result_.field = field_;
-    sizes_.assign(static_cast<std::size_t>(subdomains), 1);
     result_.skeleton_summary.name = "skeleton";
     result_.intersection_summary.name = "intersection";
     for (;;) {
@@ -129,15 +129,9 @@ private:
   }
 
   void merge(const std::vector<std::array<local_id, 2>>& pairs) {
-    const std::size_t before = sizes_.size();
-    merge_subdomains(result_.subdomain_of_element, sizes_, pairs);
-    merged_ += static_cast<local_id>(before - sizes_.size());
-    const auto started_with = static_cast<double>(sizes_.size()) + merged_;
-    if (merged_ > std::max(2.0, given_.options.largest_merged_fraction * started_with))
-      throw intersection_error(
-          std::to_string(merged_) + " of " + std::to_string(std::lround(started_with)) +
-          " subdomains had to be merged, since their interfaces cross the surface; give a "
-          "smaller size or fewer subdomains");
+    if (const std::string refused = merges_.merge(result_.subdomain_of_element, pairs); !refused.empty())
+      throw intersection_error(refused + ": their interfaces cross the surface; give a smaller size or fewer "
+                                         "subdomains");
   }
 
   void refine(const std::vector<surface_crossing>& crossings) {
@@ -147,17 +141,14 @@ private:
   }
 
   realized_skeleton finish(remeshed_skeleton remeshed) {
-    result_.material_of_subdomain.assign(sizes_.size(), 0);
+    result_.material_of_subdomain.assign(static_cast<std::size_t>(merges_.subdomains()), 0);
     for (std::size_t e = 0; e < result_.subdomain_of_element.size(); ++e)
       result_.material_of_subdomain[static_cast<std::size_t>(result_.subdomain_of_element[e])] =
           mesh_.volume.tags[e];
     result_.fine = std::move(remeshed.fine);
     name_inner_hosts();
     result_.origins = origins_of(remeshed.first_triangle);
-    report& summary = result_.intersection_summary;
-    summary.set("merges", merged_);
-    summary.set("largest_merged", *std::max_element(sizes_.begin(), sizes_.end()));
-    summary.set("refinements", refinements_);
+    result_.intersection_summary.set("refinements", refinements_);
     return std::move(result_);
   }
 
@@ -187,14 +178,13 @@ private:
   const background_mesh& mesh_;
   const side_table<3>& sides_;
   std::span<const side_state> side_states_;
+  merge_account& merges_;
   any_sizing size_;
   content_key field_;
   skeleton_store& store_;
   const any_parameters<3>& given_;
   crossing_refinement refinement_{size_, given_.options.refinement_rounds};
   int refinements_ = 0;
-  std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of
-  local_id merged_ = 0;
   realized_skeleton result_;
 };
 
@@ -202,7 +192,7 @@ private:
 
 DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_background<2>& mesh,
                                     const side_table<2>& sides, std::span<const side_state>,
-                                    std::vector<local_id> subdomain_of_element, local_id subdomains,
+                                    std::vector<local_id> subdomain_of_element, merge_account& merges,
                                     const any_sizing& size, content_key field, skeleton_store& made,
                                     const any_parameters<2>& given) {
   const stopwatch clock;
@@ -211,9 +201,9 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
   result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size, field,
                                given.run_tasks, made.lines, given.options.on_progress);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
-  result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(subdomains));
+  result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(merges.subdomains()));
   result.subdomain_of_element = std::move(subdomain_of_element);
-  result.material_of_subdomain.assign(static_cast<std::size_t>(subdomains), 0);
+  result.material_of_subdomain.assign(static_cast<std::size_t>(merges.subdomains()), 0);
   result.size = size;
   result.field = field;
   result.intersection_summary.name = "intersection";
@@ -229,11 +219,11 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
 
 DOVETAIL_INLINE realized_skeleton realize(const any_geometry& model, const background_mesh& mesh,
                                           const side_table<3>& sides, std::span<const side_state> side_states,
-                                          std::vector<local_id> subdomain_of_element, local_id subdomains,
+                                          std::vector<local_id> subdomain_of_element, merge_account& merges,
                                           const any_sizing& size, content_key field, skeleton_store& made,
                                           const any_parameters<3>& given) {
-  return detail::skeleton_rounds(model, mesh, sides, side_states, size, field, made, given)
-      .run(std::move(subdomain_of_element), subdomains);
+  return detail::skeleton_rounds(model, mesh, sides, side_states, merges, size, field, made, given)
+      .run(std::move(subdomain_of_element));
 }
 
 } // namespace dovetail

@@ -18,9 +18,11 @@
 namespace dovetail {
 
 DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
-                                                        const any_geometry& model, const erased_sizing& size,
+                                                        const any_geometry& model,
+                                                        const erased_sizing& given_size,
                                                         const any_parameters<3>& given) {
   const stopwatch clock;
+  const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
   if (const std::size_t solids = model.topology().solids.size(); solids != 1)
     throw geometry_error(

@@ -34,6 +34,9 @@ public:
       first_[face] = static_cast<local_id>(r);
     }
   }
+  bool has(local_id face) const {
+    return face >= no_id && place(face) < first_.size() && first_[place(face)] != no_id;
+  }
   /// Throws `std::out_of_range` when there is none.
   std::size_t operator()(local_id face) const {
     const local_id r = first_.at(place(face));

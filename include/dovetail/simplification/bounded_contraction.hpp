@@ -17,6 +17,7 @@
 #include "dovetail/simplification/wedge_runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,13 @@ namespace dovetail {
 
 namespace detail {
 
+/// Throws `usage_error` unless a rule judged each of so many sides.
+inline void require_one_each(const side_judgement& judged, std::size_t sides) {
+  if (judged.quality.size() != sides)
+    throw usage_error("the simplification rule judged " + std::to_string(judged.quality.size()) +
+                      " sides of " + std::to_string(sides) + "; it must give one quality each");
+}
+
 /// One run of the algorithm; `contract_bounded` calls its steps in order.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 class bounded_contraction {
@@ -41,18 +49,23 @@ public:
       : elements_(elements), judged_(judged), rule_(rule), weights_(weights_of(elements)), runs_(sides),
         supers_(weights_), refusals_(elements.side_count()), fixed_(elements.side_count(), 0),
         bound_(heaviest_allowed(bound)) {
-    if (judged.quality.size() != fixed_.size())
-      throw usage_error("the simplification rule judged " + std::to_string(judged.quality.size()) +
-                        " sides of " + std::to_string(fixed_.size()) + "; it must give one quality each");
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
+    require_judgement();
   }
 
   void contract_coupled_sides(std::span<const coupled_side> coupled) {
     std::vector<coupled_side> candidates;
-    for (const coupled_side& each : coupled)
-      if (!is_fixed(each.side))
-        candidates.push_back(each);
+    for (const coupled_side& each : coupled) {
+      if (is_fixed(each.side))
+        continue;
+      const shortfall& missed = each.decision.missed;
+      if (!(missed.value >= 0) || !(missed.wanted >= 0) || std::isinf(missed.wanted))
+        throw usage_error("the simplification rule couples side " + std::to_string(each.side) +
+                          " since it misses " + std::to_string(missed.wanted) + " by being " +
+                          std::to_string(missed.value) + "; both must be finite and not negative");
+      candidates.push_back(each);
+    }
     contract_worst_first(candidates);
   }
 
@@ -110,6 +123,26 @@ private:
     for (std::size_t e = 0; e < weights.size(); ++e)
       weights[e] = elements.weight(static_cast<local_id>(e));
     return weights;
+  }
+
+  /// The orders of sides and wedges are none where something is not a number.
+  void require_judgement() const {
+    require_one_each(judged_, fixed_.size());
+    if (!(judged_.wanted_quality >= 0) || !(judged_.wanted_angle_deg >= 0))
+      throw usage_error("the simplification rule wants the quality " +
+                        std::to_string(judged_.wanted_quality) + " and wedges of " +
+                        std::to_string(judged_.wanted_angle_deg) + " degrees; neither may be negative");
+    for (std::size_t s = 0; s < fixed_.size(); ++s)
+      if (fixed_[s] == 0 && !(judged_.quality[s] >= 0))
+        throw usage_error("the simplification rule gave side " + std::to_string(s) + " the quality " +
+                          std::to_string(judged_.quality[s]) + "; it must not be negative");
+  }
+  double price_of(const shortfall& missed) const {
+    const double price = rule_.price(missed);
+    if (!(price > 0) || !std::isfinite(price))
+      throw usage_error("the simplification rule gave a refused side the price " + std::to_string(price) +
+                        "; it must be positive and finite");
+    return price;
   }
 
   double heaviest_allowed(const contraction_bound& bound) const {
@@ -212,7 +245,7 @@ private:
       const refused_side& refusal = refusals_[s];
       edges.push_back({out.super_of_element[static_cast<std::size_t>(a)],
                        out.super_of_element[static_cast<std::size_t>(b)],
-                       refusal.side == no_id ? 1.0 : rule_.price(refusal.missed)});
+                       refusal.side == no_id ? 1.0 : price_of(refusal.missed)});
     }
     return make_csr_graph(std::move(weights), edges);
   }
@@ -257,7 +290,8 @@ private:
 ///
 /// Afterwards every wedge under `judged.wanted_angle_deg`, measured across super-elements, lies between two
 /// fixed sides or touches a refused one. Deterministic: ties break by side and wedge number. Complexity: n
-/// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities.
+/// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities, and for what a
+/// rule says that is not a number or negative.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 simplification contract_bounded(const Elements& elements, const Sides& sides, const side_judgement& judged,
                                 const Rule& rule, const contraction_bound& bound = {},

@@ -66,8 +66,9 @@ template <class Rule>
     const side_table<2> edges = build_sides(surface);
     out.surface = simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges}, bound);
     out.surface.summary.name = "surface";
-    const std::vector<double> quality = rule(surface, edges).quality;
-    const auto ridges = coupled_ridges(edges, out.surface, span_of(quality), rule, given.volume_point);
+    const side_judgement judged = rule(surface, edges);
+    detail::require_one_each(judged, edges.size());
+    const auto ridges = coupled_ridges(edges, out.surface, span_of(judged.quality), rule, given.volume_point);
     out.volume =
         simplify<3>(volume, sides, rule,
                     {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights}, bound);

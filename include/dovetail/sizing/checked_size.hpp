@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/sizing/concepts.hpp"
+#include "dovetail/sizing/erased.hpp"
 
 #include <cmath>
 #include <string>
@@ -11,13 +12,23 @@
 namespace dovetail {
 
 /// A size that a mesher can work with, or `sizing_error` naming the place.
-inline double checked_size(const any_sizing& size, vec3 p) {
-  const double h = size(p);
+template <sizing_field H>
+double checked_size(const H& size, vec3 p) {
+  const auto h = static_cast<double>(size(p));
   if (!(h > 0) || !std::isfinite(h))
     throw sizing_error("the size at (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
                        std::to_string(p.z) + ") is " + std::to_string(h) +
                        "; it must be positive and finite");
   return h;
 }
+
+/// A field whose every value is looked at: what is said of a bad one then names its place, and not what came
+/// of it.
+struct checked_sizing {
+  erased_sizing field;
+  double operator()(vec3 p) const { return checked_size(field, p); }
+  double smallest_size_in(const box3& box) const { return field.smallest_size_in(box); }
+  double feature_size(vec3 p) const { return field.feature_size(p); }
+};
 
 } // namespace dovetail

@@ -1,0 +1,89 @@
+#include "file_checksums.hpp"
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/hash.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <span>
+#include <system_error>
+
+namespace dovetail::app {
+
+std::string hexadecimal(std::uint64_t value) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
+  return text.data();
+}
+
+std::string checksum_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  content_hash hash;
+  std::vector<char> block(1 << 20);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    hash.bytes(std::as_bytes(std::span(block.data(), static_cast<std::size_t>(file.gcount()))));
+  if (!file.eof())
+    throw io_error("cannot read " + path.string());
+  return hexadecimal(hash.value());
+}
+
+std::vector<written_file> read_back(const std::filesystem::path& folder,
+                                    const std::vector<std::string>& names, const any_executor& run_tasks) {
+  const auto outcomes =
+      run_tasks.run(names.size(),
+                    [&](std::size_t k) {
+                      byte_writer bytes;
+                      bytes.value<std::uint64_t>(std::filesystem::file_size(folder / names[k]));
+                      bytes.text(checksum_of_file(folder / names[k]));
+                      return bytes.take();
+                    },
+                    {});
+  std::vector<written_file> files;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!outcomes[k].ok)
+      throw io_error("cannot read " + (folder / names[k]).string() + " back: " + outcomes[k].failure);
+    byte_reader bytes(outcomes[k].result);
+    written_file file{names[k], bytes.value<std::uint64_t>(), {}};
+    file.checksum = bytes.text();
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+report_files files_of_report(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file)
+    throw input_error(path.string() + ": cannot read the report");
+  try {
+    const auto document = nlohmann::json::parse(file);
+    report_files found{path.parent_path() / document.at("folder").get<std::string>(), {}};
+    for (const auto& listed : document.at("files"))
+      found.files.push_back({listed.at("name").get<std::string>(), listed.at("bytes").get<std::uint64_t>(),
+                             listed.at("checksum").get<std::string>()});
+    return found;
+  } catch (const nlohmann::json::exception&) {
+    throw input_error(path.string() + ": not a report of 'dovetail mesh' that lists its files");
+  }
+}
+
+std::string faults_of(const report_files& given) {
+  std::string faults;
+  for (const written_file& file : given.files) {
+    const auto path = given.folder / file.name;
+    std::error_code missing;
+    const auto bytes = std::filesystem::file_size(path, missing);
+    const char* fault = missing                                   ? " is missing"
+                        : bytes != file.bytes                     ? " has another size"
+                        : checksum_of_file(path) != file.checksum ? " has another content"
+                                                                  : nullptr;
+    if (fault != nullptr)
+      faults += (faults.empty() ? "" : ", ") + path.string() + fault;
+  }
+  return faults;
+}
+
+} // namespace dovetail::app

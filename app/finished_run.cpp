@@ -1,0 +1,58 @@
+#include "finished_run.hpp"
+
+#include "dovetail/core/output_file.hpp"
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace dovetail::app {
+namespace {
+
+constexpr const char* record_name = "finished_run.txt";
+
+} // namespace
+
+finished_run::finished_run(const std::filesystem::path& folder, const run_identity& identity,
+                           const mesh_options& options)
+    : folder_(folder) {
+  for (const auto& [what, value] : identity)
+    started_with_ += what + " " + value + "\n";
+  for (const auto& format : options.formats)
+    started_with_ += "format " + format + "\n";
+  started_with_ += "pieces " + std::to_string(options.pieces) + "\nfiles\n";
+}
+
+bool finished_run::is_there() const {
+  std::ifstream file(folder_ / record_name, std::ios::binary);
+  std::ostringstream content;
+  content << file.rdbuf();
+  const std::string text = content.str();
+  if (!file || !text.starts_with(started_with_))
+    return false;
+  std::istringstream listed(text.substr(started_with_.size()));
+  std::uint64_t bytes = 0;
+  std::string checksum, name;
+  while (listed >> bytes >> checksum && listed.ignore() && std::getline(listed, name)) {
+    std::error_code missing;
+    if (std::filesystem::file_size(folder_ / name, missing) != bytes || missing)
+      return false;
+  }
+  return true;
+}
+
+void finished_run::record(const std::vector<written_file>& files) const {
+  output_file file(folder_ / record_name);
+  file.text(started_with_);
+  for (const written_file& each : files)
+    file.text(std::to_string(each.bytes) + " " + each.checksum + " " + each.name + "\n");
+  file.commit();
+}
+
+void finished_run::forget() const {
+  std::error_code ignored;
+  std::filesystem::remove(folder_ / record_name, ignored);
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,34 @@
+/// @file
+/// The record of a finished run beside its mesh, so that --resume knows that nothing is left to do.
+#pragma once
+
+#include "file_checksums.hpp"
+#include "options.hpp"
+
+#include "dovetail/parallel/spool.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// `finished_run.txt` in the folder of a mesh: what the run was started with, and its files.
+class finished_run {
+public:
+  finished_run(const std::filesystem::path& folder, const run_identity& identity,
+               const mesh_options& options);
+
+  /// Whether this very run has come to its end, and its files are there in their size.
+  bool is_there() const;
+  /// Written last of all.
+  void record(const std::vector<written_file>& files) const;
+  /// Whatever run was finished here, its files will be replaced.
+  void forget() const;
+
+private:
+  std::filesystem::path folder_;
+  std::string started_with_;
+};
+
+} // namespace dovetail::app

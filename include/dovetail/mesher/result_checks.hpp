@@ -1,0 +1,63 @@
+/// @file
+/// What the result of every mesher and improver must satisfy in both dimensions: entries that exist, the
+/// given points bit for bit, and elements that fit together inside the given boundary and nowhere else.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/chain_sum.hpp"
+#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Points that elements refer to exist, and tags are one per element or none. Whatever else looks at a
+/// foreign mesh relies on it.
+template <int D>
+void check_entries(const simplicial_mesh<D>& mesh) {
+  if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
+    throw mesher_error(std::to_string(mesh.tags.size()) + " tags for " +
+                       std::to_string(mesh.elements.size()) + " elements");
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    for (const local_id v : mesh.elements[e])
+      if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
+        throw mesher_error("element " + std::to_string(e) + " refers to point " + std::to_string(v) +
+                           ", which does not exist");
+}
+
+inline void check_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {
+  if (got.size() < given.size())
+    throw mesher_error(std::to_string(given.size() - got.size()) + " of the boundary's points are lost");
+  static_assert(sizeof(vec3) == 3 * sizeof(double));
+  for (std::size_t v = 0; v < given.size(); ++v)
+    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
+      throw mesher_error("boundary point " + std::to_string(v) + " was moved");
+}
+
+/// Whether every side inside is passed by its elements as often in one direction as in the other, and one of
+/// the boundary once more as it is listed: none of them is missing, doubled or turned over. With positive
+/// elements it follows that they fill the boundary once.
+template <int D>
+bool fit_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<D>& mesh) {
+  chain_sum expected, found;
+  for (const simplex<D - 1>& side : boundary.elements)
+    expected.add(side);
+  for (const simplex<D>& element : mesh.elements)
+    for (const auto& local : numbering::sides<D>)
+      found.add(pick(element, local));
+  return found == expected;
+}
+
+[[noreturn]] inline void throw_no_fit() {
+  throw mesher_error("the elements do not fit together inside the boundary: some are lost, doubled or turned "
+                     "over");
+}
+
+} // namespace dovetail::detail

@@ -1,0 +1,220 @@
+#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/geometry/plane_read.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
+#include "dovetail/intersection/suppression.hpp"
+#include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/simplify.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+/// A thin shell: its two faces, and interfaces between them, come near to each other.
+any_geometry shell(double inner_radius) {
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(1.0).Shape();
+  return any_geometry(
+      occt_shape_from(BRepAlgoAPI_Cut(ball, BRepPrimAPI_MakeSphere(inner_radius).Shape()).Shape()).model);
+}
+
+/// A decomposed coarse mesh of the shell, before anything is realized.
+struct decomposed_shell {
+  decomposed_shell(double inner_radius, int parts)
+      : model(shell(inner_radius)),
+        given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
+        background(make_background<3>(model, uniform_size(0.2), given)),
+        sides(build_sides(background.mesh.volume)) {
+    const auto simplified = simplify<3>(background.mesh.volume, sides, simplifier::none{});
+    states = simplified.side_states;
+    pieces = decompose<3>(background.mesh.volume, sides, simplified.super_of_element, simplified.graph,
+                          background.mesh.volume.tags, given.partition_it, parts);
+  }
+
+  realized_skeleton realize_with(merge_account& account) const {
+    skeleton_store made(std::make_shared<entity_store>());
+    return realize(model, background.mesh, sides, states, pieces.part_of_element, account, background.size,
+                   {}, made, given);
+  }
+
+  any_geometry model;
+  any_parameters<3> given;
+  background_result<3> background;
+  side_table<3> sides;
+  std::vector<side_state> states;
+  decomposition pieces;
+};
+
+/// Two triangles that cross in their middles.
+fine_skeleton crossing_triangles_on(local_id first_face, local_id second_face) {
+  fine_skeleton skeleton;
+  skeleton.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {-3, -3, 0.5}};
+  skeleton.triangles = {{0, 1, 2}, {3, 4, 5}};
+  skeleton.subdomains = {{2, 7}, {1, 9}};
+  skeleton.cad_faces = {first_face, second_face};
+  return skeleton;
+}
+
+suppression_plan plan_for(const fine_skeleton& skeleton, bool planar = false) {
+  return plan_suppression(skeleton, std::vector<bool>(skeleton.triangles.size(), planar), parallel::serial{});
+}
+
+using pairs = std::vector<std::array<local_id, 2>>;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Fails on the piece at the origin, whatever its size.
+struct fails_at_origin {
+  static constexpr mesher_traits traits = mesher::native_surface::traits;
+  mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
+    const auto& points = input.boundary.points;
+    if (std::find(points.begin(), points.end(), vec3{0, 0, 0}) != points.end())
+      throw mesher_error("not here");
+    return mesher::native_surface{}(input, size);
+  }
+};
+
+} // namespace
+
+TEST_CASE("An interface that crosses the surface goes, with the two subdomains at it merged") {
+  for (const bool first_is_inner : {true, false}) {
+    const auto plan =
+        plan_for(first_is_inner ? crossing_triangles_on(no_id, 4) : crossing_triangles_on(4, no_id));
+    CHECK(plan.crossings == 1);
+    CHECK(plan.merges == (first_is_inner ? pairs{{2, 7}} : pairs{{1, 9}}));
+    CHECK(plan.surface_crossings.empty());
+  }
+}
+
+TEST_CASE(
+    "Of two interfaces that cross the one with the smaller pair goes; those of the coarse mesh cannot") {
+  CHECK(plan_for(crossing_triangles_on(no_id, no_id)).merges == pairs{{1, 9}});
+  CHECK(plan_for(crossing_triangles_on(no_id, no_id), true).empty());
+}
+
+TEST_CASE("Where two CAD faces cross a smaller size is asked for, by their names and place") {
+  const auto plan = plan_for(crossing_triangles_on(4, 5));
+  CHECK(plan.merges.empty());
+  REQUIRE(plan.surface_crossings.size() == 1);
+  const surface_crossing& crossing = plan.surface_crossings.front();
+  CHECK(crossing.cad_faces == std::array<local_id, 2>{4, 5});
+  CHECK(crossing.size > 2);
+  CHECK(crossing.size < 5);
+  CHECK(distance(crossing.center, {-1.0 / 12, -1.0 / 12, 1.0 / 12}) < 1);
+}
+
+TEST_CASE("What a run may merge is counted from its beginning, whoever asks") {
+  std::vector<local_id> of_element{0, 1, 2, 3, 4, 5, 6, 7};
+  merge_account account(8, 0.05);
+  CHECK(account.merge(of_element, {{0, 1}}).empty());
+  CHECK(account.merge(of_element, {{0, 1}}).empty());
+  CHECK(account.subdomains() == 6);
+  CHECK(account.merged() == 2);
+  CHECK(account.largest() == 3);
+  const auto before = of_element;
+  CHECK(account.merge(of_element, {{0, 5}}) == "3 of 8 subdomains would have to be merged, 2 may be");
+  CHECK(of_element == before);
+  CHECK(account.merged() == 2);
+  CHECK(before == std::vector<local_id>{0, 0, 0, 1, 2, 3, 4, 5});
+}
+
+TEST_CASE("One of four subdomains may be merged, two may not; of many a fraction") {
+  const auto most_of = [](local_id subdomains) {
+    local_id merged = 0;
+    std::vector<local_id> of_element(static_cast<std::size_t>(subdomains));
+    std::iota(of_element.begin(), of_element.end(), local_id{0});
+    merge_account account(subdomains, 0.05);
+    while (account.subdomains() > 1 && account.merge(of_element, {{0, 1}}).empty())
+      ++merged;
+    return merged;
+  };
+  CHECK(most_of(1) == 0);
+  CHECK(most_of(2) == 1);
+  CHECK(most_of(4) == 1);
+  CHECK(most_of(8) == 2);
+  CHECK(most_of(39) == 2);
+  CHECK(most_of(100) == 5);
+}
+
+TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {
+  const decomposed_shell given(0.97, 16);
+  merge_account account(given.pieces.parts, 1);
+  const auto result = given.realize_with(account);
+  CHECK(plan_for(result.fine).empty());
+  CHECK(result.intersection_summary.get("rounds") > 2); // one merge led to another
+  std::map<local_id, std::set<local_id>> made_of;
+  std::map<local_id, std::set<local_id>> went_to;
+  for (std::size_t e = 0; e < result.subdomain_of_element.size(); ++e) {
+    made_of[result.subdomain_of_element[e]].insert(given.pieces.part_of_element[e]);
+    went_to[given.pieces.part_of_element[e]].insert(result.subdomain_of_element[e]);
+  }
+  std::size_t largest = 0;
+  for (const auto& [subdomain, parts] : made_of)
+    largest = std::max(largest, parts.size());
+  for (const auto& [part, subdomains] : went_to)
+    CHECK(subdomains.size() == 1);
+  CHECK(largest > 2);
+  CHECK(account.largest() == static_cast<local_id>(largest));
+  CHECK(account.subdomains() == static_cast<local_id>(made_of.size()));
+  CHECK(account.merged() == given.pieces.parts - static_cast<local_id>(made_of.size()));
+
+  merge_account of_few(given.pieces.parts, 0.05);
+  CHECK_THROWS_WITH_AS(given.realize_with(of_few), doctest::Contains("subdomains would have to be merged"),
+                       intersection_error);
+}
+
+TEST_CASE("Where the faces of a shell cross, their size is made smaller until they do not") {
+  generate_options options;
+  options.subdomains = 20;
+  options.largest_merged_fraction = 1;
+  const auto result = generate<3>(shell(0.99), uniform_size(0.2),
+                                  parameters<>{}.with_mesher(mesher::tetgen{}).with_options(options));
+  REQUIRE(result.failures.empty());
+  CHECK(io::check_distributed(result.mesh).valid());
+  const report& intersection = result.summary.children[4];
+  CHECK(intersection.get("refinements") >= 1);
+  CHECK(intersection.get("merges") == 20 - static_cast<double>(result.mesh.counts.size()));
+  CHECK(intersection.get("largest_merged") > 1);
+  CHECK(plan_for(result.mesh.skeleton).empty());
+}
+
+TEST_CASE(
+    "Merges after failures are in the same account, and what is refused then is told with its reasons") {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};
+  const auto result =
+      generate<2>(plane_domain(drawing), uniform_size(0.05),
+                  parameters<>{}.with_mesher(fails_at_origin{}).with_options({.subdomains = 8}));
+  const report& meshing = result.summary.children.back();
+  CHECK(result.mesh.counts.size() == 6);
+  CHECK(meshing.get("merged_after_failure") == 2);
+  CHECK(result.summary.children[4].get("merges") == 0);
+  CHECK(result.summary.children[4].get("largest_merged") == 3);
+  REQUIRE(result.failures.size() == 1);
+  CHECK(contains(joined_reasons(result.failures.front().reasons), "not here"));
+  REQUIRE(meshing.warnings.size() == 3);
+  CHECK(contains(meshing.warnings[0], "merged with a neighbour: attempts 1, 2: mesher: not here"));
+  CHECK(contains(meshing.warnings[2], "3 of 8 subdomains would have to be merged, 2 may be: attempts 1, 2"));
+}
