@@ -76,7 +76,7 @@ any_geometry triangle_geometry(const std::filesystem::path& file, int dimension,
 any_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension,
                           report& summary) {
   const crash_message if_it_crashes(
-      file.string() + ": Open CASCADE crashed while reading it; the file is damaged, export it again");
+      file.string() + ": Open CASCADE crashed while healing it; the file is damaged, export it again");
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
   auto read = read_occt_model(file, {.unit = unit, .entities = entities});
