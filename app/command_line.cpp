@@ -3,14 +3,16 @@
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
+#include "output.hpp"
 #include "policies.hpp"
-#include "stop_request.hpp"
+#include "supervision.hpp"
 
 #include "dovetail/core/version.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -84,6 +86,7 @@ struct parser {
   improve_options improve;
   compare_options compare;
   std::function<int()> chosen;
+  std::vector<std::filesystem::path> outputs; ///< files and folders that it writes to
 
   parser() {
     app.name("dovetail");
@@ -104,14 +107,20 @@ struct parser {
     add_model_options(command, mesh.model);
     add_run_options(command, mesh);
     add_output_options(command, mesh);
-    command.callback([this] { chosen = [this] { return run_mesh(mesh); }; });
+    command.callback([this] {
+      chosen = [this] { return run_mesh(mesh); };
+      outputs = {mesh.out, mesh.report};
+    });
   }
   void add_plan() {
     auto& command = *app.add_subcommand("plan", "Predict elements, memory and time before any meshing");
     add_model_options(command, plan.mesh.model);
     add_run_options(command, plan.mesh);
     command.add_option("--report", plan.report, "JSON file for the figures");
-    command.callback([this] { chosen = [this] { return run_plan(plan); }; });
+    command.callback([this] {
+      chosen = [this] { return run_plan(plan); };
+      outputs = {plan.report};
+    });
   }
   void add_models() {
     auto& command = *app.add_subcommand("models", "List the built-in models");
@@ -129,7 +138,10 @@ struct parser {
     auto& command = *app.add_subcommand("stats", "Print the quality of a mesh file");
     command.add_option("MESH", stats.mesh, "Mesh file")->required();
     command.add_option("--report", stats.report, "JSON file for the figures");
-    command.callback([this] { chosen = [this] { return run_stats(stats); }; });
+    command.callback([this] {
+      chosen = [this] { return run_stats(stats); };
+      outputs = {stats.report};
+    });
   }
   void add_improve() {
     auto& command = *app.add_subcommand("improve", "Improve the elements of a mesh file, boundary kept");
@@ -140,14 +152,20 @@ struct parser {
     command.add_option("--sizing", improve.sizing, "JSON file with a sizing field")->excludes(size);
     command.add_option("--report", improve.report, "JSON file for the figures");
     command.add_flag("--quiet", improve.quiet, "No progress and no summary");
-    command.callback([this] { chosen = [this] { return run_improve(improve); }; });
+    command.callback([this] {
+      chosen = [this] { return run_improve(improve); };
+      outputs = {improve.out, improve.report};
+    });
   }
   void add_compare() {
     auto& command =
         *app.add_subcommand("compare", "Run combinations of policies on one model: table and page");
     add_model_options(command, compare.model);
     add_compare_options(command, compare);
-    command.callback([this] { chosen = [this] { return run_compare(compare); }; });
+    command.callback([this] {
+      chosen = [this] { return run_compare(compare); };
+      outputs = {compare.out};
+    });
   }
 };
 
@@ -176,8 +194,8 @@ int run_command_line(int argc, char** argv) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
   }
-  catch_stop_signals();
-  return run_guarded(line.chosen);
+  const unfinished_output unfinished(line.outputs);
+  return run_supervised([&] { return run_guarded(line.chosen); }, [&] { unfinished.remove(); });
 }
 
 } // namespace dovetail::app

@@ -36,7 +36,7 @@ int run_guarded(const std::function<int()>& command) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
   } catch (const cancelled&) {
-    complain("stopped; the same command with --resume goes on from here");
+    complain(stopped_line);
     return exit_stopped;
   } catch (const error& problem) {
     complain(problem.what());

@@ -25,6 +25,9 @@ public:
 /// code.
 int run_guarded(const std::function<int()>& command);
 
+/// What a run that was stopped says.
+inline constexpr const char* stopped_line = "stopped; the same command with --resume goes on from here";
+
 /// Writes "dovetail: <text>" on one line of the error stream.
 void complain(const std::string& text);
 

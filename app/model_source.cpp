@@ -1,8 +1,8 @@
 #include "model_source.hpp"
 
-#include "crash_message.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
+#include "supervision.hpp"
 
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/discrete_model.hpp"
@@ -75,8 +75,12 @@ any_geometry triangle_geometry(const std::filesystem::path& file, int dimension,
 
 any_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension,
                           report& summary) {
-  const crash_message if_it_crashes(
-      file.string() + ": Open CASCADE crashed while reading it; the file is damaged, export it again");
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(file, unknown);
+  const risky_step reading(file.string() + ": reading and healing with Open CASCADE",
+                           "the file is damaged or beyond it; export it again, best as STEP",
+                           unknown ? 0
+                                   : 60 + 40e-6 * static_cast<double>(bytes)); // it needs about one per MB
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
   auto read = read_occt_model(file, {.unit = unit, .entities = entities});

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
@@ -52,6 +53,26 @@ output_format<3> format_of<3>(const std::string& name, int pieces) {
                            "'; there are: vtu, msh, msh-partitioned, none");
 }
 
+/// The folder and those around it that do not exist, innermost first.
+std::vector<std::filesystem::path> absent_folders(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> absent;
+  for (auto folder = std::filesystem::absolute(path).lexically_normal(); !folder.empty();
+       folder = folder.parent_path()) {
+    std::error_code ignored;
+    if (std::filesystem::exists(folder, ignored) || folder == folder.root_path())
+      break;
+    absent.push_back(folder);
+  }
+  return absent;
+}
+
+void remove_empty(const std::vector<std::filesystem::path>& folders) {
+  std::error_code failure;
+  for (const auto& folder : folders)
+    if (!std::filesystem::is_empty(folder, failure) || failure || !std::filesystem::remove(folder, failure))
+      return;
+}
+
 } // namespace
 
 template <int D>
@@ -70,13 +91,7 @@ std::vector<output_format<D>> make_formats(const std::vector<std::string>& names
 output_folder::output_folder(std::filesystem::path path) : path_(std::move(path)) {
   if (path_.empty())
     throw command_line_error("--out: the name of a folder is missing");
-  for (auto folder = std::filesystem::absolute(path_).lexically_normal(); !folder.empty();
-       folder = folder.parent_path()) {
-    std::error_code ignored;
-    if (std::filesystem::exists(folder, ignored) || folder == folder.root_path())
-      break;
-    made_.push_back(folder);
-  }
+  made_ = absent_folders(path_);
   try {
     make_folder(path_);
     check_can_create(path_ / "written_by_dovetail");
@@ -87,10 +102,37 @@ output_folder::output_folder(std::filesystem::path path) : path_(std::move(path)
 }
 
 void output_folder::remove_if_empty() {
-  std::error_code failure;
-  for (const auto& folder : made_)
-    if (!std::filesystem::is_empty(folder, failure) || failure || !std::filesystem::remove(folder, failure))
-      return;
+  remove_empty(made_);
+}
+
+unfinished_output::unfinished_output(std::vector<std::filesystem::path> outputs)
+    : outputs_(std::move(outputs)) {
+  std::erase(outputs_, std::filesystem::path());
+  for (const auto& output : outputs_)
+    append(absent_, absent_folders(output));
+}
+
+void unfinished_output::remove() const {
+  std::error_code ignored;
+  for (const auto& output : outputs_) {
+    std::filesystem::remove(output.string() + ".part", ignored);
+    if (!std::filesystem::is_directory(output, ignored))
+      continue;
+    std::vector<std::filesystem::path> parts;
+    bool resumable = false;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(output, ignored)) {
+      const auto& path = entry.path();
+      if (path.extension() == ".part")
+        parts.push_back(path);
+      else if (path.filename().string().starts_with("piece_") || path.filename() == "unfinished")
+        resumable = true;
+    }
+    for (const auto& part : parts)
+      std::filesystem::remove(part, ignored);
+    if (!resumable)
+      std::filesystem::remove_all(output / "spool", ignored);
+  }
+  remove_empty(absent_);
 }
 
 void check_can_create(const std::filesystem::path& file) {

@@ -49,6 +49,19 @@ private:
   std::vector<std::filesystem::path> made_; ///< innermost first
 };
 
+/// What a command that is ended at once may leave of the files and folders that it writes to. Made before the
+/// command starts.
+class unfinished_output {
+public:
+  explicit unfinished_output(std::vector<std::filesystem::path> outputs);
+  /// Removes parts of files, a spool without any finished piece, and empty folders that were not there.
+  void remove() const;
+
+private:
+  std::vector<std::filesystem::path> outputs_;
+  std::vector<std::filesystem::path> absent_; ///< innermost first
+};
+
 /// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
 void check_can_create(const std::filesystem::path& file);
 

@@ -7,9 +7,8 @@ namespace {
 
 volatile std::sig_atomic_t stop_flag = 0; // a signal handler can reach nothing else
 
-void note_request(int signal_number) {
+void note_request(int) {
   stop_flag = 1;
-  std::signal(signal_number, SIG_DFL);
 }
 
 } // namespace

@@ -4,8 +4,7 @@
 
 namespace dovetail::app {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; a second one ends the process at once. Worker
-/// processes inherit this and finish, or die with their parent.
+/// From now on SIGINT and SIGTERM only set a flag; who does not look at it is ended by `run_supervised`.
 void catch_stop_signals();
 
 /// Whether one has come.

@@ -111,6 +111,10 @@ expect_success improve "$inputs/better.vtu" --out best.vtu --preset fast
 expect_success check "$inputs/better.vtu"
 expect_success plan "$inputs/cube.off" --size 0.08
 grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no prediction"
+for options in "plan" "mesh" "mesh --force" "plan --dimension 2" "mesh --force --dimension 2 --subdomains 3"; do
+  expect_error "^dovetail: the sizes predict about [0-9.e+]* elements, more than any machine can hold" \
+    $options "$inputs/cube.off" --size 1e-6
+done
 
 # Killed, interrupted, resumed: the same mesh as in one go. Twice as many pieces as can be finished at once.
 long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 12 --workers 1 --format none --report report.json)

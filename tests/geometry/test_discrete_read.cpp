@@ -123,6 +123,12 @@ TEST_CASE("bad files are refused with their names") {
   CHECK(has(refusal("a2.off", "OFF\n4 1 0\n" + square_points), "truncated: faces"));
   CHECK(has(refusal("a3.off", "OFF\n4 1 0\n" + square_points + "3 0 1 4\n"), "refers to vertex 4"));
   CHECK(has(refusal("a1.ply", "plx\n"), "not a PLY file"));
+  // Counts that the file has no room for, before anything is made of them.
+  for (const char* format : {"ascii", "binary_little_endian"})
+    for (const char* properties : {"", "property float x\n", "property list uchar int vertex_indices\n"})
+      CHECK(has(refusal("a3.ply", std::string("ply\nformat ") + format + " 1.0\nelement vertex 20000000\n" +
+                                      properties + "end_header\n0 0 0\n"),
+                "announces 20000000 elements"));
   CHECK(has(refusal("a2.ply", binary_ply(true).substr(0, binary_ply(true).size() - 5)), "truncated"));
 }
 

@@ -1,16 +1,26 @@
 #include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/geometry/occt_read.hpp"
 #include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
+#include "dovetail/parallel/processes.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BinTools.hxx>
 #include <IGESControl_Writer.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Writer.hxx>
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <utility>
+
+#include <unistd.h>
 
 using namespace dovetail;
 
@@ -86,29 +96,135 @@ TEST_CASE("files that are missing, no file, empty or foreign are refused by name
   CHECK_FALSE(is_occt_file(folder / "none.step"));
 }
 
-TEST_CASE("a BREP file cut anywhere is refused") {
-  const scratch_folder folder("brep");
-  BRepTools::Write(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), (folder / "whole.brep").c_str());
-  const std::string whole = read_text(folder / "whole.brep");
-  CHECK(read_occt_model(folder / "whole.brep").model.topology().faces.size() == 6);
-  for (std::size_t part = 1; part < 40; ++part) {
-    CAPTURE(part);
-    write_text(folder / "cut.brep", whole.substr(0, whole.size() * part / 41));
-    CHECK_THROWS_AS(read_occt_model(folder / "cut.brep"), error);
+TEST_CASE("a BREP file cut at any byte is refused") {
+  const occt::silenced quiet;
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  std::ostringstream text, binary;
+  BRepTools::Write(box, text);
+  BinTools::Write(box, binary);
+  using occt::file_format;
+  for (const auto& [format, whole] :
+       {std::pair(file_format::brep, text.str()), std::pair(file_format::binary_brep, binary.str())}) {
+    CHECK(occt::sub_shapes(occt::read_brep("whole", whole, format), TopAbs_FACE).Extent() == 6);
+    std::size_t refused = 0;
+    const std::size_t enough = whole.size() - (format == file_format::brep ? 1 : 0); // the last line's end
+    for (std::size_t length = 0; length < enough; ++length)
+      try {
+        occt::read_brep("cut", whole.substr(0, length), format);
+      } catch (const input_error&) {
+        ++refused;
+      } catch (const Standard_Failure&) { // an input_error too, one level up
+        ++refused;
+      }
+    CHECK(refused == enough);
   }
 }
 
-TEST_CASE("a STEP file cut anywhere is refused") {
+TEST_CASE("a STEP file cut at any byte is refused") {
   const scratch_folder folder("step");
-  write_named_step(folder / "whole.step", "MM");
+  const occt::silenced quiet;
+  STEPControl_Writer writer;
+  writer.Transfer(BRepPrimAPI_MakeSphere(1).Shape(), STEPControl_AsIs);
+  REQUIRE(writer.Write((folder / "whole.step").c_str()) == IFSelect_RetDone);
   const std::string whole = read_text(folder / "whole.step");
-  for (std::size_t part = 1; part < 8; ++part) {
-    CAPTURE(part);
-    write_text(folder / "cut.step", whole.substr(0, whole.size() * part / 8));
-    CHECK_THROWS_AS(read_occt_model(folder / "cut.step"), input_error);
-  }
+  const std::size_t mark = whole.rfind("END-ISO-10303-21;") + 17;
+  const auto refused = [&](std::size_t length) {
+    write_text(folder / "cut.step", whole.substr(0, length));
+    try {
+      occt::read_directly(folder / "cut.step", occt::length_unit::millimetre, occt::file_format::step, "");
+    } catch (const input_error&) {
+      return true;
+    }
+    return false;
+  };
+  CHECK_FALSE(refused(mark));
+  std::size_t read = 0;
+  for (std::size_t length = 1; length < mark; ++length)
+    if (!refused(length))
+      ++read;
+  CHECK(read == 0);
   write_text(folder / "hollow.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
   CHECK_THROWS_AS(read_occt_model(folder / "hollow.step"), input_error);
+}
+
+TEST_CASE(
+    "files are read whatever the case of their marks, with comments, blank lines and line ends of any kind") {
+  const scratch_folder folder("styles");
+  write_named_step(folder / "whole.step", "MM");
+  const std::string step = read_text(folder / "whole.step");
+  std::ostringstream text;
+  BRepTools::Write(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), text);
+  const std::string brep = text.str();
+  const auto replaced = [](std::string content, const std::string& old_text, const std::string& new_text) {
+    for (std::size_t at = content.find(old_text); at != std::string::npos;
+         at = content.find(old_text, at + new_text.size()))
+      content.replace(at, old_text.size(), new_text);
+    return content;
+  };
+  std::string comments;
+  for (int line = 0; line < 300; ++line)
+    comments += "/* a comment, ISO-10303-21 */\n\n";
+  // What DRAW's `save` writes, with a triangulation that nobody asked for.
+  const std::string draw = "DBRep_DrawableShape\n\n" + brep + "\n0\n\n\n";
+  for (const auto& [kind, content] :
+       {std::pair("lower case", replaced(step, "END-ISO-10303-21", "end-iso-10303-21")),
+        std::pair("mixed case", replaced(replaced(step, "ISO-10303-21", "Iso-10303-21"), "ENDSEC", "EndSec")),
+        std::pair("comments first", comments + step), std::pair("comments last", step + comments),
+        std::pair("blank lines", "\n \n\r\n" + step + "\n\n"),
+        std::pair("line ends of DOS", replaced(step, "\n", "\r\n")), std::pair("DRAW", draw),
+        std::pair("BREP, line ends of DOS", replaced(brep, "\n", "\r\n")),
+        std::pair("DRAW, line ends of DOS", replaced(draw, "\n", "\r\n")),
+        std::pair("asterisks", brep + "\n* * *\n"), std::pair("BREP, blank lines", "\n\n" + brep + "\n\n")}) {
+    const std::string name = kind;
+    CAPTURE(name);
+    write_text(folder / "file", content);
+    CHECK(is_occt_file(folder / "file"));
+    CHECK_NOTHROW(CHECK(read_occt_model(folder / "file").model.topology().faces.size() == 6));
+  }
+}
+
+TEST_CASE("what a worker does not survive is a damaged file") {
+  const scratch_folder folder("worker");
+  write_named_step(folder / "block.step", "INCH");
+  const parallel::processes worker{.worker_count = 1};
+  const occt_model there = read_occt_model(folder / "block.step", {.first_reader = worker}).model;
+  CHECK(there.topology().solids.at(0).name == "block");
+
+  // OCCT crashes on points whose keyword it does not know.
+  std::string damaged = read_text(folder / "block.step");
+  for (std::size_t at = damaged.find("CARTESIAN_POINT"); at != std::string::npos;
+       at = damaged.find("CARTESIAN_POINT", at))
+    damaged[at] = 'c';
+  write_text(folder / "crash.step", damaged);
+  CHECK_THROWS_WITH_AS(read_occt_model(folder / "crash.step", {.first_reader = worker}),
+                       doctest::Contains("crash.step: Open CASCADE crashed while reading it"), input_error);
+  // An error's text comes back as it was.
+  write_text(folder / "cut.step", damaged.substr(0, 900));
+  CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.step", {.first_reader = worker}),
+                       doctest::Contains("cut.step: the STEP file is truncated"), input_error);
+}
+
+TEST_CASE("reading that does not end is given up, and stops when asked") {
+  const parallel::processes worker{.worker_count = 1};
+  const auto endless = [] {
+    const volatile bool for_ever = true;
+    while (for_ever) {
+    }
+  };
+  CHECK_THROWS_WITH_AS(
+      occt::require_readable("some.igs", worker, endless, 1, {}),
+      doctest::Contains("some.igs: Open CASCADE is not done reading it after 1 s of processor time"),
+      input_error);
+  const auto asleep = [] {
+    for (;;)
+      ::pause();
+  };
+  CHECK_THROWS_WITH_AS(occt::require_readable("some.igs", worker, asleep, 0.1, {}),
+                       doctest::Contains("is not done reading it after 0.5"), input_error);
+  int asked = 0;
+  CHECK_THROWS_AS(occt::require_readable("some.igs", worker, endless, 60,
+                                         {.stop_requested = [&] { return ++asked > 3; }}),
+                  cancelled);
 }
 
 TEST_CASE("the content decides the format, not the name") {
@@ -131,7 +247,13 @@ TEST_CASE("an IGES file of faces is sewn to a solid") {
   CHECK(occt::volume_of(result.model.shape()) == doctest::Approx(6));
   const std::string whole = read_text(folder / "box.igs");
   write_text(folder / "cut.igs", whole.substr(0, whole.size() / 2));
-  CHECK_THROWS_AS(read_occt_model(folder / "cut.igs"), input_error);
+  CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.igs"), doctest::Contains("no terminate section"),
+                       input_error);
+  const std::size_t mark = whole.rfind('T') + 1; // its column is the 73rd of the last card
+  for (std::size_t length = 0; length < mark; ++length)
+    CHECK_THROWS_AS(occt::require_terminated("cut.igs", whole.substr(0, length)), input_error);
+  for (const char* tail : {"", "\n\n", "\r\n\x1a", "\nbehind the end\n"})
+    CHECK_NOTHROW(occt::require_terminated("whole.igs", whole + tail));
 }
 
 TEST_CASE("STEP names, layers and colours become names and patches") {

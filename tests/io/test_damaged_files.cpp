@@ -118,6 +118,62 @@ TEST_CASE("sizes that compressed data cannot have are refused, before they are a
                        doctest::Contains("a.vtu: array \"\": compressed data are damaged"), input_error);
 }
 
+TEST_CASE("data that would expand without end are refused") {
+  const testing::scratch_folder folder("expanding");
+  const auto refusal = [&](const std::string& name, const std::string& content) -> std::string {
+    testing::write_content(folder / name, content);
+    try {
+      io::read_mesh(folder / name);
+    } catch (const input_error& problem) {
+      return problem.what();
+    }
+    return "no error";
+  };
+  // Arrays of one offset: an offset of 96 bytes and a header of 4 are the whole section.
+  const auto appended = [](const char* name, int offset) {
+    return std::string("<DataArray type=\"Float64\" Name=\"") + name +
+           "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>";
+  };
+  const std::string piece = "<Piece NumberOfPoints=\"4\" NumberOfCells=\"0\"><Points>" + appended("p", 0) +
+                            "</Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\"/><DataArray "
+                            "type=\"Int32\" Name=\"offsets\"/><DataArray type=\"Int32\" Name=\"types\"/>"
+                            "</Cells></Piece>";
+  const auto file_of = [&](const std::string& pieces) {
+    return "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>" + pieces +
+           "</UnstructuredGrid><AppendedData encoding=\"raw\">_" + std::string{96, 0, 0, 0} +
+           std::string(96, '\0') + "</AppendedData></VTKFile>";
+  };
+  CHECK(refusal("one.vtu", file_of(piece)) == "no error");
+  CHECK(refusal("shared.vtu", file_of(piece + piece + piece)).find("those of other arrays") !=
+        std::string::npos);
+  // A piece named twice.
+  const std::string named = "<Piece Source=\"one.vtu\"/>";
+  const auto parallel = [](const std::string& pieces) {
+    return "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>" + pieces +
+           "</PUnstructuredGrid></VTKFile>";
+  };
+  CHECK(refusal("once.pvtu", parallel(named)) == "no error");
+  CHECK(refusal("twice.pvtu", parallel(named + named)).find("one.vtu twice") != std::string::npos);
+  // Arrays as long as the mesh that take a few bytes in the file.
+  const auto with_data = [](int sections) {
+    std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n0\n"
+                      "$EndElements\n";
+    for (int section = 0; section < sections; ++section)
+      msh += "$NodeData\n1\n\"a" + std::to_string(section) + "\"\n0\n3\n0\n1\n0\n$EndNodeData\n";
+    return msh;
+  };
+  CHECK(refusal("few.msh", with_data(256)) == "no error");
+  CHECK(refusal("many.msh", with_data(257)).find("more than 256 sections") != std::string::npos);
+  const auto with_arrays = [&](int arrays) {
+    std::string vtu = piece.substr(0, piece.find("<Points>")) + "<PointData>";
+    for (int array = 0; array < arrays; ++array)
+      vtu += "<DataArray type=\"Int8\" Name=\"a" + std::to_string(array) + "\">1 2 3 4</DataArray>";
+    return file_of(vtu + "</PointData>" + piece.substr(piece.find("<Points>")));
+  };
+  CHECK(refusal("few.vtu", with_arrays(256)) == "no error");
+  CHECK(refusal("many.vtu", with_arrays(257)).find("more than 256 arrays") != std::string::npos);
+}
+
 TEST_CASE("a file that is cut off anywhere is refused") {
   const testing::scratch_folder folder("truncated");
   io::vtu_writer{}(cubes.distributed(), folder); // the pieces that the PVTU names

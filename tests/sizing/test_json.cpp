@@ -111,6 +111,18 @@ TEST_CASE("what is no JSON is an input error with its line") {
   CHECK_THROWS_AS(sizing::read_sizing(std::filesystem::temp_directory_path()), input_error);
 }
 
+TEST_CASE("values nested too deep are refused, whatever they are") {
+  const std::size_t millions = 2'000'000;
+  std::string objects;
+  for (std::size_t depth = 0; depth < millions; ++depth)
+    objects += "{\"a\":";
+  for (const std::string& text :
+       {std::string(millions, '['), objects, "{\n\"a\":" + std::string(65, '[') + std::string(65, ']') + "}"})
+    CHECK_THROWS_WITH_AS(sizing::parse_json(text, "deep.json"), doctest::Contains("nested more than 64 deep"),
+                         input_error);
+  CHECK(sizing::parse_json(std::string(64, '[') + std::string(64, ']'), "deep.json").items.size() == 1);
+}
+
 TEST_CASE("a background mesh comes through the caller's reader, relative to the file") {
   const auto folder = std::filesystem::temp_directory_path() / "dovetail_test_json";
   std::filesystem::create_directories(folder);

@@ -30,6 +30,7 @@ inline local_id obj_corner(std::string_view word, std::size_t points, const text
 inline triangle_soup parse_obj(std::string_view data, const std::string& file) {
   triangle_soup soup;
   text_scanner in(data, file);
+  patch_numbering patch_of(soup);
   local_id patch = no_id;
   std::vector<local_id> corners;
   while (in.next_line()) {
@@ -37,8 +38,7 @@ inline triangle_soup parse_obj(std::string_view data, const std::string& file) {
     if (key == "v") {
       soup.points.push_back(in.point());
     } else if (key == "g" || key == "o") {
-      const std::string_view name = in.rest();
-      patch = name.empty() ? no_id : patch_index(soup, name);
+      patch = patch_of(in.rest());
     } else if (key == "f") {
       corners.clear();
       while (!in.at_line_end())

@@ -70,6 +70,19 @@ inline ply_header parse_ply_header(std::string_view data, const std::string& fil
   return header;
 }
 
+/// The least number of bytes that one of these elements takes in a file: a header may announce anything.
+inline std::size_t least_ply_bytes(const ply_header::element& element, bool text) {
+  std::size_t bytes = 0;
+  for (const auto& property : element.properties) {
+    const std::string& type = property.count_type.empty() ? property.type : property.count_type;
+    const bool wide = type == "double" || type == "float64";
+    const bool narrow = type.ends_with("char") || type.ends_with("int8");
+    const bool half = type.ends_with("short") || type.ends_with("int16");
+    bytes += text || narrow ? 1 : half ? 2 : wide ? 8 : 4;
+  }
+  return std::max<std::size_t>(bytes, 1);
+}
+
 /// Takes the values of a PLY file one after the other, whatever its format.
 class ply_values {
 public:
@@ -135,7 +148,11 @@ inline triangle_soup parse_ply(std::string_view data, const std::string& file) {
   ply_values values(data, header, file);
   triangle_soup soup;
   std::vector<local_id> corners;
-  for (const auto& element : header.elements)
+  for (const auto& element : header.elements) {
+    if (element.count > (data.size() - header.size) / least_ply_bytes(element, header.text))
+      throw input_error(file + ": the PLY file is truncated or foreign: it announces " +
+                        std::to_string(element.count) + " elements \"" + element.name +
+                        "\", and has no room for them; export it again");
     for (std::size_t i = 0; i < element.count; ++i) {
       vec3 point;
       corners.clear();
@@ -164,6 +181,7 @@ inline triangle_soup parse_ply(std::string_view data, const std::string& file) {
         append_polygon(soup, corners, no_id);
       }
     }
+  }
   return soup;
 }
 

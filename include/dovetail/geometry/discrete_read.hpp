@@ -10,6 +10,7 @@
 
 #include <cctype>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 namespace dovetail {
@@ -39,6 +40,8 @@ inline triangle_soup read_triangles(const std::filesystem::path& file) {
                        : format == "obj" ? discrete::parse_obj(data, name)
                        : format == "off" ? discrete::parse_off(data, name)
                                          : discrete::parse_ply(data, name);
+  if (soup.points.size() > static_cast<std::size_t>(std::numeric_limits<local_id>::max()))
+    throw input_error(name + ": the file has more corners than can be numbered; divide it");
   if (soup.triangles.empty())
     throw input_error(name + ": the file has no triangle");
   return soup;

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -117,14 +118,26 @@ inline void append_polygon(triangle_soup& soup, const std::vector<local_id>& cor
   }
 }
 
-/// The index of a patch name, added when it is new.
-inline local_id patch_index(triangle_soup& soup, std::string_view name) {
-  for (std::size_t i = 0; i < soup.patch_names.size(); ++i)
-    if (soup.patch_names[i] == name)
-      return static_cast<local_id>(i);
-  soup.patch_names.emplace_back(name);
-  return static_cast<local_id>(soup.patch_names.size() - 1);
-}
+/// Numbers the patches of a soup by their names; O(log n) each, since a file may have as many as triangles.
+class patch_numbering {
+public:
+  explicit patch_numbering(triangle_soup& soup) : soup_(soup) {}
+
+  /// The index of a name, which is added when it is new; none for no name.
+  local_id operator()(std::string_view name) {
+    if (name.empty())
+      return no_id;
+    const auto [place, added] =
+        known_.try_emplace(std::string(name), static_cast<local_id>(soup_.patch_names.size()));
+    if (added)
+      soup_.patch_names.emplace_back(name);
+    return place->second;
+  }
+
+private:
+  triangle_soup& soup_;
+  std::map<std::string, local_id> known_;
+};
 
 } // namespace discrete
 } // namespace dovetail

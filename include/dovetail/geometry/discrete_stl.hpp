@@ -61,14 +61,14 @@ inline triangle_soup parse_binary_stl(std::string_view data, const std::string& 
 inline triangle_soup parse_text_stl(std::string_view data, const std::string& file) {
   triangle_soup soup;
   text_scanner in(data, file);
+  patch_numbering patch_of(soup);
   local_id patch = no_id;
   bool open = false;
   int corners = 0;
   while (in.next_line()) {
     const std::string_view key = in.word();
     if (key == "solid") {
-      const std::string_view name = in.rest();
-      patch = name.empty() ? no_id : patch_index(soup, name);
+      patch = patch_of(in.rest());
       open = true;
     } else if (!open) {
       in.fail("this is not an STL file: \"solid\" is expected first");

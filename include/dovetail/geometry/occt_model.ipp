@@ -195,7 +195,7 @@ DOVETAIL_INLINE_OCCT occt_read_result occt_shape_from(const TopoDS_Shape& shape,
 
 DOVETAIL_INLINE_OCCT bool is_occt_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string head(4096, '\0');
+  std::string head(occt::head_size, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
   return occt::format_of_content(head) != occt::file_format::unknown;
@@ -203,7 +203,7 @@ DOVETAIL_INLINE_OCCT bool is_occt_file(const std::filesystem::path& path) {
 
 DOVETAIL_INLINE_OCCT occt_read_result read_occt_model(const std::filesystem::path& path,
                                                       occt_read_options options) {
-  return occt_model_from(occt::read_shape(path, options.unit), options.entities);
+  return occt_model_from(occt::read_shape(path, options), options.entities);
 }
 
 } // namespace dovetail

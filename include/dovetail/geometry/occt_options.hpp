@@ -1,6 +1,11 @@
 /// @file
-/// What of a CAD file is wanted.
+/// What of a CAD file is wanted, and who reads it.
 #pragma once
+
+#include "dovetail/core/progress.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+
+#include <optional>
 
 namespace dovetail {
 
@@ -22,6 +27,12 @@ struct occt_read_options {
   /// For D = 2, `faces`: also open shells and single faces, such as a plane domain with holes and inner
   /// edges.
   occt::wanted entities = occt::wanted::solids;
+  /// Who reads the file before the caller does, or nobody. With `parallel::processes`, a file on which Open
+  /// CASCADE crashes or does not come back is an `input_error` like any other damaged one, and
+  /// `on_progress` can stop it; reading takes twice as long. Not where other threads run.
+  std::optional<any_executor> first_reader = {};
+  double most_seconds = 0; ///< processor time for that; 0: 30 s, and 20 s per megabyte
+  progress on_progress = {};
 };
 
 } // namespace dovetail

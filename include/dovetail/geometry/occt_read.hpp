@@ -1,9 +1,11 @@
 /// @file
 /// Reads STEP, IGES and BREP files into a shape with names. The content decides the format, not the
-/// extension.
+/// extension; whether a file is whole is found out by reading it.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/input_file.hpp"
+#include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
 
@@ -13,105 +15,160 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <ios>
 #include <sstream>
 #include <string>
 #include <string_view>
+
+#include <sys/resource.h>
 
 namespace dovetail::occt {
 
 enum class file_format { unknown, step, iges, brep, binary_brep };
 
-/// Recognises a format by the first lines of a file.
-inline file_format format_of_content(std::string_view head) {
-  const auto begins_with_blanks_skipped = [&](std::string_view word) {
-    const auto first = std::find_if(head.begin(), head.end(),
-                                    [](char c) { return !std::isspace(static_cast<unsigned char>(c)); });
-    return head.substr(static_cast<std::size_t>(first - head.begin())).starts_with(word);
-  };
-  if (begins_with_blanks_skipped("ISO-10303-21"))
-    return file_format::step;
-  if (head.find("Open CASCADE Topology V") != std::string_view::npos)
-    return file_format::binary_brep;
-  if (begins_with_blanks_skipped("DBRep_DrawableShape") || begins_with_blanks_skipped("CASCADE Topology V"))
-    return file_format::brep;
-  // The first card of an IGES file is its start section: an S in column 73.
-  const std::string_view first_card = head.substr(0, head.find('\n'));
-  if (first_card.size() >= 73 && (first_card[72] == 'S' || first_card[72] == 'C'))
-    return file_format::iges;
-  return file_format::unknown;
-}
+/// As much of a file as `format_of_content` should see: long comments may stand first.
+inline constexpr std::size_t head_size = std::size_t{64} << 10;
 
-/// Whether a BREP text has all the shapes it announces. OCCT's own reader loops for ever on some truncated
-/// files, so it must never see one. The last section, "TShapes n", lists n shapes that each end with an
-/// asterisk; then follows the reference to the whole shape.
-inline bool is_whole_brep(std::string_view content) {
-  const std::size_t section = content.rfind("TShapes ");
-  if (section == std::string_view::npos)
-    return false;
-  std::size_t announced = 0;
-  std::size_t at = section + 8;
-  for (; at < content.size() && content[at] >= '0' && content[at] <= '9' && announced < content.size(); ++at)
-    announced = 10 * announced + static_cast<std::size_t>(content[at] - '0');
-  const std::string_view shapes = content.substr(at);
-  const std::size_t last = shapes.rfind('*');
-  return announced > 0 && last != std::string_view::npos &&
-         static_cast<std::size_t>(std::count(shapes.begin(), shapes.end(), '*')) == announced &&
-         shapes.find_first_of("+-ie", last) != std::string_view::npos;
-}
-
-/// Throws `input_error` when the mark that ends every complete file of its format is absent.
-inline void require_complete(const std::string& source, file_format format, std::string_view content) {
-  const std::string_view tail = content.substr(content.size() - std::min<std::size_t>(content.size(), 4096));
-  if (format == file_format::step && tail.find("END-ISO-10303-21") == std::string_view::npos)
-    throw input_error(source + ": the STEP file is truncated (it does not end with END-ISO-10303-21)");
-  if (format == file_format::brep && !is_whole_brep(content))
-    throw input_error(source + ": the BREP file is truncated or damaged (shapes it announces are missing)");
-  if (format == file_format::iges) {
-    std::string_view last = tail;
-    while (!last.empty() && std::isspace(static_cast<unsigned char>(last.back())))
-      last.remove_suffix(1);
-    const std::size_t start = last.rfind('\n');
-    const std::string_view card = start == std::string_view::npos ? last : last.substr(start + 1);
-    if (card.size() < 73 || card[72] != 'T')
-      throw input_error(source + ": the IGES file is truncated (it has no terminate section)");
+/// What is left of a text behind white space and comments of STEP.
+inline std::string_view behind_comments(std::string_view text) {
+  for (;;) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
+      text.remove_prefix(1);
+    if (!text.starts_with("/*"))
+      return text;
+    const std::size_t end = text.find("*/", 2);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 2);
   }
 }
 
+/// Recognises a format by the beginning of a file.
+inline file_format format_of_content(std::string_view head) {
+  const auto is_card_of = [](std::string_view line, char section) {
+    return line.size() >= 73 && line[72] == section;
+  };
+  const std::string_view text = behind_comments(head);
+  constexpr std::string_view step_mark = "ISO-10303-21";
+  if (std::equal(step_mark.begin(), step_mark.end(), text.begin(),
+                 text.begin() + static_cast<std::ptrdiff_t>(std::min(step_mark.size(), text.size())),
+                 [](char a, char b) { return a == std::toupper(static_cast<unsigned char>(b)); }))
+    return file_format::step;
+  if (head.find("Open CASCADE Topology V") != std::string_view::npos)
+    return file_format::binary_brep;
+  if (text.starts_with("DBRep_DrawableShape") || text.starts_with("CASCADE Topology V"))
+    return file_format::brep;
+  // The first card of an IGES file is its start section: an S in column 73.
+  const std::string_view first_card = head.substr(0, head.find('\n'));
+  return is_card_of(first_card, 'S') || is_card_of(first_card, 'C') ? file_format::iges
+                                                                    : file_format::unknown;
+}
+
+/// Throws `input_error` when an IGES file has no terminate section. OCCT reads what is there of such a file,
+/// in silence; of the other formats it refuses what is cut off.
+inline void require_terminated(const std::string& source, std::string_view content) {
+  for (std::size_t end = content.size(); end > 0;) {
+    const std::size_t before = content.rfind('\n', end - 1);
+    const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+    if (end - begin >= 73 && content[begin + 72] == 'T')
+      return;
+    end = begin == 0 ? 0 : begin - 1;
+  }
+  throw input_error(source + ": the IGES file is truncated (it has no terminate section); export it again");
+}
+
+/// OCCT's readers of BREP look at the state of their stream here and there only, and loop for ever behind
+/// the end of some files: the stream throws instead.
 inline TopoDS_Shape read_brep(const std::string& source, const std::string& content, file_format format) {
   std::istringstream stream(content);
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
   TopoDS_Shape shape;
   try {
     if (format == file_format::binary_brep)
       BinTools::Read(shape, stream);
     else
       BRepTools::Read(shape, stream, BRep_Builder());
-  } catch (const Standard_Failure&) {
-    throw input_error(source + ": the BREP file is truncated or damaged");
+  } catch (const std::ios_base::failure&) {
+    shape.Nullify();
   }
-  if (shape.IsNull() || stream.fail())
-    throw input_error(source + ": the BREP file is truncated or damaged");
+  if (shape.IsNull())
+    throw input_error(source + ": the BREP file is truncated or damaged; export it again");
   return shape;
 }
 
-/// Reads a file. `unit` says in which length unit the coordinates are wanted (STEP and IGES only; BREP files
-/// have none). Throws `input_error` for a missing, empty, truncated, foreign or unreadable file.
-inline attributed_shape read_shape(const std::filesystem::path& path, length_unit unit) {
+/// What OCCT makes of a file, here and now.
+inline attributed_shape read_directly(const std::filesystem::path& path, length_unit unit, file_format format,
+                                      const std::string& content) {
+  try {
+    if (format == file_format::step)
+      return read_step(path, unit);
+    if (format == file_format::iges) {
+      require_terminated(path.string(), content);
+      return read_iges(path, unit);
+    }
+    attributed_shape result;
+    result.shape = read_brep(path.string(), content, format);
+    return result;
+  } catch (const Standard_Failure& failure) {
+    throw input_error(path.string() + ": the file is truncated or damaged (" + failure.GetMessageString() +
+                      "); export it again");
+  }
+}
+
+/// Seconds of processor time that reading a file may take: OCCT needs about one per megabyte.
+inline double reading_budget(std::size_t bytes) {
+  return 30 + 20e-6 * static_cast<double>(bytes);
+}
+
+/// Lets an executor's worker read first, which may crash or not come back. It says no more than how that
+/// ended: OCCT's own binary format does not give back the same shape to the last bit.
+inline void require_readable(const std::string& source, const any_executor& executor,
+                             const std::function<void()>& read, double seconds, const progress& on_progress) {
+  constexpr double slowest_share = 5;  // of a processor that others use too
+  constexpr double clocks_agree = 0.9; // that of the limit counts in ticks
+  const auto outcomes = executor.run(
+      1,
+      [&](std::size_t) {
+        if (!executor.shares_process()) {
+          const auto whole_seconds = static_cast<rlim_t>(std::ceil(seconds));
+          const rlimit limit{whole_seconds, whole_seconds};
+          ::setrlimit(RLIMIT_CPU, &limit);
+        }
+        read();
+        return byte_buffer();
+      },
+      {.limit_seconds = slowest_share * seconds, .on_progress = on_progress, .stage = "reading"});
+  const task_outcome& outcome = outcomes.front();
+  if (outcome.ok)
+    return;
+  if (!outcome.crashed && !outcome.timed_out)
+    throw input_error(outcome.failure);
+  const std::string what = outcome.timed_out
+                               ? "is not done reading it after " + to_text(outcome.seconds) + " s"
+                           : outcome.seconds >= clocks_agree * seconds
+                               ? "is not done reading it after " + to_text(seconds) + " s of processor time"
+                               : "crashed while reading it (" + outcome.failure + ")";
+  throw input_error(source + ": Open CASCADE " + what +
+                    "; the file is damaged, export it again, best as STEP");
+}
+
+/// Reads a file. Throws `input_error` for a missing, empty, truncated, foreign or unreadable file,
+/// `cancelled` when `options.on_progress` asks to stop.
+inline attributed_shape read_shape(const std::filesystem::path& path, const occt_read_options& options) {
   const silenced quiet;
   const std::string source = path.string();
   const std::string content = read_file(path);
-  const file_format format = format_of_content(std::string_view(content).substr(0, 4096));
+  const file_format format = format_of_content(std::string_view(content).substr(0, head_size));
   if (format == file_format::unknown)
     throw input_error(source + ": neither STEP, IGES nor BREP; convert the model to one of these");
-  require_complete(source, format, content);
-
-  attributed_shape result;
-  if (format == file_format::step)
-    result = read_step(path, unit);
-  else if (format == file_format::iges)
-    result = read_iges(path, unit);
-  else
-    result.shape = read_brep(source, content, format);
+  const auto read = [&] { return read_directly(path, options.unit, format, content); };
+  if (options.first_reader)
+    require_readable(source, *options.first_reader, read,
+                     options.most_seconds > 0 ? options.most_seconds : reading_budget(content.size()),
+                     options.on_progress);
+  attributed_shape result = read();
   result.source = path.filename().string();
   if (result.shape.IsNull())
     throw input_error(source + ": the file contains no shape");

@@ -25,6 +25,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <string>
 #include <utility>
 
@@ -66,18 +67,22 @@ auto guarded(const std::string& what, Action&& action) -> decltype(action()) {
   }
 }
 
-/// Keeps OCCT's readers and healers from writing to the terminal while it lives.
+/// Keeps OCCT's readers and healers from writing to the terminal while it lives, by its messenger or past it.
 class silenced {
 public:
-  silenced() : printers_(Message::DefaultMessenger()->Printers()) {
+  silenced() : printers_(Message::DefaultMessenger()->Printers()), output_(std::cout.rdbuf(nullptr)) {
     Message::DefaultMessenger()->ChangePrinters().Clear();
   }
-  ~silenced() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
+  ~silenced() {
+    std::cout.rdbuf(output_);
+    Message::DefaultMessenger()->ChangePrinters() = printers_;
+  }
   silenced(const silenced&) = delete;
   silenced& operator=(const silenced&) = delete;
 
 private:
   Message_SequenceOfPrinters printers_;
+  std::streambuf* output_;
 };
 
 /// What a file says about one solid or face.

@@ -186,29 +186,21 @@ template <class Reader>
 attributed_shape transfer(Reader& reader, const std::string& source) {
   Handle(TDocStd_Document) document = new_document();
   attributed_shape result;
-  try {
-    if (!reader.Transfer(document))
-      throw input_error(source + ": the file contains no shape that can be read");
-    result.shape = document_shape(document);
-    result.names = document_attributes(document);
-  } catch (const Standard_Failure& failure) {
-    throw input_error(source + ": the file is damaged (" + failure.GetMessageString() + ")");
-  }
+  if (!reader.Transfer(document))
+    throw input_error(source + ": the file contains no shape that can be read");
+  result.shape = document_shape(document);
+  result.names = document_attributes(document);
   return result;
 }
 
-/// Reads a STEP file; throws `input_error`.
+/// Reads a STEP file; throws `input_error`, or OCCT's own exceptions.
 inline attributed_shape read_step(const std::filesystem::path& path, length_unit unit) {
   STEPCAFControl_Reader reader; // registers the reader's parameters too
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(true);
-  try {
-    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-      throw input_error(path.string() + ": not a readable STEP file");
-  } catch (const Standard_Failure&) {
-    throw input_error(path.string() + ": the STEP file is damaged");
-  }
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    throw input_error(path.string() + ": the STEP file is truncated or damaged; export it again");
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   const std::string file_unit = lengths.IsEmpty() ? "" : lengths.First().ToCString();
@@ -220,19 +212,15 @@ inline attributed_shape read_step(const std::filesystem::path& path, length_unit
   return result;
 }
 
-/// Reads an IGES file; throws `input_error`.
+/// Reads an IGES file; throws `input_error`, or OCCT's own exceptions.
 inline attributed_shape read_iges(const std::filesystem::path& path, length_unit unit) {
   IGESCAFControl_Reader reader;
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(true);
   reader.SetReadVisible(true);
-  try {
-    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-      throw input_error(path.string() + ": not a readable IGES file");
-  } catch (const Standard_Failure&) {
-    throw input_error(path.string() + ": the IGES file is damaged");
-  }
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+    throw input_error(path.string() + ": the IGES file is truncated or damaged; export it again");
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
   const Handle(TCollection_HAsciiString) unit_name = model->GlobalSection().UnitName();
   const std::string file_unit = unit_name.IsNull() ? "" : unit_name->ToCString();

@@ -16,6 +16,10 @@ struct point_array {
   std::vector<double> values;
 };
 
+/// More point arrays than this no reader takes: each is as long as the mesh has points, however little of it
+/// is in the file.
+inline constexpr std::size_t most_point_arrays = 256;
+
 /// The simplices of a file, on one set of points.
 struct loaded_mesh {
   simplicial_mesh<3> mesh; ///< tags: the region (material) of each tetrahedron, 0 when the file has none

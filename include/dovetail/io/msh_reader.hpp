@@ -302,6 +302,8 @@ private:
           data.values.emplace_back(node, value);
       }
     }
+    if (components == 1 && node_data_.size() == most_point_arrays)
+      at_.fail("there are more than " + std::to_string(most_point_arrays) + " sections of node data");
     if (components == 1)
       node_data_.push_back(std::move(data));
   }

@@ -39,6 +39,9 @@ public:
     return bytes;
   }
 
+  /// What has not been taken, as it stands in the file.
+  std::string_view rest() const { return data_; }
+
 private:
   /// An upper bound for encoded data.
   std::uint64_t left() const { return base64_ ? data_.size() + 3 : data_.size(); }
@@ -100,6 +103,9 @@ struct vtk_encoding {
   vtk_expander expand = nullptr;  ///< what expands it
   std::string_view appended = {}; ///< the appended section, from behind its underscore
   bool appended_base64 = false;
+  /// Bytes that may still be taken from the appended section, each of them twice, since the tags of cells
+  /// serve two purposes: arrays that share theirs would let a small file expand without end.
+  mutable std::uint64_t appended_left = 0;
 };
 
 /// Reads the encoding from the root element of a file. Throws `input_error` (without a file name) for what is
@@ -121,6 +127,7 @@ inline vtk_encoding read_vtk_encoding(const xml_element& root, vtk_expander expa
     if (start == std::string_view::npos)
       throw input_error("the appended data do not start with an underscore");
     encoding.appended = section->text.substr(start + 1);
+    encoding.appended_left = 2 * encoding.appended.size();
     encoding.appended_base64 = section->attribute("encoding") == "base64";
   }
   return encoding;
@@ -176,7 +183,8 @@ inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk
                                              std::uint64_t most) {
   std::string_view data = array.text;
   bool base64 = true;
-  if (array.attribute("format") == "appended") {
+  const bool appended = array.attribute("format") == "appended";
+  if (appended) {
     const auto offset = file_cursor(array.attribute("offset"), "offset").number<std::uint64_t>();
     if (offset > encoding.appended.size())
       throw input_error("its offset is behind the end of the appended data");
@@ -184,9 +192,13 @@ inline std::vector<std::uint8_t> array_bytes(const xml_element& array, const vtk
     base64 = encoding.appended_base64;
   }
   vtk_byte_source source(data, base64);
-  if (encoding.compressed)
-    return take_compressed(source, encoding, most);
-  return source.take(header_number(source, encoding));
+  auto bytes = encoding.compressed ? take_compressed(source, encoding, most)
+                                   : source.take(header_number(source, encoding));
+  const std::uint64_t taken = appended ? data.size() - source.rest().size() : 0;
+  if (taken > encoding.appended_left)
+    throw input_error("its data are those of other arrays too");
+  encoding.appended_left -= taken;
+  return bytes;
 }
 
 /// The value as an Out, or an error when it does not fit.

@@ -136,6 +136,8 @@ private:
     for (auto& array : mesh_.point_scalars)
       if (array.name == name)
         return array.values;
+    if (mesh_.point_scalars.size() == most_point_arrays)
+      throw input_error("there are more than " + std::to_string(most_point_arrays) + " arrays of points");
     mesh_.point_scalars.push_back({name, {}});
     return mesh_.point_scalars.back().values;
   }
@@ -266,6 +268,10 @@ inline std::vector<std::filesystem::path> pvtu_sources(const std::filesystem::pa
       sources.push_back(file.parent_path() / xml_unescaped(piece.attribute("Source")));
   if (sources.empty())
     throw input_error(file.string() + ": there is no <Piece>");
+  auto sorted = sources;
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+    throw input_error(file.string() + ": it names " + twice->string() + " twice");
   return sources;
 }
 

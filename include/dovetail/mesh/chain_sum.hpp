@@ -2,7 +2,7 @@
 /// Sums of oriented simplices, to compare chains without sorting them.
 #pragma once
 
-#include "dovetail/mesh/simplex.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 
 #include <array>
 #include <cstddef>

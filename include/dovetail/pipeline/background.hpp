@@ -16,22 +16,25 @@
 
 namespace dovetail {
 
+/// More elements than this no machine holds: each takes some hundred bytes.
+inline constexpr double most_elements = 1e12;
+
+/// A count with three digits.
+inline std::string rounded_count(double count) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", count);
+  return text;
+}
+
 /// The sizes ask for more elements than `generate_options::largest_prediction` allows.
 class too_many_elements : public sizing_error {
 public:
   too_many_elements(double predicted_elements, double limit)
-      : sizing_error("the sizes predict about " + rounded(predicted_elements) +
-                     " elements, more than the limit of " + rounded(limit) +
+      : sizing_error("the sizes predict about " + rounded_count(predicted_elements) +
+                     " elements, more than the limit of " + rounded_count(limit) +
                      "; give larger sizes or raise the limit"),
         predicted(predicted_elements) {}
   double predicted;
-
-private:
-  static std::string rounded(double count) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", count);
-    return text;
-  }
 };
 
 /// What is known before the background mesh: sizes of the mesh and of its decomposition.

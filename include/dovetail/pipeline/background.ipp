@@ -16,8 +16,9 @@
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <string>
 
 namespace dovetail {
@@ -36,7 +37,8 @@ inline void require_usable_size(const any_geometry& model, const erased_sizing& 
 inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
   const double plain = elements / per_subdomain;
   const double excess = std::max(1.0, elements / options.many_elements);
-  return std::max(1, static_cast<int>(std::lround(plain / std::sqrt(excess))));
+  constexpr double most = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(std::round(plain / std::sqrt(excess)), 1.0, most));
 }
 
 /// Whether a pair of coarse triangles crosses, as places to refine: a ball around both at half their size.
@@ -101,6 +103,9 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
   const auto of_dimension = [](double elements) {
     return D == 3 ? elements : std::pow(elements, static_cast<double>(D) / 3);
   };
+  if (!(predicted.elements <= most_elements))
+    throw sizing_error("the sizes predict about " + rounded_count(predicted.elements) +
+                       " elements, more than any machine can hold; give larger sizes");
   mesh_plan plan;
   plan.predicted_elements = predicted.elements;
   plan.relative_error = predicted.relative_error;

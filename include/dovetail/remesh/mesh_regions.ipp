@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/mesh/chain_sum.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/remesh/unwanted_chords.hpp"
@@ -48,25 +49,20 @@ inline patch_mesh mesh_without_chords(const any_surface_mesher& mesher, const an
 /// or is a segment. The sum of a hash of each, of opposite signs in opposite directions, is zero then.
 inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
   const auto frozen = static_cast<local_id>(boundary.labels.size());
-  std::uint64_t sum = 0;
-  const auto pass = [&](local_id a, local_id b) {
+  const auto pass = [&](chain_sum& sum, local_id a, local_id b) {
     const auto name = [&](local_id v) {
-      return v < frozen ? std::int64_t{boundary.labels[static_cast<std::size_t>(v)]} : ~std::int64_t{v};
+      return v < frozen ? boundary.labels[static_cast<std::size_t>(v)] : ~v;
     };
-    const std::int64_t from = name(a), to = name(b);
-    if (from == to)
-      return; // along a pole
-    content_hash side;
-    side.word(static_cast<std::uint64_t>(std::min(from, to)));
-    side.word(static_cast<std::uint64_t>(std::max(from, to)));
-    sum += from < to ? side.value() : -side.value();
+    if (name(a) != name(b)) // else along a pole
+      sum.add(simplex<1>{name(a), name(b)});
   };
+  chain_sum of_sides, of_segments;
   for (const simplex<2>& t : made.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      pass(t[k], t[(k + 1) % 3]);
+      pass(of_sides, t[k], t[(k + 1) % 3]);
   for (const auto& [a, b] : boundary.segments)
-    pass(b, a);
-  return sum == 0;
+    pass(of_segments, a, b);
+  return of_sides == of_segments;
 }
 
 /// Throws `mesher_error` when a mesh does not end at its region's boundary.

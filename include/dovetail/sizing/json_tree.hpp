@@ -104,6 +104,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t deepest = 64; ///< whoever walks through the tree does it by recursion
+
   bool number(double value) { return add({.type = json_value::kind::number, .number = value}); }
 
   json_value* place(json_value value) {
@@ -127,6 +129,9 @@ private:
     return true;
   }
   bool open(json_value::kind type) {
+    if (open_.size() == deepest)
+      throw input_error(file_ + ":" + std::to_string(*line_) + ": values are nested more than " +
+                        std::to_string(deepest) + " deep; this is no sizing file");
     open_.push_back(
         place({.type = type})); // its parent does not grow before it is closed: the pointer stays valid
     return true;
@@ -146,8 +151,8 @@ private:
 
 } // namespace detail
 
-/// Parses JSON text; `file` names it in messages. Throws `input_error` when it is not JSON, `sizing_error`
-/// when an object has a key twice; both name the line.
+/// Parses JSON text; `file` names it in messages. Throws `input_error` when it is not JSON or nested too
+/// deep, `sizing_error` when an object has a key twice; both name the line.
 inline json_value parse_json(const std::string& text, const std::string& file) {
   std::size_t line = 1;
   const char* begin = text.data();
