@@ -4,7 +4,6 @@
 #include "dovetail/mesher/cgal_surface.hpp"
 #include "dovetail/mesher/gmsh_surface.hpp"
 #include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
@@ -29,13 +28,12 @@ TopoDS_Shape drilled_and_dented() {
   return BRepAlgoAPI_Cut(drilled, BRepPrimAPI_MakeSphere(gp_Pnt(1.4, 0.8, 1), 0.35).Shape()).Shape();
 }
 
-auto in_four_pieces() {
-  return parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 4});
-}
-
 generated<3> mesh_by(const any_surface_mesher& mesher) {
   return generate<3>(occt_shape_from(drilled_and_dented()).model, uniform_size(0.12),
-                     in_four_pieces().with_surface_mesher(mesher));
+                     parameters<>{}
+                         .with_mesher(mesher::tetgen{})
+                         .with_surface_mesher(mesher)
+                         .with_options({.subdomains = 4}));
 }
 
 double volume_of(const distributed_mesh& mesh) {
@@ -81,11 +79,4 @@ TEST_CASE("tetrahedra inside a surface by every surface mesher: a valid mesh, wh
 
 TEST_CASE("a surface mesher whose result is not what it should be is found out, and the face named") {
   CHECK_THROWS_WITH_AS(mesh_by(leaves_a_hole{}), doctest::Contains("face 0: "), mesher_error);
-}
-
-TEST_CASE("a surface mesher that may not run in threads is refused there") {
-  const auto given = in_four_pieces().with_surface_mesher(mesher::gmsh_frontal{});
-  CHECK_THROWS_AS(generate<3>(occt_shape_from(drilled_and_dented()).model, uniform_size(0.12),
-                              given.with_executor(parallel::threads{2})),
-                  usage_error);
 }
