@@ -69,7 +69,7 @@ stop_after skeleton TERM mesh --model aircraft
 stop_after intersection TERM mesh --model aircraft
 stop_after 1 TERM mesh --model aircraft --executor serial
 stop_after planning TERM mesh --model combustor --dimension 2
-stop_after geometry TERM plan --model combustor
+stop_after 1 TERM plan --model combustor
 # A run that reacts to nothing any more: what it began to write is removed all the same.
 frozen=1
 stop_after geometry INT mesh --model aircraft
