@@ -14,6 +14,7 @@
 #include <doctest/doctest.h>
 
 #include <numbers>
+#include <utility>
 
 using namespace dovetail;
 
@@ -63,4 +64,24 @@ TEST_CASE("a background mesh of Mesh_3 serves the pipeline: a drilled block") {
   const TopoDS_Shape drill =
       BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0.8, 0.7, -1), gp_Dir(0, 0, 1)), 0.35, 3).Shape();
   check_from_mesh_3(BRepAlgoAPI_Cut(block, drill).Shape(), 0.1, 3 - std::numbers::pi * 0.35 * 0.35);
+}
+
+namespace {
+
+struct inverting_improver {
+  static constexpr improver_traits traits{};
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>&, const any_sizing&) const {
+    std::swap(mesh.elements.front()[0], mesh.elements.front()[1]);
+    return {};
+  }
+};
+
+} // namespace
+
+TEST_CASE("an improver that spoils the background mesh of Mesh_3 is named") {
+  const auto model = occt_shape_from(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 1.5, 1)).Shape()).model;
+  CHECK_THROWS_WITH_AS(
+      make_background_by(mesher::cgal_mesh_3{}, model, uniform_size(0.2),
+                         given.with_background_improver(any_improver<3>(inverting_improver{}, "mine"))),
+      doctest::Contains("background improver 'mine': "), mesher_error);
 }

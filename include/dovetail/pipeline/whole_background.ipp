@@ -6,9 +6,11 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
+#include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/kept_background.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <cstddef>
 #include <string>
@@ -50,8 +52,15 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
   result.summary.children.push_back(std::move(whole.summary));
   result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
-  result.summary.children.push_back(given.improve_background(
-      result.mesh.volume, {.points = static_cast<local_id>(result.mesh.surface.mesh.points.size())}, coarse));
+  if (given.improve_background) {
+    const mesher_input<3> frozen{outer_surface(result.mesh.surface, model.topology()), 0};
+    mesher_result<3> made{std::move(result.mesh.volume), {}};
+    result.summary.children.push_back(
+        detail::by_policy("background improver", given.improve_background.name(), [&] {
+          return detail::improve_checked<3>(made, frozen, given.improve_background, coarse);
+        }));
+    result.mesh.volume = std::move(made.mesh);
+  }
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
