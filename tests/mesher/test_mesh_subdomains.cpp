@@ -260,8 +260,11 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
     mesh_subdomains(
         piece_count,
         [](local_id s) {
-          if (s == 4)
+          if (s == 4) {
             ::kill(::getppid(), SIGKILL); // by its worker: the death of the parent ends the worker too
+            for (;;)                      // which must not finish the cube before
+              ::pause();
+          }
           return cube_number(s);
         },
         fan_mesher{}, counting_improver{}, unit_size, parallel::processes{1}, options);
