@@ -45,8 +45,9 @@ public:
     for (const directed_edge& edge : listed_) {
       const directed_edge back{edge[1], edge[0]};
       if (times(passed_, edge) > times(listed_, edge) || times(passed_, back) > times(listed_, back))
-        throw mesher_error("the elements overlap each other or the outside at the edge between boundary points " +
-                           std::to_string(edge[0]) + " and " + std::to_string(edge[1]));
+        throw mesher_error(
+            "the elements overlap each other or the outside at the edge between boundary points " +
+            std::to_string(edge[0]) + " and " + std::to_string(edge[1]));
       lost += times(passed_, edge) == 0 ? 1 : 0;
     }
     if (lost > 0)

@@ -41,7 +41,8 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
   for (simplex<D - 1>& side : made.boundary.elements)
     for (local_id& v : side)
       v = static_cast<local_id>(std::lower_bound(numbers.begin(), numbers.end(), v) - numbers.begin());
-  if constexpr (D == 2) // the skeleton's order along a line hangs on how the subdomains beside it are numbered
+  if constexpr (D ==
+                2) // the skeleton's order along a line hangs on how the subdomains beside it are numbered
     sort_all(made.boundary.elements);
   return made;
 }
