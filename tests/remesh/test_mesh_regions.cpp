@@ -19,14 +19,28 @@ namespace {
 
 const any_sizing coarse = [](vec3) { return 10.0; };
 
+/// Regions in a list, and the set made of them.
+struct listed_regions {
+  std::vector<surface_region> regions;
+  std::vector<content_key> surface_keys;
+
+  region_set set() const {
+    region_set made;
+    made.count = regions.size();
+    made.build = [listed = regions](std::size_t r) { return listed[r]; };
+    made.surface_of = [](const any_geometry&, std::size_t) { return contract::plane_at_run_time(); };
+    made.surface_keys = surface_keys;
+    return made;
+  }
+};
+
 /// Two quadrangles on one loop of four points, as the two sheets of a cushion: each needs a diagonal.
-region_set cushion() {
-  region_set both;
+listed_regions cushion() {
+  listed_regions both;
   surface_region sheet;
   contract::add_loop(sheet.boundary, remesh::plane_surface{}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1);
   both.regions = {sheet, sheet};
   both.regions[1].reversed = true;
-  both.surface_of = [](const any_geometry&, std::size_t) { return contract::plane_at_run_time(); };
   return both;
 }
 
@@ -49,15 +63,16 @@ const any_geometry model(plane_domain({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}}
 
 /// A set after `mesh_regions`.
 struct meshed_set {
+  listed_regions list;
   region_set set;
   meshed_regions result;
   std::vector<patch_mesh> meshes;
 
-  meshed_set(region_set given, const any_surface_mesher& mesher, const any_executor& run, int chords,
+  meshed_set(listed_regions given, const any_surface_mesher& mesher, const any_executor& run, int chords,
              batched_entities& store)
-      : set(std::move(given)),
+      : list(std::move(given)), set(list.set()),
         result(mesh_regions(model, set, mesher, coarse, {}, run, store, {.attempts = {.chords = chords}})),
-        meshes(set.regions.size()) {
+        meshes(set.count) {
     result.for_each(store, [&](std::size_t r, patch_mesh mesh) { meshes[r] = std::move(mesh); });
   }
 
@@ -65,7 +80,7 @@ struct meshed_set {
   std::map<std::array<local_id, 2>, std::set<std::size_t>> regions_at_chords() const {
     std::map<std::array<local_id, 2>, std::set<std::size_t>> regions;
     for (std::size_t r = 0; r < meshes.size(); ++r)
-      chord_finder(set.regions[r].boundary)
+      chord_finder(list.regions[r].boundary)
           .for_each(meshes[r].triangles, [&](std::size_t, const auto& chord) { regions[chord].insert(r); });
     return regions;
   }
@@ -75,7 +90,7 @@ batched_entities empty_store() {
   return batched_entities(std::make_shared<entity_store>());
 }
 
-meshed_set mesh_all(region_set set, const any_surface_mesher& mesher = {},
+meshed_set mesh_all(listed_regions set, const any_surface_mesher& mesher = {},
                     const any_executor& run = parallel::serial{}, int chords = 6) {
   auto store = empty_store();
   return {std::move(set), mesher, run, chords, store};
@@ -94,14 +109,14 @@ TEST_CASE("no two regions have the same chord, whether the mesher can avoid it o
       CHECK(regions.size() == 1);
     CHECK(made.meshes[0].triangles.size() == 2); // the first keeps its own
     CHECK(made.meshes[1].triangles.size() > 2);
-    CHECK(made.set.regions[1].boundary.forbidden_edges.size() == 1);
+    CHECK(made.set.forbidden_edges.at(1).size() == 1);
     for (const patch_mesh& mesh : made.meshes)
       CHECK(mesh.ok());
   }
 }
 
 TEST_CASE("a chord where another region has a line is forbidden to all") {
-  region_set set = cushion();
+  listed_regions set = cushion();
   surface_region& fin = set.regions.emplace_back(); // a triangle with a side across the first two
   contract::add_loop(fin.boundary, remesh::plane_surface{}, {{0, 0}, {1, 0}, {1, 1}}, 2);
   const auto made = mesh_all(std::move(set), careless{});
@@ -169,7 +184,7 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
     }
     return made;
   };
-  region_set set = cushion();
+  listed_regions set = cushion();
   set.regions[1].boundary = {};
   contract::add_loop(set.regions[1].boundary, remesh::plane_surface{}, {{0, 0}, {1, 0}, {1, 1}}, 2);
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{1})}) {
@@ -200,19 +215,19 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
 
 TEST_CASE("a mesh is made once for the same region, and again for another") {
   auto store = empty_store();
-  const auto made_with = [&](region_set set) {
+  const auto made_with = [&](listed_regions set) {
     const std::size_t before = store.made();
     meshed_set(std::move(set), any_surface_mesher(), parallel::serial{}, 0, store);
     return store.made() - before;
   };
-  region_set set = cushion(); // two alike
+  listed_regions set = cushion(); // two alike
   CHECK(made_with(set) == 2);
   CHECK(made_with(set) == 0);
   for (local_id& label : set.regions[0].boundary.labels)
     label += 7; // the numbers of labels do not count
   CHECK(made_with(set) == 0);
   const auto changed = [&](const auto& change) {
-    region_set other = cushion();
+    listed_regions other = cushion();
     change(other.regions[0]);
     return made_with(other);
   };
@@ -235,10 +250,10 @@ TEST_CASE("threads: the same meshes; a mesher that may not run there is refused"
 
 TEST_CASE("regions are joined by their labels, along the face") {
   const auto made = mesh_all(cushion(), careless{});
-  std::vector<vec3> points = made.set.regions[0].boundary.points;
+  std::vector<vec3> points = made.list.regions[0].boundary.points;
   double area = 0;
   for (std::size_t r = 0; r < 2; ++r)
-    append_region(made.set.regions[r], made.meshes[r], points, [&](const simplex<2>& t, const auto& uv) {
+    append_region(made.list.regions[r], made.meshes[r], points, [&](const simplex<2>& t, const auto& uv) {
       const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(t[k])]; };
       const double twice = cross(at(1) - at(0), at(2) - at(0)).z;
       CHECK((r == 0 ? twice > 0 : twice < 0)); // the second is reversed

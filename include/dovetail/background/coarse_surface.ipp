@@ -37,7 +37,8 @@ public:
   coarse_surface_result run() {
     const stopwatch clock;
     curves_ = space_curves(model_, size_, parameters_.turn, parameters_.smallest_fraction);
-    faces_.regions.resize(topology_.faces.size());
+    regions_.resize(topology_.faces.size());
+    faces_.count = regions_.size();
     faces_.surface_of = [](const any_geometry& own, std::size_t f) {
       return surface_of_face(own, static_cast<local_id>(f));
     };
@@ -72,11 +73,12 @@ private:
   /// New numbers of points change every face's labels.
   void build_regions() {
     origins_.clear();
+    faces_.forbidden_edges.clear();
     for (std::size_t f = 0; f < face_count(); ++f) {
       face_patch patch = make_face_patch(model_, static_cast<local_id>(f), curves_);
-      faces_.regions[f].boundary = std::move(patch.boundary);
-      faces_.regions[f].face = static_cast<local_id>(f);
-      faces_.regions[f].reversed = topology_.faces[f].reversed;
+      regions_[f].boundary = std::move(patch.boundary);
+      regions_[f].face = static_cast<local_id>(f);
+      regions_[f].reversed = topology_.faces[f].reversed;
       origins_.push_back(std::move(patch.origin));
     }
   }
@@ -138,7 +140,7 @@ private:
     if (!mesh.crossings.empty() || !mesh.misplaced.empty())
       return;
     halve_at_folds(f, halved);
-    faces_.regions[f].size_factor *= 0.8;
+    regions_[f].size_factor *= 0.8;
   }
 
   /// Halves the boundary segments that touch a folded triangle: mostly two curves of a narrow face whose
@@ -149,7 +151,7 @@ private:
     for (const local_id t : mesh.folded)
       touched.insert(mesh.triangles[at(t)].begin(), mesh.triangles[at(t)].end());
     for (std::size_t s = 0; s < origins_[f].size(); ++s) {
-      const auto& [a, b] = faces_.regions[f].boundary.segments[s];
+      const auto& [a, b] = regions_[f].boundary.segments[s];
       if (touched.contains(a) || touched.contains(b))
         halved.push_back(origins_[f][s]);
     }
@@ -160,7 +162,7 @@ private:
   bool separate_repeated_triangles(intervals& halved) const {
     std::set<simplex<2>> triangles;
     for (std::size_t f = 0; f < face_count(); ++f) {
-      const auto& labels = faces_.regions[f].boundary.labels;
+      const auto& labels = regions_[f].boundary.labels;
       const auto frozen = static_cast<local_id>(labels.size());
       for (simplex<2> triangle : meshes_[f].triangles) {
         if (std::any_of(triangle.begin(), triangle.end(), [&](local_id v) { return v >= frozen; }))
@@ -203,7 +205,7 @@ private:
     surface_mesh out;
     place_curve_points(out);
     for (std::size_t f = 0; f < face_count(); ++f) {
-      append_region(faces_.regions[f], meshes_[f], out.mesh.points,
+      append_region(regions_[f], meshes_[f], out.mesh.points,
                     [&](const simplex<2>& triangle, const std::array<vec2, 3>& uv) {
                       out.mesh.elements.push_back(triangle);
                       out.mesh.tags.push_back(static_cast<local_id>(f));
@@ -261,7 +263,8 @@ private:
   graded_balls balls_;
   any_sizing size_;
   curve_points curves_;
-  region_set faces_;
+  std::vector<surface_region> regions_; ///< the faces
+  region_set faces_{.count = 0, .build = [this](std::size_t f) { return regions_[f]; }, .surface_of = {}};
   batched_entities store_{std::make_shared<entity_store>()}; ///< faces away from what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces

@@ -40,14 +40,25 @@ struct region_attempts {
 patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surface,
                        const surface_region& region, const any_sizing& size, const region_attempts& attempts);
 
-/// Regions that share boundary points, by the same labels.
+/// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
+/// meshes, so each is built when it is needed and not held.
 struct region_set {
-  std::vector<surface_region> regions; ///< without `surface`
+  std::size_t count = 0;
+  std::function<surface_region(std::size_t)> build; ///< without `surface`; pure
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
   /// What the surface of each region is a function of beside its face and boundary; empty where there is
   /// nothing.
   std::vector<content_key> surface_keys = {};
+  /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
+  std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
+
+  surface_region region(std::size_t r) const {
+    surface_region built = build(r);
+    if (const auto more = forbidden_edges.find(r); more != forbidden_edges.end())
+      append(built.boundary.forbidden_edges, more->second);
+    return built;
+  }
 };
 
 /// Meshes of a `region_set`, in a store.
@@ -81,7 +92,7 @@ struct mesh_regions_options {
 
 /// Makes the meshes that are not in `store`, through the executor; then, while two regions have an inner edge
 /// between the same boundary points, or one where another's line is, forbids it to all but the first and
-/// makes those again (`boundary.forbidden_edges` tell). A mesh is a function of its region, of the sizes, of
+/// makes those again (`set.forbidden_edges` tell). A mesh is a function of its region, of the sizes, of
 /// which `field` is the key, of the model and the mesher; these two must be the same for all calls with a
 /// store. A region that fails keeps none of the others from being made. Throws `usage_error` when the mesher
 /// may not run in the threads of `run`.

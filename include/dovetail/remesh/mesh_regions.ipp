@@ -89,9 +89,13 @@ public:
                 const mesh_regions_options& options)
       : model_(model), set_(set), mesher_(mesher), size_(size), field_(field), run_(run), store_(store),
         options_(options) {
-    result_.keys.resize(set.regions.size());
-    for (std::size_t r = 0; r < set.regions.size(); ++r)
-      result_.keys[r] = key_of(r);
+    for (std::size_t r = 0; r < set.count; ++r) {
+      const surface_region region = set.region(r);
+      const auto segments = static_cast<double>(region.boundary.segments.size());
+      result_.keys.push_back(key_of(r, region));
+      costs_.push_back(segments +
+                       segments * segments / 5.4); // the triangles in a disk with so many around it
+    }
   }
 
   meshed_regions run() {
@@ -104,8 +108,7 @@ public:
 private:
   /// Labels are numbers of the present set; what counts of them is which points have the same one (poles),
   /// and which edges are forbidden.
-  content_key key_of(std::size_t r) const {
-    const surface_region& region = set_.regions[r];
+  content_key key_of(std::size_t r, const surface_region& region) const {
     const patch_boundary& b = region.boundary;
     std::map<local_id, local_id> first_with_label;
     std::vector<local_id> same_label;
@@ -127,12 +130,11 @@ private:
   /// In tasks of many regions; those of a task that fails are made once more when it is known which did.
   void make_missing() {
     std::vector<std::size_t> regions;
-    std::vector<double> costs; // the triangles in a disk with so many segments around it
-    for (std::size_t r = 0; r < result_.keys.size(); ++r)
+    std::vector<double> costs;
+    for (std::size_t r = 0; r < set_.count; ++r)
       if (!result_.failures.contains(r)) {
-        const auto segments = static_cast<double>(set_.regions[r].boundary.segments.size());
         regions.push_back(r);
-        costs.push_back(segments + segments * segments / 5.4);
+        costs.push_back(costs_[r]);
       }
     std::vector<content_key> keys;
     for (const std::size_t r : regions)
@@ -155,7 +157,7 @@ private:
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
     patch_mesh made =
-        mesh_region(mesher_, set_.surface_of(model, r), set_.regions[r], size_, options_.attempts);
+        mesh_region(mesher_, set_.surface_of(model, r), set_.region(r), size_, options_.attempts);
     if (!options_.parameters)
       made.inner_uv.clear();
     made.summary = {};
@@ -165,31 +167,43 @@ private:
   /// Forbids each chord to all regions that have it but the first, and to all of them where a segment joins
   /// the same labels; false when there is nothing to do.
   bool forbid_shared_chords() {
-    std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region + 1, or 0 for a line
-    for (const surface_region& region : set_.regions)
-      for (const auto& [a, b] : region.boundary.segments)
-        chords.emplace_back(sorted_vertices(simplex<1>{region.boundary.labels[static_cast<std::size_t>(a)],
-                                                       region.boundary.labels[static_cast<std::size_t>(b)]}),
-                            0);
-    sort_unique(chords); // most lines are of several regions
+    std::vector<simplex<1>> lines;
+    std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region
+    const auto add_lines = [&](const patch_boundary& boundary) {
+      for (const auto& [a, b] : boundary.segments)
+        lines.push_back(sorted_vertices(simplex<1>{boundary.labels[static_cast<std::size_t>(a)],
+                                                   boundary.labels[static_cast<std::size_t>(b)]}));
+    };
+    for (const auto& [r, reason] : result_.failures)
+      add_lines(set_.build(r).boundary);
     result_.for_each(store_, [&](std::size_t r, const patch_mesh& mesh) {
-      chord_finder(set_.regions[r].boundary)
-          .for_each(mesh.triangles,
-                    [&](std::size_t, const simplex<1>& chord) { chords.emplace_back(chord, r + 1); });
+      const surface_region region = set_.build(r);
+      add_lines(region.boundary);
+      chord_finder(region.boundary).for_each(mesh.triangles, [&](std::size_t, const simplex<1>& chord) {
+        chords.emplace_back(chord, r);
+      });
     });
+    sort_unique(lines);
     sort_unique(chords);
     std::set<std::size_t> changed;
-    for (std::size_t i = 1; i < chords.size(); ++i)
-      if (chords[i].first == chords[i - 1].first) {
-        auto& forbidden = set_.regions[chords[i].second - 1].boundary.forbidden_edges;
-        if (std::find(forbidden.begin(), forbidden.end(), chords[i].first) != forbidden.end())
-          continue;
-        forbidden.push_back(chords[i].first);
-        changed.insert(chords[i].second - 1);
-      }
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const auto& [chord, r] = chords[i];
+      const bool another_has_it = i > 0 && chords[i - 1].first == chord;
+      if ((another_has_it || std::binary_search(lines.begin(), lines.end(), chord)) && forbid(r, chord))
+        changed.insert(r);
+    }
     for (const std::size_t r : changed)
-      result_.keys[r] = key_of(r);
+      result_.keys[r] = key_of(r, set_.region(r));
     return !changed.empty();
+  }
+
+  /// False when it is forbidden already.
+  bool forbid(std::size_t r, const simplex<1>& chord) {
+    const auto before = set_.region(r).boundary.forbidden_edges;
+    if (std::find(before.begin(), before.end(), chord) != before.end())
+      return false;
+    set_.forbidden_edges[r].push_back(chord);
+    return true;
   }
 
   const any_geometry& model_;
@@ -200,6 +214,7 @@ private:
   const any_executor& run_;
   batched_entities& store_;
   const mesh_regions_options& options_;
+  std::vector<double> costs_;
   meshed_regions result_;
 };
 

@@ -30,7 +30,6 @@ public:
     lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, field_, run_, store_.lines,
                            on_progress_);
     const double line_seconds = clock.seconds();
-    build_patches();
     mesh_patches();
     remeshed_skeleton result = assemble();
     result.summary.name = "skeleton";
@@ -48,40 +47,49 @@ public:
 
 private:
   static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  std::size_t patch_count() const { return skeleton_.regions.size() + skeleton_.faces.size(); }
   bool is_region(std::size_t patch) const { return patch < skeleton_.regions.size(); }
   const skeleton_face& face_of(std::size_t patch) const {
     return skeleton_.faces[patch - skeleton_.regions.size()];
   }
 
-  void build_patches() {
-    const auto add = [&](skeleton_patch patch, local_id face, bool reversed) {
-      surface_region& region = patches_.regions.emplace_back();
-      region.boundary = std::move(patch.boundary);
-      region.face = face;
-      region.reversed = reversed;
-      line_of_segment_.push_back(std::move(patch.line_of_segment));
-    };
-    patches_.surface_keys.resize(skeleton_.regions.size());
-    for (const skeleton_region& region : skeleton_.regions)
-      add(region_patch(model_, surface_, region, lines_), region.cad_face,
-          model_.topology().faces[at(region.cad_face)].reversed);
-    for (const skeleton_face& face : skeleton_.faces) {
-      add(interface_patch(face, coarse_points_, lines_).patch, no_id,
-          !same_turn(key_order(face), face.vertices));
-      std::vector<vec3> corners;
-      for (const local_id v : key_order(face))
-        corners.push_back(coarse_points_[at(v)]);
-      patches_.surface_keys.push_back(key_maker{}(corners).key());
+  skeleton_patch patch(std::size_t p) const {
+    return is_region(p) ? region_patch(model_, surface_, skeleton_.regions[p], lines_)
+                        : interface_patch(face_of(p), coarse_points_, lines_).patch;
+  }
+
+  surface_region region(std::size_t p) const {
+    surface_region built;
+    built.boundary = patch(p).boundary;
+    if (is_region(p)) {
+      built.face = skeleton_.regions[p].cad_face;
+      built.reversed = model_.topology().faces[at(built.face)].reversed;
+    } else {
+      built.reversed = !same_turn(key_order(face_of(p)), face_of(p).vertices);
     }
-    patches_.surface_of = [this](const any_geometry& own, std::size_t p) {
+    return built;
+  }
+
+  region_set patches() const {
+    region_set set;
+    set.count = skeleton_.regions.size() + skeleton_.faces.size();
+    set.build = [this](std::size_t p) { return region(p); };
+    set.surface_of = [this](const any_geometry& own, std::size_t p) {
       return is_region(p) ? surface_of_face(own, skeleton_.regions[p].cad_face)
                           : any_surface::holding(interface_patch(face_of(p), coarse_points_, lines_).surface);
     };
+    set.surface_keys.resize(skeleton_.regions.size());
+    for (const skeleton_face& face : skeleton_.faces) {
+      std::vector<vec3> corners;
+      for (const local_id v : key_order(face))
+        corners.push_back(coarse_points_[at(v)]);
+      set.surface_keys.push_back(key_maker{}(corners).key());
+    }
+    return set;
   }
 
   void mesh_patches() {
-    meshed_ = mesh_regions(model_, patches_, mesher_, size_, field_, run_, store_.patches,
+    region_set set = patches();
+    meshed_ = mesh_regions(model_, set, mesher_, size_, field_, run_, store_.patches,
                            {.parameters = false, .on_progress = on_progress_, .stage = "skeleton"});
     if (!meshed_.failures.empty()) {
       const auto& [patch, reason] = *meshed_.failures.begin();
@@ -100,9 +108,9 @@ private:
   remeshed_skeleton assemble() {
     remeshed_skeleton result;
     fine_skeleton& fine = result.fine;
-    fine.points = std::move(lines_.points);
-    fine.point_hosts = std::move(lines_.hosts);
     reserve(fine);
+    append(fine.points, lines_.points); // boundaries are still made of them
+    append(fine.point_hosts, lines_.hosts);
     double folded = 0;
     meshed_.for_each(store_.patches, [&](std::size_t p, const patch_mesh& mesh) {
       if (!mesh.crossings.empty() || !mesh.misplaced.empty())
@@ -126,7 +134,7 @@ private:
 
   /// Exactly: what grows by doubling holds up to twice as much, and both copies as it grows.
   void reserve(fine_skeleton& fine) const {
-    std::size_t points = fine.points.size(), triangles = 0;
+    std::size_t points = lines_.points.size(), triangles = 0;
     meshed_.for_each(store_.patches, [&](std::size_t, const patch_mesh& mesh) {
       points += mesh.inner_points.size();
       triangles += mesh.triangles.size();
@@ -142,12 +150,13 @@ private:
     patch_failure failure;
     (is_region(p) ? failure.region : failure.face) =
         static_cast<local_id>(is_region(p) ? p : p - skeleton_.regions.size());
+    const std::vector<local_id> line_of_segment = patch(p).line_of_segment;
     std::set<local_id> lines;
     for (const auto& [a, b] : mesh.crossings)
       for (const local_id segment : {a, b})
-        lines.insert(line_of_segment_[p][at(segment)]);
+        lines.insert(line_of_segment[at(segment)]);
     for (const local_id segment : mesh.misplaced)
-      lines.insert(line_of_segment_[p][at(segment)]);
+      lines.insert(line_of_segment[at(segment)]);
     for (const local_id line : lines)
       if (line != no_id && lines_.keys[at(line)].on.dimension > 1)
         failure.removable_lines.push_back(line);
@@ -162,14 +171,14 @@ private:
     const bool bounds_nothing_behind = subdomains[0] == no_id;
     if (bounds_nothing_behind)
       std::swap(subdomains[0], subdomains[1]);
-    append_region(patches_.regions[p], mesh, fine.points,
-                  [&](simplex<2> triangle, const std::array<vec2, 3>&) {
-                    if (bounds_nothing_behind)
-                      std::swap(triangle[1], triangle[2]);
-                    fine.triangles.push_back(triangle);
-                    fine.subdomains.push_back(subdomains);
-                    fine.cad_faces.push_back(patches_.regions[p].face);
-                  });
+    const surface_region patched = region(p);
+    append_region(patched, mesh, fine.points, [&](simplex<2> triangle, const std::array<vec2, 3>&) {
+      if (bounds_nothing_behind)
+        std::swap(triangle[1], triangle[2]);
+      fine.triangles.push_back(triangle);
+      fine.subdomains.push_back(subdomains);
+      fine.cad_faces.push_back(patched.face);
+    });
     fine.point_hosts.resize(fine.points.size(),
                             is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
   }
@@ -193,8 +202,6 @@ private:
   skeleton_store& store_;
   const progress& on_progress_;
   numbered_lines lines_;
-  region_set patches_;
-  std::vector<std::vector<local_id>> line_of_segment_; ///< of each patch; no_id at a pole
   meshed_regions meshed_;
 };
 
