@@ -54,8 +54,8 @@ vec3 center_of(const std::array<vec3, 3>& p) {
 std::vector<vec3> centers_of_subdomains(const fine_skeleton& skeleton) {
   std::vector<vec3> sums;
   std::vector<double> areas;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
-    const auto p = corners(std::span(skeleton.points), skeleton.triangles[t]);
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
+    const auto p = corners(std::span(skeleton.points), skeleton.sides[t]);
     const double area = norm(cross(p[1] - p[0], p[2] - p[0]));
     for (const local_id s : skeleton.subdomains[t]) {
       if (s == no_id)
@@ -89,9 +89,9 @@ void add_outline(raster_scene& scene, const fine_skeleton& skeleton) {
 }
 
 void add_outline(raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
-  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
-    if (skeleton.curves[e] != no_id)
-      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), outline, 0.8});
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    if (skeleton.side_hosts[e] != no_id)
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), outline, 0.8});
 }
 
 /// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.
@@ -177,15 +177,15 @@ raster_image picture_of_decomposition(const generated<3>& result) {
     box.include(p);
   const std::vector<vec3> centers = centers_of_subdomains(skeleton);
   raster_scene scene;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
     for (const local_id s : skeleton.subdomains[t]) {
       if (s == no_id)
         continue;
-      auto p = corners(std::span(skeleton.points), skeleton.triangles[t]);
+      auto p = corners(std::span(skeleton.points), skeleton.sides[t]);
       for (vec3& corner : p)
         corner += explosion * (centers[static_cast<std::size_t>(s)] - box.center());
       scene.triangles.push_back({p, colour_of_subdomain(s)});
-      if (skeleton.triangles.size() < few_triangles)
+      if (skeleton.sides.size() < few_triangles)
         add_edges(scene, p);
     }
   return rendered(scene);
@@ -217,9 +217,9 @@ raster_image picture_of_interfaces(const generated<3>& result) {
   raster_scene scene;
   add_outline(scene, skeleton);
   std::vector<std::array<vec3, 3>> interfaces;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
-    if (skeleton.cad_faces[t] == no_id) {
-      interfaces.push_back(corners(std::span(skeleton.points), skeleton.triangles[t]));
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
+    if (skeleton.side_hosts[t] == no_id) {
+      interfaces.push_back(corners(std::span(skeleton.points), skeleton.sides[t]));
       const auto& [first, second] = skeleton.subdomains[t];
       scene.triangles.push_back({interfaces.back(), colour_of_subdomain(first + 3 * second)});
     }
@@ -239,7 +239,7 @@ raster_image picture_of_interfaces(const generated<3>& result) {
       mark(violation.edge[0], violation.edge[1]);
       continue;
     }
-    const auto& triangle = skeleton.triangles[static_cast<std::size_t>(violation.sides[0])];
+    const auto& triangle = skeleton.sides[static_cast<std::size_t>(violation.sides[0])];
     for (std::size_t k = 0; k < 3; ++k)
       mark(triangle[k], triangle[(k + 1) % 3]);
   }
@@ -251,9 +251,9 @@ raster_image picture_of_interfaces(const generated<2>& result) {
   const simplicial_skeleton<2>& skeleton = result.mesh.skeleton;
   raster_scene scene;
   add_outline(scene, skeleton);
-  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
-    if (skeleton.curves[e] == no_id)
-      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.edges[e]), blue, 1.5});
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    if (skeleton.side_hosts[e] == no_id)
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), blue, 1.5});
   const vec3 from = direction_to_viewer(scene);
   const double diagonal = scene.bounds().diagonal();
   const raster_view view = view_from(from);

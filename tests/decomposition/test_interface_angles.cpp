@@ -152,15 +152,15 @@ TEST_CASE("the place and the cause of a violation are named") {
 TEST_CASE("the summary has the counters of the driver's report and names the worst place") {
   fine_skeleton skeleton; // a flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface
   skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};
-  skeleton.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  skeleton.sides = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   skeleton.subdomains = {{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
-  skeleton.cad_faces = {no_id, 5, 5, 5};
+  skeleton.side_hosts = {no_id, 5, 5, 5};
   const std::vector<std::uint8_t> refused{1, 0, 0, 0};
   for (const bool known : {false, true}) {
     const auto origins = triangle_origins(skeleton, known ? std::span<const std::uint8_t>(refused)
                                                           : std::span<const std::uint8_t>());
     const auto angles =
-        measure_interface_angles({skeleton.points, skeleton.triangles, skeleton.subdomains, origins});
+        measure_interface_angles({skeleton.points, skeleton.sides, skeleton.subdomains, origins});
     const report summary = summarize(angles, "interfaces");
     CHECK(summary.get("faces") == 1);
     CHECK(summary.get("min_face_angle_deg") == doctest::Approx(45));

@@ -12,9 +12,9 @@ fine_skeleton three_triangles() {
   fine_skeleton skeleton;
   skeleton.points = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.2, 1},
                      {9, 9, 0}, {8, 8, -1}, {9, 8, 1}, {8, 9, 1}};
-  skeleton.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  skeleton.sides = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   skeleton.subdomains = {{0, 1}, {2, 3}, {4, 5}};
-  skeleton.cad_faces = {no_id, no_id, no_id};
+  skeleton.side_hosts = {no_id, no_id, no_id};
   return skeleton;
 }
 
@@ -25,7 +25,7 @@ std::size_t crossings(const known_apart& known) {
 
 box3 box_around(const fine_skeleton& skeleton, std::size_t triangle) {
   box3 box;
-  for (const local_id v : skeleton.triangles[triangle])
+  for (const local_id v : skeleton.sides[triangle])
     box.include(skeleton.points[static_cast<std::size_t>(v)]);
   return box;
 }

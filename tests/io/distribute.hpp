@@ -64,10 +64,10 @@ std::vector<local_id> cut_skeleton(const simplicial_mesh<3>& mesh, const std::ve
       triangle[k] = s;
       edges.push_back({first.key[k == 2 ? 1 : 0], first.key[k == 0 ? 1 : 2]});
     }
-    skeleton.triangles.push_back(triangle);
+    skeleton.sides.push_back(triangle);
     skeleton.subdomains.push_back({first.subdomain, other});
     const auto on = host_of(first.side);
-    skeleton.cad_faces.push_back(on.dimension == 2 ? on.id : no_id);
+    skeleton.side_hosts.push_back(on.dimension == 2 ? on.id : no_id);
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -80,15 +80,15 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
       for (auto& v : e)
         v = place[static_cast<std::size_t>(v)];
     with_sheet.load = [changed](local_id) { return changed; };
-    with_sheet.skeleton.triangles.push_back(triangle);
+    with_sheet.skeleton.sides.push_back(triangle);
     with_sheet.skeleton.subdomains.push_back({0, 0});
-    with_sheet.skeleton.cad_faces.push_back(99);
+    with_sheet.skeleton.side_hosts.push_back(99);
     auto found = io::check_distributed(with_sheet);
     INFO(found.text());
     CHECK(found.valid());
 
     auto elsewhere = with_sheet; // a sheet on points that are no side
-    elsewhere.skeleton.triangles.back()[0] = (triangle[0] + 17) % 60;
+    elsewhere.skeleton.sides.back()[0] = (triangle[0] + 17) % 60;
     found = io::check_distributed(elsewhere);
     CHECK(seam_kinds(found) == std::vector{io::seam_fault::missing_triangle});
   }
@@ -114,12 +114,12 @@ TEST_CASE("pieces that fit by their points but not by their triangles are found"
   // Flip the diagonal of one skeleton quadrilateral: both its triangles are then no sides of the pieces.
   auto mesh = cubes.distributed();
   auto& skeleton = mesh.skeleton;
-  for (std::size_t a = 0; a < skeleton.triangles.size(); ++a)
+  for (std::size_t a = 0; a < skeleton.sides.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       if (skeleton.subdomains[a] != skeleton.subdomains[b] || skeleton.subdomains[a][1] == no_id)
         continue;
-      auto& s = skeleton.triangles[a];
-      auto& t = skeleton.triangles[b];
+      auto& s = skeleton.sides[a];
+      auto& t = skeleton.sides[b];
       for (int turn = 0; turn < 9; ++turn) {
         if (s[0] == t[1] && s[1] == t[0]) {
           const auto left = s[2], right = t[2];
@@ -141,7 +141,7 @@ TEST_CASE("pieces that fit by their points but not by their triangles are found"
 
 TEST_CASE("a skeleton triangle turned inside out is found") {
   auto mesh = cubes.distributed();
-  std::swap(mesh.skeleton.triangles[0][0], mesh.skeleton.triangles[0][1]);
+  std::swap(mesh.skeleton.sides[0][0], mesh.skeleton.sides[0][1]);
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
 

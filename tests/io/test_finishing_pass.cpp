@@ -159,9 +159,9 @@ TEST_CASE("a piece that does not fit is an error that names it, and the files st
           "inverted element (17)");
   refused(spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
   auto lost = cubes.distributed();
-  for (std::size_t t = 0; t < lost.skeleton.triangles.size(); ++t)
+  for (std::size_t t = 0; t < lost.skeleton.sides.size(); ++t)
     if (lost.skeleton.subdomains[t] == std::array<local_id, 2>{3, no_id}) {
-      std::swap(lost.skeleton.triangles[t][0], lost.skeleton.triangles[t][1]);
+      std::swap(lost.skeleton.sides[t][0], lost.skeleton.sides[t][1]);
       refused(lost, ("missing skeleton side (first: " + std::to_string(t)).c_str());
       break;
     }

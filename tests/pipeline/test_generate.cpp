@@ -126,14 +126,14 @@ TEST_CASE("two materials share the triangles of their common face, and no subdom
   CHECK(volume_of(result.mesh) == doctest::Approx(1 + 0.48).epsilon(1e-9));
   double between_materials = 0;
   const fine_skeleton& skeleton = result.mesh.skeleton;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
     const auto [a, b] = skeleton.subdomains[t];
     if (b == no_id || result.mesh.counts[static_cast<std::size_t>(a)].material ==
                           result.mesh.counts[static_cast<std::size_t>(b)].material)
       continue;
-    CHECK(skeleton.cad_faces[t] != no_id);
+    CHECK(skeleton.side_hosts[t] != no_id);
     const auto at = [&](std::size_t i) {
-      return skeleton.points[static_cast<std::size_t>(skeleton.triangles[t][i])];
+      return skeleton.points[static_cast<std::size_t>(skeleton.sides[t][i])];
     };
     between_materials += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   }
@@ -157,10 +157,10 @@ TEST_CASE("points lie on the CAD entities that they are said to lie on") {
   const fine_skeleton& skeleton = result.mesh.skeleton;
   const double tolerance = 1e-9 * model.bounds().diagonal();
   int on_cylinder = 0;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
-    if (skeleton.cad_faces[t] == no_id)
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
+    if (skeleton.side_hosts[t] == no_id)
       continue;
-    for (const local_id v : skeleton.triangles[t]) {
+    for (const local_id v : skeleton.sides[t]) {
       const vec3 p = skeleton.points[static_cast<std::size_t>(v)];
       const double from_axis = std::hypot(p.x - 0.8, p.y - 0.7);
       const bool on_box = std::abs(p.x) < tolerance || std::abs(p.x - 2) < tolerance ||
@@ -231,7 +231,7 @@ TEST_CASE("a run in the spool of an earlier one makes nothing again") {
   CHECK(stages[3].get("patches_made") == 0);
   CHECK(stages[5].get("reused") == static_cast<double>(second.mesh.counts.size()));
   CHECK(second.mesh.skeleton.points == first.mesh.skeleton.points);
-  CHECK(second.mesh.skeleton.triangles == first.mesh.skeleton.triangles);
+  CHECK(second.mesh.skeleton.sides == first.mesh.skeleton.sides);
   CHECK(second.plan.predicted_elements == first.plan.predicted_elements);
 }
 

@@ -93,8 +93,8 @@ double length_along(const generated<2>& result, vec3 from, vec3 to) {
   };
   std::set<simplex<1>> edges;
   double sum = 0;
-  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
-    if (const auto [a, b] = skeleton.edges[e]; skeleton.curves[e] != no_id && is_on(a) && is_on(b))
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    if (const auto [a, b] = skeleton.sides[e]; skeleton.side_hosts[e] != no_id && is_on(a) && is_on(b))
       if (edges.insert({std::min(a, b), std::max(a, b)}).second)
         sum += distance(skeleton.points[static_cast<std::size_t>(a)],
                         skeleton.points[static_cast<std::size_t>(b)]);

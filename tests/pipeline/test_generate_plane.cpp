@@ -1,6 +1,7 @@
 #include "plane_meshes.hpp"
 
 #include "dovetail/geometry/plane_read.hpp"
+#include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/threads.hpp"
 
@@ -39,8 +40,9 @@ TEST_CASE("a square with a hole and an inner line: area, hole and line are kept"
         doctest::Approx(result.plan.predicted_elements).epsilon(0.1));
   double along_line = 0;
   const auto& skeleton = result.mesh.skeleton;
-  for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
-    if (const auto [a, b] = skeleton.edges[e]; skeleton.curves[e] >= 8) // the square and the hole have eight
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    if (const auto [a, b] = skeleton.sides[e];
+        skeleton.side_hosts[e] >= 8) // the square and the hole have eight
       along_line += distance(skeleton.points[static_cast<std::size_t>(a)],
                              skeleton.points[static_cast<std::size_t>(b)]);
   CHECK(along_line == doctest::Approx(std::hypot(0.2, 0.5) + std::hypot(0.1, 0.1)));

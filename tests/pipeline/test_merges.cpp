@@ -69,14 +69,14 @@ struct decomposed_shell {
 fine_skeleton crossing_triangles_on(local_id first_face, local_id second_face) {
   fine_skeleton skeleton;
   skeleton.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {-3, -3, 0.5}};
-  skeleton.triangles = {{0, 1, 2}, {3, 4, 5}};
+  skeleton.sides = {{0, 1, 2}, {3, 4, 5}};
   skeleton.subdomains = {{2, 7}, {1, 9}};
-  skeleton.cad_faces = {first_face, second_face};
+  skeleton.side_hosts = {first_face, second_face};
   return skeleton;
 }
 
 suppression_plan plan_for(const fine_skeleton& skeleton, bool planar = false) {
-  return plan_suppression(skeleton, std::vector<bool>(skeleton.triangles.size(), planar), parallel::serial{});
+  return plan_suppression(skeleton, std::vector<bool>(skeleton.sides.size(), planar), parallel::serial{});
 }
 
 using pairs = std::vector<std::array<local_id, 2>>;

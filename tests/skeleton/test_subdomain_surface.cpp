@@ -11,9 +11,9 @@ namespace {
 simplicial_skeleton<2> line_between(local_id first, local_id second, bool backwards) {
   simplicial_skeleton<2> skeleton;
   skeleton.points = {{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {2, 0, 0}};
-  skeleton.edges = {{0, 2}, {2, 3}, {3, 1}};
+  skeleton.sides = {{0, 2}, {2, 3}, {3, 1}};
   if (backwards)
-    skeleton.edges = {{1, 3}, {3, 2}, {2, 0}};
+    skeleton.sides = {{1, 3}, {3, 2}, {2, 0}};
   skeleton.subdomains = {{first, second}, {first, second}, {first, second}};
   return skeleton;
 }

@@ -165,9 +165,9 @@ DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const subdomain_bo
 
 DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
                                                               std::span<const std::uint8_t> from_refused) {
-  std::vector<triangle_origin> origins(skeleton.triangles.size(), triangle_origin::cad);
+  std::vector<triangle_origin> origins(skeleton.sides.size(), triangle_origin::cad);
   for (std::size_t t = 0; t < origins.size(); ++t)
-    if (skeleton.cad_faces[t] == no_id)
+    if (skeleton.side_hosts[t] == no_id)
       origins[t] =
           !from_refused.empty() && from_refused[t] != 0 ? triangle_origin::refused : triangle_origin::kept;
   return origins;

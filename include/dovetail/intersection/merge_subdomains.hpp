@@ -103,10 +103,10 @@ template <int D>
 std::vector<std::array<local_id, 2>> merges_of_failed(const simplicial_skeleton<D>& skeleton,
                                                       const std::vector<local_id>& failed) {
   std::map<std::array<local_id, 2>, double> shared; // {failed, neighbour}
-  const auto& sides = sides_of(skeleton);
+  const auto& sides = skeleton.sides;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = skeleton.subdomains[s];
-    if ((D == 3 && hosts_of_sides(skeleton)[s] != no_id) || b == no_id || a == b)
+    if ((D == 3 && skeleton.side_hosts[s] != no_id) || b == no_id || a == b)
       continue;
     const double measure = detail::measure_of_side<D>(skeleton.points, sides[s]);
     shared[{a, b}] += measure;

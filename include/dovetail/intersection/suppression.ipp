@@ -19,10 +19,10 @@ namespace detail {
 inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
   const box_tree others(known.around_others);
   std::vector<local_id> near;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
     bool is_near = !known.triangles[t];
     if (!is_near) {
-      const box3 box = box_of(skeleton.points, skeleton.triangles[t]);
+      const box3 box = box_of(skeleton.points, skeleton.sides[t]);
       others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
                       [&](local_id other) {
                         is_near =
@@ -45,12 +45,12 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
   };
   if (known.triangles.empty())
     return crossing_triangles(
-        skeleton.points, skeleton.triangles, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
+        skeleton.points, skeleton.sides, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
         parameters);
   const std::vector<local_id> near = triangles_to_search(skeleton, known);
   std::vector<simplex<2>> triangles;
   for (const local_id t : near)
-    triangles.push_back(skeleton.triangles[static_cast<std::size_t>(t)]);
+    triangles.push_back(skeleton.sides[static_cast<std::size_t>(t)]);
   const auto of_all = [&](local_id k) { return near[static_cast<std::size_t>(k)]; };
   auto pairs = crossing_triangles(
       skeleton.points, triangles,
@@ -75,10 +75,10 @@ DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
   std::set<std::array<local_id, 2>> merges;
   for (const auto& [first, second] : pairs) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-    const bool inner_i = skeleton.cad_faces[i] == no_id, inner_j = skeleton.cad_faces[j] == no_id;
+    const bool inner_i = skeleton.side_hosts[i] == no_id, inner_j = skeleton.side_hosts[j] == no_id;
     if (!inner_i && !inner_j)
       plan.surface_crossings.push_back(
-          detail::describe_crossing(skeleton.points, skeleton.triangles, skeleton.cad_faces, i, j));
+          detail::describe_crossing(skeleton.points, skeleton.sides, skeleton.side_hosts, i, j));
     else if (inner_i && inner_j)
       merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
     else

@@ -39,13 +39,13 @@ inline double total_volume(const simplicial_mesh<3>& mesh) {
 /// The area of each CAD face of a skeleton, up to the highest number that occurs.
 inline std::vector<double> face_areas(const fine_skeleton& skeleton) {
   std::vector<double> areas;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t) {
-    if (skeleton.cad_faces[t] == no_id)
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
+    if (skeleton.side_hosts[t] == no_id)
       continue;
-    const auto f = static_cast<std::size_t>(skeleton.cad_faces[t]);
+    const auto f = static_cast<std::size_t>(skeleton.side_hosts[t]);
     if (f >= areas.size())
       areas.resize(f + 1, 0.0);
-    const auto p = corners(span_of(skeleton.points), skeleton.triangles[t]);
+    const auto p = corners(span_of(skeleton.points), skeleton.sides[t]);
     areas[f] += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
   }
   return areas;

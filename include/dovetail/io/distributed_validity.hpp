@@ -101,7 +101,7 @@ std::vector<oriented_side<D>> expected_sides(const simplicial_skeleton<D>& skele
   std::vector<oriented_side<D>> sides;
   for (std::size_t i = 0; i < listed.size(); ++i) {
     const auto t = static_cast<std::size_t>(listed[i]);
-    auto vertices = sides_of(skeleton)[t];
+    auto vertices = skeleton.sides[t];
     const bool second_side_of_sheet = i > 0 && listed[i - 1] == listed[i];
     if (skeleton.subdomains[t][0] != subdomain || second_side_of_sheet)
       std::swap(vertices[D - 2], vertices[D - 1]);

@@ -16,7 +16,7 @@ namespace dovetail::io::detail {
 inline void write_lines_vtp(output_file& file, const distributed_simplicial_mesh<2>& mesh) {
   const auto& skeleton = mesh.skeleton;
   const auto points = skeleton.points.size();
-  const auto cells = skeleton.edges.size();
+  const auto cells = skeleton.sides.size();
   appended_layout layout(file);
   file.text(vtk_xml_opening("PolyData") + "<PolyData>\n<Piece NumberOfPoints=\"" + std::to_string(points) +
             "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(cells) +
@@ -34,9 +34,9 @@ inline void write_lines_vtp(output_file& file, const distributed_simplicial_mesh
   file.text("</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
   append_values(file, span_of(skeleton.points));
   append_computed<global_id>(file, points, [](auto i) { return static_cast<global_id>(i); });
-  append_values(file, span_of(skeleton.edges));
+  append_values(file, span_of(skeleton.sides));
   append_computed<local_id>(file, cells, [](auto i) { return static_cast<local_id>(2 * (i + 1)); });
-  append_values(file, span_of(skeleton.curves));
+  append_values(file, span_of(skeleton.side_hosts));
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[i][0]; });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[i][1]; });
   file.text("\n</AppendedData>\n</VTKFile>\n");

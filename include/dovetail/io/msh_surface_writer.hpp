@@ -69,10 +69,10 @@ private:
   /// Each CAD edge once; several records stand for a line of other than two triangles.
   static std::vector<std::array<local_id, 3>> curve_edges(const simplicial_skeleton<2>& skeleton) {
     std::vector<std::array<local_id, 3>> edges; // curve, from, to
-    for (std::size_t e = 0; e < skeleton.edges.size(); ++e)
-      if (skeleton.curves[e] != no_id) {
-        const auto ends = sorted_vertices(skeleton.edges[e]);
-        edges.push_back({skeleton.curves[e], ends[0], ends[1]});
+    for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+      if (skeleton.side_hosts[e] != no_id) {
+        const auto ends = sorted_vertices(skeleton.sides[e]);
+        edges.push_back({skeleton.side_hosts[e], ends[0], ends[1]});
       }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -47,9 +47,9 @@ inline void keep_distinct(point_faces& pairs) {
 /// The faces: triangles with the same CAD face (or none) and the same subdomains at their sides.
 inline void classify_triangles(skeleton_entities& entities, const distributed_mesh& mesh) {
   entity_numbering faces(entities.of_dimension[2]);
-  for (std::size_t t = 0; t < mesh.skeleton.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.skeleton.sides.size(); ++t) {
     const auto [behind, front] = mesh.skeleton.subdomains[t];
-    const auto f = mesh.skeleton.cad_faces[t];
+    const auto f = mesh.skeleton.side_hosts[t];
     std::vector<local_id> sharers{behind};
     if (front != no_id && front != behind)
       sharers.insert(front < behind ? sharers.begin() : sharers.end(), front);
@@ -91,9 +91,9 @@ inline point_faces classify_edges(skeleton_entities& entities, const distributed
   entity_numbering lines(entities.of_dimension[1]);
   const auto face_of = [&](std::uint32_t half_edge) { return entities.of_triangle[half_edge / 3]; };
   for_each_group<2>(
-      3 * skeleton.triangles.size(), skeleton.points.size(),
+      3 * skeleton.sides.size(), skeleton.points.size(),
       [&](std::size_t i) {
-        const auto& triangle = skeleton.triangles[i / 3];
+        const auto& triangle = skeleton.sides[i / 3];
         return sorted_vertices(simplex<1>{triangle[i % 3], triangle[(i + 1) % 3]});
       },
       [&](const simplex<1>& key, std::span<const std::uint32_t> half_edges) {
@@ -127,8 +127,8 @@ inline std::vector<point_neighbourhood> look_around_points(const skeleton_entiti
   std::vector<point_neighbourhood> around(skeleton.points.size());
   const auto at = [&](local_id v) -> point_neighbourhood& { return around[static_cast<std::size_t>(v)]; };
   point_faces all;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
-    for (const auto v : skeleton.triangles[t])
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
+    for (const auto v : skeleton.sides[t])
       all.push_back({v, entities.of_triangle[t]});
   keep_distinct(all);
   for (const auto& [v, face] : all) {

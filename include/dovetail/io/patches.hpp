@@ -20,7 +20,7 @@ struct boundary_patches {
 /// name, or "face N" (N counted from 1) when it has none. O(faces log faces).
 inline boundary_patches collect_patches(const distributed_mesh& mesh) {
   auto faces = std::max(mesh.patch_names.size(), mesh.face_names.size());
-  for (const auto f : mesh.skeleton.cad_faces)
+  for (const auto f : mesh.skeleton.side_hosts)
     faces = std::max(faces, static_cast<std::size_t>(f + 1));
   boundary_patches patches;
   std::vector<local_id> by_name; // the patches in the order of their names

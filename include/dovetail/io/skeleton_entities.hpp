@@ -76,7 +76,7 @@ inline local_id material_of(const distributed_mesh& mesh, local_id subdomain) {
 /// The skeleton's triangles, each turned to face away from the one of its two subdomains that has the lower
 /// material, then the lower number: so the triangles of an entity face the same way.
 inline std::vector<simplex<2>> turn_to_lower(const distributed_mesh& mesh) {
-  auto triangles = mesh.skeleton.triangles;
+  auto triangles = mesh.skeleton.sides;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [behind, front] = mesh.skeleton.subdomains[t];
     if (front != no_id &&
@@ -93,7 +93,7 @@ void bound_volumes(skeleton_entities& entities, const distributed_mesh& mesh, Fu
   for (std::size_t t = 0; t < entities.triangles.size(); ++t) {
     if (entities.of_triangle[t] == no_id)
       continue;
-    const bool turned = entities.triangles[t] != mesh.skeleton.triangles[t];
+    const bool turned = entities.triangles[t] != mesh.skeleton.sides[t];
     for (std::size_t side = 0; side < 2; ++side)
       if (const auto s = mesh.skeleton.subdomains[t][side]; s != no_id) {
         const bounding_entity face{entities.of_triangle[t], turned != (side == 1)};
@@ -147,8 +147,8 @@ inline void finish_boundaries(skeleton_entities& entities) {
 /// The ascending subdomains at each point, as (point, subdomain) pairs in order. O(triangles log triangles).
 inline std::vector<std::array<local_id, 2>> subdomains_at_points(const fine_skeleton& skeleton) {
   std::vector<std::array<local_id, 2>> pairs;
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
-    for (const auto v : skeleton.triangles[t])
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
+    for (const auto v : skeleton.sides[t])
       for (const auto s : skeleton.subdomains[t])
         if (s != no_id)
           pairs.push_back({v, s});
@@ -190,7 +190,7 @@ inline skeleton_entities cad_entities(const distributed_mesh& mesh, const point_
   detail::entity_numbering vertices(result.of_dimension[0]), lines(result.of_dimension[1]),
       faces(result.of_dimension[2]);
   result.triangles = detail::turn_to_lower(mesh);
-  for (const auto f : skeleton.cad_faces)
+  for (const auto f : skeleton.side_hosts)
     result.of_triangle.push_back(f == no_id ? no_id : faces({2, f}, {}));
   for (std::size_t e = 0; e < skeleton.curve_edges.size(); ++e)
     result.edges.push_back({skeleton.curve_edges[e], lines({1, skeleton.curves[e]}, {})});

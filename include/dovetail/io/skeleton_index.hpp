@@ -29,8 +29,8 @@ public:
 private:
   static void check(const distributed_simplicial_mesh<D>& mesh) {
     const auto& skeleton = mesh.skeleton;
-    const auto& sides = sides_of(skeleton);
-    if (skeleton.subdomains.size() != sides.size() || hosts_of_sides(skeleton).size() != sides.size())
+    const auto& sides = skeleton.sides;
+    if (skeleton.subdomains.size() != sides.size() || skeleton.side_hosts.size() != sides.size())
       throw mesh_error("the skeleton does not list subdomains and CAD entity of every side");
     for (std::size_t t = 0; t < sides.size(); ++t) {
       for (const auto v : sides[t])

@@ -24,10 +24,10 @@ struct skeleton_extract {
 inline skeleton_extract extract(const fine_skeleton& skeleton, skeleton_part part) {
   skeleton_extract result;
   std::vector<local_id> place(skeleton.points.size(), no_id);
-  for (std::size_t t = 0; t < skeleton.triangles.size(); ++t)
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
     if ((skeleton.subdomains[t][1] == no_id) == (part == skeleton_part::boundary)) {
       result.triangles.push_back(static_cast<local_id>(t));
-      for (const auto v : skeleton.triangles[t])
+      for (const auto v : skeleton.sides[t])
         place[static_cast<std::size_t>(v)] = 0;
     }
   for (std::size_t v = 0; v < place.size(); ++v)
@@ -38,7 +38,7 @@ inline skeleton_extract extract(const fine_skeleton& skeleton, skeleton_part par
   for (const auto t : result.triangles) {
     simplex<2> placed;
     for (std::size_t k = 0; k < placed.size(); ++k)
-      placed[k] = place[static_cast<std::size_t>(skeleton.triangles[static_cast<std::size_t>(t)][k])];
+      placed[k] = place[static_cast<std::size_t>(skeleton.sides[static_cast<std::size_t>(t)][k])];
     result.renumbered.push_back(placed);
   }
   return result;
@@ -81,9 +81,9 @@ inline void write_skeleton_vtp(output_file& file, const distributed_mesh& mesh, 
   append_computed<global_id>(file, points, [&](auto i) { return static_cast<global_id>(point(i)); });
   append_values(file, span_of(std::as_const(surface.renumbered)));
   append_computed<local_id>(file, cells, [](auto i) { return static_cast<local_id>(3 * (i + 1)); });
-  append_computed<local_id>(file, cells, [&](auto i) { return skeleton.cad_faces[triangle(i)]; });
+  append_computed<local_id>(file, cells, [&](auto i) { return skeleton.side_hosts[triangle(i)]; });
   append_computed<local_id>(file, cells, [&](auto i) {
-    const auto f = skeleton.cad_faces[triangle(i)];
+    const auto f = skeleton.side_hosts[triangle(i)];
     return f == no_id ? no_id : patches.of_face[static_cast<std::size_t>(f)];
   });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[triangle(i)][0]; });

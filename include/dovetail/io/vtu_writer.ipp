@@ -37,7 +37,7 @@ public:
       : mesh_(mesh), next_(first), last_(last), file_(path) {
     for (auto s = first; s < last; ++s)
       for (const auto t : sides[s])
-        for (const auto v : sides_of(mesh.skeleton)[static_cast<std::size_t>(t)])
+        for (const auto v : mesh.skeleton.sides[static_cast<std::size_t>(t)])
           shared_.push_back(v);
     sort_unique(shared_);
     const auto from = static_cast<std::size_t>(first);

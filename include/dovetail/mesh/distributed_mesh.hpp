@@ -22,50 +22,24 @@ namespace dovetail {
 /// The remeshed boundaries of all pieces, held once. A side between two pieces is stored once, oriented
 /// outwards of `subdomains[0]`; `subdomains[1]` is the piece on its other side, or no_id on the boundary of
 /// the domain.
-template <int D>
-struct simplicial_skeleton;
-
-template <>
-struct simplicial_skeleton<3> {
-  std::vector<vec3> points;
-  std::vector<host>
-      point_hosts; ///< the lowest-dimensional CAD entity of each point; {3, solid} on inner interfaces
-  std::vector<simplex<2>> triangles;
-  std::vector<std::array<local_id, 2>> subdomains;
-  std::vector<local_id> cad_faces; ///< per triangle: its CAD face, or no_id on an interface inside a solid
-  std::vector<std::array<local_id, 2>> curve_edges; ///< mesh edges on CAD curves
-  std::vector<local_id> curves;                     ///< the CAD curve of each such edge
-};
-
+///
 /// In D = 2 the sides are the edges of the lines between subsurfaces and on CAD curves. An edge passed with
 /// the piece on its left is oriented outwards of it. An edge of other than two triangles is stored once per
 /// triangle; one on a CAD curve inside a piece names that piece twice.
-template <>
-struct simplicial_skeleton<2> {
+template <int D>
+struct simplicial_skeleton {
   std::vector<vec3> points;
-  std::vector<host> point_hosts; ///< {2, CAD face} on a line that is not on a CAD curve
-  std::vector<simplex<1>> edges;
-  std::vector<std::array<local_id, 2>> subdomains;
-  std::vector<local_id> curves; ///< per edge: its CAD curve, or no_id on a line inside a CAD face
+  /// The lowest-dimensional CAD entity of each point: {3, solid} on inner interfaces, {2, CAD face} on lines
+  /// that are not on CAD curves.
+  std::vector<host> point_hosts;
+  std::vector<simplex<D - 1>> sides;
+  std::vector<std::array<local_id, 2>> subdomains; ///< per side
+  std::vector<local_id> side_hosts;    ///< per side: its CAD face (D = 3) or curve (D = 2), or no_id inside
+  std::vector<simplex<1>> curve_edges; ///< mesh edges on CAD curves (D = 3; in D = 2 they are sides)
+  std::vector<local_id> curves;        ///< the CAD curve of each such edge
 };
 
 using fine_skeleton = simplicial_skeleton<3>;
-
-/// The sides of a skeleton by one name for every dimension.
-inline const std::vector<simplex<2>>& sides_of(const simplicial_skeleton<3>& skeleton) {
-  return skeleton.triangles;
-}
-inline const std::vector<simplex<1>>& sides_of(const simplicial_skeleton<2>& skeleton) {
-  return skeleton.edges;
-}
-
-/// The CAD entity of each side; no_id on an interface.
-inline const std::vector<local_id>& hosts_of_sides(const simplicial_skeleton<3>& skeleton) {
-  return skeleton.cad_faces;
-}
-inline const std::vector<local_id>& hosts_of_sides(const simplicial_skeleton<2>& skeleton) {
-  return skeleton.curves;
-}
 
 /// The mesh of one subdomain. Its first `skeleton_points.size()` points are skeleton points, the others its
 /// own. In D = 2 the elements' tags are CAD faces.

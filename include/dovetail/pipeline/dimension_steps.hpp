@@ -77,7 +77,7 @@ inline interface_angles coarse_interface_angles(const simplicial_background<2>& 
 inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
                                               const side_table<3>&, std::span<const side_state>,
                                               const generate_options& options) {
-  return measure_interface_angles({span_of(skeleton.fine.points), span_of(skeleton.fine.triangles),
+  return measure_interface_angles({span_of(skeleton.fine.points), span_of(skeleton.fine.sides),
                                    span_of(skeleton.fine.subdomains), span_of(skeleton.origins)},
                                   options.interface_angle_deg);
 }

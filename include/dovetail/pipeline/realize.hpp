@@ -15,36 +15,35 @@
 
 namespace dovetail {
 
-/// A decomposition after merges, with the fine boundaries of its pieces.
+/// What only one dimension asks of a realized decomposition.
 template <int D>
-struct realized;
+struct realized_details;
 
 template <>
-struct realized<3> {
-  fine_skeleton fine;
+struct realized_details<3> {
+  std::vector<triangle_origin> origins; ///< per fine triangle, for the interface angles
+};
+
+/// The boundaries are the lines; the regions between them are meshed as pieces.
+template <>
+struct realized_details<2> {
+  numbered_lines lines;
+  std::vector<std::vector<local_id>> regions; ///< of each subdomain, in `coarse`
+};
+
+/// A decomposition after merges, with the fine boundaries of its pieces.
+template <int D>
+struct realized : realized_details<D> {
+  simplicial_skeleton<D> fine;
   coarse_skeleton coarse;
   std::vector<local_id> subdomain_of_element;  ///< of the background mesh, after merges
-  std::vector<local_id> material_of_subdomain; ///< after merges
-  std::vector<triangle_origin> origins;        ///< per fine triangle, for the interface angles
+  std::vector<local_id> material_of_subdomain; ///< after merges; all 0 in D = 2
   any_sizing size;                             ///< the field given, smaller where CAD regions came too close
   content_key field;                           ///< of `size`
   report skeleton_summary;
-  report intersection_summary; ///< "crossings", "rounds", "refinements"
-};
-
-/// In D = 2 the boundaries are the lines; the regions between them are meshed as pieces.
-template <>
-struct realized<2> {
-  simplicial_skeleton<2> fine;
-  coarse_skeleton coarse;
-  numbered_lines lines;
-  std::vector<std::vector<local_id>> regions; ///< of each subdomain, in `coarse`
-  std::vector<local_id> subdomain_of_element;
-  std::vector<local_id> material_of_subdomain; ///< all 0
-  any_sizing size;
-  content_key field; ///< of `size`
-  report skeleton_summary;
-  report intersection_summary; ///< of the finished pieces: lines of one region that cross fail as its piece
+  /// "crossings", "rounds", "refinements"; in D = 2 of the finished pieces, since lines of one region that
+  /// cross fail as its piece.
+  report intersection_summary;
 };
 
 using realized_skeleton = realized<3>;

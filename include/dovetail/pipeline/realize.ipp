@@ -89,7 +89,7 @@ private:
   suppression_plan find_crossings(const remeshed_skeleton& remeshed) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
-    std::vector<bool> planar(remeshed.fine.triangles.size(), false);
+    std::vector<bool> planar(remeshed.fine.sides.size(), false);
     for (std::size_t f = 0; f < result_.coarse.faces.size(); ++f)
       if (!is_curved(result_.coarse.faces[f], result_.coarse.lines))
         mark(planar, remeshed, result_.coarse.regions.size() + f);
@@ -114,7 +114,7 @@ private:
     if (store_.patches_apart.empty())
       return known;
     const fine_skeleton& fine = remeshed.fine;
-    known.triangles.resize(fine.triangles.size(), false);
+    known.triangles.resize(fine.sides.size(), false);
     for (std::size_t p = 0; p < remeshed.patch_keys.size(); ++p)
       if (std::binary_search(store_.patches_apart.begin(), store_.patches_apart.end(),
                              remeshed.patch_keys[p])) {
@@ -122,7 +122,7 @@ private:
       } else {
         box3& box = known.around_others.emplace_back();
         for (local_id t = remeshed.first_triangle[p]; t < remeshed.first_triangle[p + 1]; ++t)
-          for (const local_id v : fine.triangles[static_cast<std::size_t>(t)])
+          for (const local_id v : fine.sides[static_cast<std::size_t>(t)])
             box.include(fine.points[static_cast<std::size_t>(v)]);
       }
     return known;
@@ -155,8 +155,8 @@ private:
   /// Points of inner interfaces lie in the solid of the subdomains beside them.
   void name_inner_hosts() {
     fine_skeleton& fine = result_.fine;
-    for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-      for (const local_id v : fine.triangles[t])
+    for (std::size_t t = 0; t < fine.sides.size(); ++t)
+      for (const local_id v : fine.sides[t])
         if (host& on = fine.point_hosts[static_cast<std::size_t>(v)]; on.dimension == 3)
           on.id = result_.material_of_subdomain[static_cast<std::size_t>(fine.subdomains[t][0])];
   }
@@ -211,7 +211,7 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
   summary.name = "skeleton";
   summary.set("lines", static_cast<double>(result.coarse.lines.size()));
   summary.set("regions", static_cast<double>(result.coarse.regions.size()));
-  summary.set("edges", static_cast<double>(result.fine.edges.size()));
+  summary.set("edges", static_cast<double>(result.fine.sides.size()));
   summary.set("points", static_cast<double>(result.fine.points.size()));
   summary.seconds = clock.seconds();
   return result;

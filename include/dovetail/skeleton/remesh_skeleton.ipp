@@ -36,7 +36,7 @@ public:
     result.summary.set("lines", static_cast<double>(skeleton_.lines.size()));
     result.summary.set("regions", static_cast<double>(skeleton_.regions.size()));
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
-    result.summary.set("triangles", static_cast<double>(result.fine.triangles.size()));
+    result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
     result.summary.set("lines_made", static_cast<double>(store_.lines.made() - lines_before));
     result.summary.set("patches_made", static_cast<double>(store_.patches.made() - patches_before));
@@ -123,7 +123,7 @@ private:
       }
       append_patch(p, mesh, result);
     });
-    result.first_triangle.push_back(static_cast<local_id>(fine.triangles.size()));
+    result.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
     result.summary.set("folded_triangles", folded);
     for (std::size_t l = 0; l < lines_.keys.size(); ++l)
       if (lines_.keys[l].on.dimension == 1)
@@ -141,9 +141,9 @@ private:
     });
     fine.points.reserve(points);
     fine.point_hosts.reserve(points);
-    fine.triangles.reserve(triangles);
+    fine.sides.reserve(triangles);
     fine.subdomains.reserve(triangles);
-    fine.cad_faces.reserve(triangles);
+    fine.side_hosts.reserve(triangles);
   }
 
   patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {
@@ -166,7 +166,7 @@ private:
 
   void append_patch(std::size_t p, const patch_mesh& mesh, remeshed_skeleton& result) const {
     fine_skeleton& fine = result.fine;
-    result.first_triangle.push_back(static_cast<local_id>(fine.triangles.size()));
+    result.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
     auto subdomains = is_region(p) ? skeleton_.regions[p].subdomains : face_of(p).subdomains;
     const bool bounds_nothing_behind = subdomains[0] == no_id;
     if (bounds_nothing_behind)
@@ -175,9 +175,9 @@ private:
     append_region(patched, mesh, fine.points, [&](simplex<2> triangle, const std::array<vec2, 3>&) {
       if (bounds_nothing_behind)
         std::swap(triangle[1], triangle[2]);
-      fine.triangles.push_back(triangle);
+      fine.sides.push_back(triangle);
       fine.subdomains.push_back(subdomains);
-      fine.cad_faces.push_back(patched.face);
+      fine.side_hosts.push_back(patched.face);
     });
     fine.point_hosts.resize(fine.points.size(),
                             is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});

@@ -27,7 +27,7 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
   subdomain_sides<D> made;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const auto t = static_cast<std::size_t>(sides[k]);
-    simplex<D - 1> side = sides_of(skeleton)[t];
+    simplex<D - 1> side = skeleton.sides[t];
     const bool second_passage = k > 0 && sides[k - 1] == sides[k];
     if (skeleton.subdomains[t][0] != subdomain || second_passage)
       std::swap(side[D - 2], side[D - 1]);
