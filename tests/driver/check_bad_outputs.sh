@@ -19,5 +19,5 @@ if ((EUID != 0)); then
 fi
 
 # A size that predicts more elements than the disk holds.
-expect_error "--force" mesh --model combustor --size 1e-3
+expect_error "--force" mesh --model combustor --size 0.04
 finish

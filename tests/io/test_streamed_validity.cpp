@@ -100,10 +100,8 @@ TEST_CASE("faults between pieces are found") {
   // Two pieces hold the same elements.
   const testing::scratch_folder folder("streamed_seams");
   io::vtu_writer{}(cubes.distributed(), folder);
-  auto index = testing::file_content(folder / "mesh.pvtu");
-  const auto at = index.find("mesh_0004.vtu");
-  REQUIRE(at != std::string::npos);
-  testing::write_content(folder / "mesh.pvtu", index.replace(at, 13, "mesh_0005.vtu"));
+  std::filesystem::copy_file(folder / "mesh_0005.vtu", folder / "mesh_0004.vtu",
+                             std::filesystem::copy_options::overwrite_existing);
   CHECK_FALSE(check_validity(io::read_mesh(folder).mesh).valid());
   CHECK(streamed(folder).faults.find("a point is inside two pieces") != std::string::npos);
 
