@@ -27,12 +27,17 @@ def bound_of_parent(background_elements, sides):
 
 
 def peak_of(process):
-    """Bytes; 0 when it has ended."""
+    """Bytes, of the process that meshes: the command itself, or its child where it watches one; 0 when it has ended."""
+    peak = 0
     try:
-        with open(f"/proc/{process.pid}/status", encoding="ascii") as status:
-            return next((1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM")), 0)
+        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as children:
+            family = [process.pid, *map(int, children.read().split())]
+        for member in family:
+            with open(f"/proc/{member}/status", encoding="ascii") as status:
+                peak = max(peak, *(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM")), 0)
     except (FileNotFoundError, ProcessLookupError):
-        return 0
+        pass
+    return peak
 
 
 def measure(driver, model, size, folder, limit):

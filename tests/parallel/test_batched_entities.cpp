@@ -147,3 +147,20 @@ TEST_CASE("A blob that has gone is an error that names it") {
   disk.clear();
   CHECK_THROWS_AS(entities.for_each(keys, [](std::size_t, const byte_buffer&) {}), io_error);
 }
+
+TEST_CASE("What no other attempt mends is thrown as what it is, and nothing is made twice") {
+  const auto keys = keys_from(1, 9);
+  for (const any_executor& run : executors) {
+    const scratch_folder scratch;
+    const auto disk = spool::start(scratch.path, identity);
+    batched_entities entities(std::make_shared<entity_store>(disk));
+    disk.clear(); // no folder to write to
+    CHECK_THROWS_AS(make_and_check(entities, keys, run), io_error);
+    batched_entities others(std::make_shared<entity_store>());
+    const auto no_size = [](const std::vector<std::size_t>&) -> std::vector<byte_buffer> {
+      throw sizing_error("the size is 0");
+    };
+    CHECK_THROWS_WITH_AS(others.make_missing(keys, std::vector<double>(9, 1), 3, no_size, run, {}),
+                         "the size is 0", sizing_error);
+  }
+}

@@ -203,14 +203,16 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
   CHECK_THROWS_WITH_AS(mesh_region(any_surface_mesher(leaving_a_hole), contract::plane_at_run_time(),
                                    cushion().regions[0], coarse, {}),
                        "its triangles leave a hole or lie upon each other", mesher_error);
-  const auto inventing = [](const any_surface&, const patch_boundary&, const any_sizing&) {
-    patch_mesh made;
-    made.triangles = {{0, 1, 7}};
-    return made;
-  };
-  CHECK_THROWS_WITH_AS(mesh_region(any_surface_mesher(inventing), contract::plane_at_run_time(),
-                                   cushion().regions[0], coarse, {}),
-                       "its triangles name points that do not exist", mesher_error);
+  for (const local_id invented : {7, -1}) {
+    const auto inventing = [invented](const any_surface&, const patch_boundary&, const any_sizing&) {
+      patch_mesh made;
+      made.triangles = {{0, 1, invented}};
+      return made;
+    };
+    CHECK_THROWS_WITH_AS(mesh_region(any_surface_mesher(inventing), contract::plane_at_run_time(),
+                                     cushion().regions[0], coarse, {}),
+                         "its triangles name points that do not exist", mesher_error);
+  }
 }
 
 TEST_CASE("a mesh is made once for the same region, and again for another") {

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
@@ -18,6 +19,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,8 +32,8 @@ struct entity_failure {
 };
 
 /// Entities by their keys. Consecutive ones that are missing make a batch, which is one task and one blob of
-/// the store; its key is that of its members, so a resumed run finds it again. Here are only keys: 40 bytes
-/// per entity, and the blobs where the store has no disk.
+/// the store; its key is that of its members, so a resumed run, where the same ones are missing, finds it
+/// again. Here are only keys: 40 bytes per entity, and the blobs where the store has no disk.
 class batched_entities {
 public:
   /// Makes the entities of the given numbers; runs in a task.
@@ -44,7 +46,8 @@ public:
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
   /// a batch that fails are made again one by one, to find out which they are; these are returned, and of
-  /// such a batch none is kept.
+  /// such a batch none is kept. An `io_error` of the store and a `sizing_error`, which no other attempt
+  /// mends, are thrown.
   std::vector<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
                                            double batch_cost, const maker& make, const any_executor& run,
                                            run_options options) {
@@ -62,10 +65,7 @@ public:
         append(failures, failures_among(members, outcomes[b].failure, make, run, options));
         continue;
       }
-      if (!outcomes[b].result.empty())
-        made_ += members.size();
-      if (!store_->is_shared())
-        store_->keep(batches[b].key, std::move(outcomes[b].result));
+      accept(batches[b], std::move(outcomes[b].result));
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
     }
@@ -125,18 +125,51 @@ private:
     return batches;
   }
 
-  /// In a worker: the bytes of the batch; one byte when the worker has put them into the store itself, none
-  /// when they were there.
+  /// How the reply of a worker ends; before it is the blob, unless the worker has put that into the store
+  /// itself, or an error's text.
+  enum class reply_kind : std::uint8_t { found, made, cannot_store, bad_size };
+
+  /// In a worker.
   byte_buffer make_batch(const batch& wanted, const maker& make) const {
-    if (store_->is_shared() && store_->find(wanted.key))
-      return {};
-    byte_writer bytes;
-    for (const byte_buffer& member : make(wanted.members))
-      bytes.array(member);
+    try {
+      if (store_->is_shared() && store_->find(wanted.key))
+        return tagged({}, reply_kind::found);
+      byte_writer bytes;
+      for (const byte_buffer& member : make(wanted.members))
+        bytes.array(member);
+      if (!store_->is_shared())
+        return tagged(bytes.take(), reply_kind::made);
+      store_->keep(wanted.key, bytes.take());
+      return tagged({}, reply_kind::made);
+    } catch (const io_error& problem) {
+      return tagged(as_bytes(problem.what()), reply_kind::cannot_store);
+    } catch (const sizing_error& problem) {
+      return tagged(as_bytes(problem.what()), reply_kind::bad_size);
+    }
+  }
+
+  static byte_buffer tagged(byte_buffer bytes, reply_kind kind) {
+    bytes.push_back(static_cast<std::byte>(kind));
+    return bytes;
+  }
+  static byte_buffer as_bytes(std::string_view text) {
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return {first, first + text.size()};
+  }
+
+  void accept(const batch& finished, byte_buffer reply) {
+    const auto kind = static_cast<reply_kind>(reply.back());
+    reply.pop_back();
+    const std::string text(reinterpret_cast<const char*>(reply.data()),
+                           kind == reply_kind::made ? 0 : reply.size());
+    if (kind == reply_kind::cannot_store)
+      throw io_error(text);
+    if (kind == reply_kind::bad_size)
+      throw sizing_error(text);
+    if (kind == reply_kind::made)
+      made_ += finished.members.size();
     if (!store_->is_shared())
-      return bytes.take();
-    store_->keep(wanted.key, bytes.take());
-    return byte_buffer(1);
+      store_->keep(finished.key, std::move(reply));
   }
 
   static std::vector<byte_buffer> members_of(const byte_buffer& bytes) {

@@ -34,6 +34,11 @@ inline void require_usable_size(const any_geometry& model, const erased_sizing& 
                        std::to_string(box.diagonal()) + "; give a smaller size");
 }
 
+inline void require_room(const mesh_plan& plan, const generate_options& options) {
+  if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
+    throw too_many_elements(plan.predicted_elements, options.largest_prediction);
+}
+
 inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
   const double plain = elements / per_subdomain;
   const double excess = std::max(1.0, elements / options.many_elements);
@@ -159,8 +164,7 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_
                    options.elements_per_subdomain > 0 ? options.elements_per_subdomain
                                                       : given.mesh_it.elements_per_subdomain(),
                    options);
-  if (options.largest_prediction > 0 && plan.predicted_elements > options.largest_prediction)
-    throw too_many_elements(plan.predicted_elements, options.largest_prediction);
+  detail::require_room(plan, options);
   return plan;
 }
 
@@ -170,8 +174,12 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   const stopwatch clock;
   const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
-  if (auto kept = find_background<D>(options.store, size))
+  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
+  detail::require_usable_size(model, size);
+  if (auto kept = find_background<D>(options.store, model, size)) {
+    detail::require_room(kept->plan, options);
     return *std::move(kept);
+  }
   background_result<D> result;
   result.summary.name = "background";
   result.plan = plan_background<D>(model, size, given);
@@ -200,7 +208,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.seconds = clock.seconds();
-  keep_background(options.store, result);
+  keep_background(options.store, model, size, result);
   return result;
 }
 

@@ -39,9 +39,15 @@ background_result<D> decode_background_result(const byte_buffer& bytes, const er
 
 namespace detail {
 
-/// All else that it is a function of is in the identity of the spool.
-inline content_key background_key(int dimension) {
-  return key_maker{}(std::int64_t{dimension}).key();
+/// All that it is a function of is in the identity of the spool. Model and sizes are looked at here too, for
+/// an identity that forgets them.
+inline content_key background_key(int dimension, const any_geometry& model, const erased_sizing& size) {
+  const box3 box = model.bounds();
+  key_maker make;
+  make(std::int64_t{dimension})(static_cast<std::int64_t>(model.topology().faces.size()));
+  for (const vec3 p : {box.lower, box.center(), box.upper})
+    make(p.x)(p.y)(p.z)(size(p));
+  return make.key();
 }
 
 } // namespace detail
@@ -49,22 +55,25 @@ inline content_key background_key(int dimension) {
 /// The background mesh that an earlier run of the spool's identity has kept; "kept" in its summary says so.
 template <int D>
 std::optional<background_result<D>> find_background(const std::optional<spool>& disk,
-                                                    const erased_sizing& size) {
+                                                    const any_geometry& model, const erased_sizing& size) {
+  const stopwatch clock;
   if (!disk)
     return std::nullopt;
-  const auto bytes = entity_store(disk, "background").find(detail::background_key(D));
+  const auto bytes = entity_store(disk, "background").find(detail::background_key(D, model, size));
   if (!bytes)
     return std::nullopt;
   auto found = decode_background_result<D>(*bytes, size);
+  found.summary.seconds = clock.seconds(); // of this run
   found.summary.set("kept", 1);
   return found;
 }
 
 /// Puts a background mesh into the spool, if there is one.
 template <int D>
-void keep_background(const std::optional<spool>& disk, const background_result<D>& background) {
+void keep_background(const std::optional<spool>& disk, const any_geometry& model, const erased_sizing& size,
+                     const background_result<D>& background) {
   if (disk)
-    entity_store(disk, "background").keep(detail::background_key(D), encode(background));
+    entity_store(disk, "background").keep(detail::background_key(D, model, size), encode(background));
 }
 
 } // namespace dovetail

@@ -43,9 +43,12 @@ struct generate_options {
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
   /// More subdomains merged than this, in the whole run, is a failure; 2 of 8, or 1 of fewer, always may be.
   double largest_merged_fraction = 0.05;
-  int refinement_rounds = 6;                 ///< rounds of local refinement where two CAD regions cross
-  double limit_seconds = 600;                ///< wall clock per subdomain and attempt; the last resort
-  std::optional<spool> store = std::nullopt; ///< where finished subdomains go; none: they stay in memory
+  int refinement_rounds = 6;  ///< rounds of local refinement where two CAD regions cross
+  double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
+  /// Where the background mesh, lines, patches and finished subdomains go; a later run in a spool of the same
+  /// identity, which must hold all that the mesh depends on, takes them from there. None: they stay in
+  /// memory.
+  std::optional<spool> store = std::nullopt;
   std::filesystem::path failure_folder =
       {}; ///< where facets of failed subdomains are written; empty: nowhere
   progress on_progress = {};

@@ -201,7 +201,7 @@ DOVETAIL_INLINE realized<2> realize(const any_geometry& model, const simplicial_
   result.lines = realize_lines(model, mesh.surface, result.coarse, mesh.surface.mesh.points, size, field,
                                given.run_tasks, made.lines, given.options.on_progress);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
-  result.regions = regions_of_parts(result.coarse, static_cast<std::size_t>(merges.subdomains()));
+  result.regions = regions_of_subdomains(result.coarse, static_cast<std::size_t>(merges.subdomains()));
   result.subdomain_of_element = std::move(subdomain_of_element);
   result.material_of_subdomain.assign(static_cast<std::size_t>(merges.subdomains()), 0);
   result.size = size;

@@ -31,7 +31,8 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
         "the model has " + std::to_string(solids) +
         " solids, and a mesher of whole domains makes the background mesh of one; use the native "
         "background mesher");
-  if (auto kept = find_background<3>(given.options.store, size))
+  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
+  if (auto kept = find_background<3>(given.options.store, model, size))
     return *std::move(kept);
   background_result<3> result;
   result.summary.name = "background";
@@ -65,7 +66,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
   result.summary.seconds = clock.seconds();
-  keep_background(given.options.store, result);
+  keep_background(given.options.store, model, size, result);
   return result;
 }
 

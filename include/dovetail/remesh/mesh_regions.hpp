@@ -44,7 +44,7 @@ patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surf
 /// meshes, so each is built when it is needed and not held.
 struct region_set {
   std::size_t count = 0;
-  std::function<surface_region(std::size_t)> build; ///< without `surface`; pure
+  std::function<surface_region(std::size_t)> build; ///< without `surface` and `forbids`; pure
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
   /// What the surface of each region is a function of beside its face and boundary; empty where there is

@@ -34,13 +34,27 @@ inline bool forbid_own_chords(const surface_region& region, const patch_mesh& ma
   return forbidden.size() > before;
 }
 
+/// A mesher's result, of which everything else may then look up what it names.
+inline patch_mesh mesh_once(const any_surface_mesher& mesher, const any_surface& surface,
+                            const patch_boundary& boundary, const any_sizing& size) {
+  patch_mesh made = mesher(surface, boundary, size);
+  const auto points = static_cast<local_id>(boundary.labels.size() + made.inner_uv.size());
+  bool named = made.inner_points.size() == made.inner_uv.size();
+  for (const simplex<2>& triangle : made.triangles)
+    for (const local_id v : triangle)
+      named = named && v >= 0 && v < points;
+  if (!named)
+    throw mesher_error("its triangles name points that do not exist");
+  return made;
+}
+
 /// One rung of a region's ladder: without the edges that it must not have.
 inline patch_mesh mesh_without_chords(const any_surface_mesher& mesher, const any_surface& surface,
                                       const surface_region& region, const any_sizing& size, int rounds) {
   patch_boundary boundary = region.boundary;
-  patch_mesh made = mesher(surface, boundary, size);
+  patch_mesh made = mesh_once(mesher, surface, boundary, size);
   for (int round = 0; round < rounds && forbid_own_chords(region, made, boundary); ++round)
-    made = mesher(surface, boundary, size);
+    made = mesh_once(mesher, surface, boundary, size);
   unwanted_chord_splitter(surface, boundary, made).run();
   return made;
 }
@@ -69,13 +83,6 @@ inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
 inline void check_region(const patch_boundary& boundary, const patch_mesh& made) {
   if (!made.crossings.empty() || !made.misplaced.empty())
     return; // there is no mesh
-  const auto points = static_cast<local_id>(boundary.labels.size() + made.inner_uv.size());
-  bool named = made.inner_points.size() == made.inner_uv.size();
-  for (const simplex<2>& triangle : made.triangles)
-    for (const local_id v : triangle)
-      named = named && v >= 0 && v < points;
-  if (!named)
-    throw mesher_error("its triangles name points that do not exist");
   passages_of(boundary, made).check();
   if (!closes_up(boundary, made))
     throw mesher_error("its triangles leave a hole or lie upon each other");
@@ -120,7 +127,8 @@ private:
           at_x != first_with_label.end() && at_y != first_with_label.end())
         forbidden.push_back({at_x->second, at_y->second});
     key_maker make(field_);
-    make(std::int64_t{region.face})(region.size_factor);
+    make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
+        std::int64_t{options_.parameters});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
     if (!set_.surface_keys.empty())
       make(static_cast<std::int64_t>(set_.surface_keys[r].value));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
-#include "dovetail/core/report.hpp"
+#include "dovetail/core/report_codec.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/simplex.hpp"
@@ -69,7 +69,7 @@ struct patch_mesh {
   }
 };
 
-/// Encodes a patch mesh for executors; the summary keeps its counters and warnings only.
+/// Encodes a patch mesh for executors.
 inline byte_buffer encode(const patch_mesh& mesh) {
   byte_writer out;
   out.array(mesh.inner_uv);
@@ -79,16 +79,7 @@ inline byte_buffer encode(const patch_mesh& mesh) {
   out.array(mesh.misplaced);
   out.array(mesh.folded);
   out.array(mesh.repeated_edges);
-  out.text(mesh.summary.name);
-  out.value(mesh.summary.seconds);
-  out.value<std::uint64_t>(mesh.summary.counters.size());
-  for (const auto& [key, value] : mesh.summary.counters) {
-    out.text(key);
-    out.value(value);
-  }
-  out.value<std::uint64_t>(mesh.summary.warnings.size());
-  for (const std::string& warning : mesh.summary.warnings)
-    out.text(warning);
+  encode(out, mesh.summary);
   return out.take();
 }
 
@@ -103,14 +94,7 @@ inline patch_mesh decode_patch_mesh(const byte_buffer& buffer) {
   mesh.misplaced = in.array<local_id>();
   mesh.folded = in.array<local_id>();
   mesh.repeated_edges = in.array<std::array<local_id, 2>>();
-  mesh.summary.name = in.text();
-  mesh.summary.seconds = in.value<double>();
-  for (auto left = in.value<std::uint64_t>(); left > 0; --left) {
-    std::string key = in.text();
-    mesh.summary.counters.push_back({std::move(key), in.value<double>()});
-  }
-  for (auto left = in.value<std::uint64_t>(); left > 0; --left)
-    mesh.summary.warnings.push_back(in.text());
+  mesh.summary = decode_report(in);
   return mesh;
 }
 

@@ -36,12 +36,14 @@ inline void append_line_edges(const numbered_lines& lines, local_id line, local_
 /// The fine skeleton of a decomposed surface from its lines. `sides` is `build_sides(surface.mesh)`. Linear
 /// in the edges made.
 inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side_table<2>& sides,
-                                                const std::vector<local_id>& part_of_triangle,
+                                                const std::vector<local_id>& subdomain_of_triangle,
                                                 const numbered_lines& lines) {
   simplicial_skeleton<2> skeleton;
   skeleton.points = lines.points;
   skeleton.point_hosts = lines.hosts;
-  const auto part = [&](local_id triangle) { return part_of_triangle[static_cast<std::size_t>(triangle)]; };
+  const auto part = [&](local_id triangle) {
+    return subdomain_of_triangle[static_cast<std::size_t>(triangle)];
+  };
   for (std::size_t l = 0; l < lines.keys.size(); ++l) {
     const auto line = static_cast<local_id>(l);
     const local_id side = find_side<2>(sides, lines.keys[l].vertices);
@@ -145,10 +147,10 @@ private:
   std::vector<std::vector<local_id>> regions_at_; ///< per point; empty for points on no CAD curve
 };
 
-/// The regions of each part of a decomposed surface, growing.
-inline std::vector<std::vector<local_id>> regions_of_parts(const coarse_skeleton& skeleton,
-                                                           std::size_t parts) {
-  std::vector<std::vector<local_id>> regions(parts);
+/// The regions of each subsurface, growing.
+inline std::vector<std::vector<local_id>> regions_of_subdomains(const coarse_skeleton& skeleton,
+                                                                std::size_t subdomains) {
+  std::vector<std::vector<local_id>> regions(subdomains);
   for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
     regions[static_cast<std::size_t>(skeleton.regions[r].subdomains[0])].push_back(static_cast<local_id>(r));
   return regions;
