@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <span>
 #include <system_error>
 
@@ -32,7 +33,8 @@ std::string checksum_of_file(const std::filesystem::path& path) {
 }
 
 std::vector<written_file> read_back(const std::filesystem::path& folder,
-                                    const std::vector<std::string>& names, const any_executor& run_tasks) {
+                                    const std::vector<std::string>& names, const any_executor& run_tasks,
+                                    const progress& on_progress) {
   const auto outcomes =
       run_tasks.run(names.size(),
                     [&](std::size_t k) {
@@ -41,7 +43,9 @@ std::vector<written_file> read_back(const std::filesystem::path& folder,
                       bytes.text(checksum_of_file(folder / names[k]));
                       return bytes.take();
                     },
-                    {});
+                    {.limit_seconds = std::numeric_limits<double>::infinity(),
+                     .on_progress = on_progress,
+                     .stage = "reading back"});
   std::vector<written_file> files;
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (!outcomes[k].ok)

@@ -23,9 +23,10 @@ std::string hexadecimal(std::uint64_t value);
 /// The checksum of what is in a file; throws `io_error` naming it when it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& file);
 
-/// Reads the files back, several at a time.
+/// Reads the files back, several at a time, however long that takes.
 std::vector<written_file> read_back(const std::filesystem::path& folder,
-                                    const std::vector<std::string>& names, const any_executor& run_tasks);
+                                    const std::vector<std::string>& names, const any_executor& run_tasks,
+                                    const progress& on_progress = {});
 
 /// The files that a report lists.
 struct report_files {

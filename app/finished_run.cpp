@@ -46,7 +46,8 @@ void finished_run::record(const std::vector<written_file>& files) const {
   output_file file(folder_ / record_name);
   file.text(started_with_);
   for (const written_file& each : files)
-    file.text(std::to_string(each.bytes) + " " + each.checksum + " " + each.name + "\n");
+    file.text(std::to_string(each.bytes) + " " + (each.checksum.empty() ? "-" : each.checksum) + " " +
+              each.name + "\n");
   file.commit();
 }
 

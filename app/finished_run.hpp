@@ -21,7 +21,7 @@ public:
 
   /// Whether this very run has come to its end, and its files are there in their size.
   bool is_there() const;
-  /// Written last of all.
+  /// Written when all files are; again with the checksums, when they are known.
   void record(const std::vector<written_file>& files) const;
   /// Whatever run was finished here, its files will be replaced.
   void forget() const;
