@@ -12,7 +12,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -86,7 +85,7 @@ struct parser {
   improve_options improve;
   compare_options compare;
   std::function<int()> chosen;
-  std::vector<std::filesystem::path> outputs; ///< files and folders that it writes to
+  command_outputs outputs;
 
   parser() {
     app.name("dovetail");
@@ -109,7 +108,7 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      outputs = {mesh.out, mesh.report};
+      outputs = {.files = {mesh.report}, .folder = mesh.out, .resumable = true};
     });
   }
   void add_plan() {
@@ -119,7 +118,7 @@ struct parser {
     command.add_option("--report", plan.report, "JSON file for the figures");
     command.callback([this] {
       chosen = [this] { return run_plan(plan); };
-      outputs = {plan.report};
+      outputs.files = {plan.report};
     });
   }
   void add_models() {
@@ -140,7 +139,7 @@ struct parser {
     command.add_option("--report", stats.report, "JSON file for the figures");
     command.callback([this] {
       chosen = [this] { return run_stats(stats); };
-      outputs = {stats.report};
+      outputs.files = {stats.report};
     });
   }
   void add_improve() {
@@ -154,7 +153,7 @@ struct parser {
     command.add_flag("--quiet", improve.quiet, "No progress and no summary");
     command.callback([this] {
       chosen = [this] { return run_improve(improve); };
-      outputs = {improve.out, improve.report};
+      outputs.files = {improve.out, improve.report};
     });
   }
   void add_compare() {
@@ -164,7 +163,7 @@ struct parser {
     add_compare_options(command, compare);
     command.callback([this] {
       chosen = [this] { return run_compare(compare); };
-      outputs = {compare.out};
+      outputs.folder = compare.out;
     });
   }
 };
@@ -195,7 +194,7 @@ int run_command_line(int argc, char** argv) {
     return exit_usage;
   }
   const unfinished_output unfinished(line.outputs);
-  return run_supervised([&] { return run_guarded(line.chosen); }, [&] { unfinished.remove(); });
+  return run_supervised([&] { return run_guarded(line.chosen); }, [&] { return unfinished.remove(); });
 }
 
 } // namespace dovetail::app

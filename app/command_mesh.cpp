@@ -20,33 +20,33 @@
 namespace dovetail::app {
 namespace {
 
-/// The spool of a run. Unless a run leaves finished pieces to resume from, it is removed in the end.
+/// The spool of a run, in the folder of its mesh. Unless there is something in it to resume from, it is
+/// removed in the end. A run that failed by itself would meet the same error again: only finished pieces are
+/// worth keeping then, since they may have taken long.
 class run_spool {
 public:
   run_spool(const std::filesystem::path& folder, const run_identity& identity, bool resume)
-      : spool_(resume ? spool::resume(folder, identity) : spool::start(folder, identity)) {}
+      : folder_(folder), spool_(resume ? spool::resume(folder / "spool", identity)
+                                       : spool::start(folder / "spool", identity)) {}
   run_spool(const run_spool&) = delete;
   run_spool& operator=(const run_spool&) = delete;
   ~run_spool() {
-    if (finished_ || !has_pieces())
+    const kept_work kept = work_kept_in(folder_);
+    if (finished_ || !(interrupted_ ? kept.anything : kept.pieces))
       spool_.clear();
   }
 
   const spool& get() const { return spool_; }
   /// The mesh is written: the pieces are not needed any more.
   void finish() { finished_ = true; }
+  /// The run was asked to stop: another one may go on from whatever there is.
+  void interrupt() { interrupted_ = true; }
 
 private:
-  bool has_pieces() const {
-    std::error_code failure;
-    for (const auto& entry : std::filesystem::directory_iterator(spool_.folder(), failure))
-      if (entry.path().filename().string().starts_with("piece_"))
-        return true;
-    return false;
-  }
-
+  std::filesystem::path folder_;
   spool spool_;
   bool finished_ = false;
+  bool interrupted_ = false;
 };
 
 interface_figures figures_of(const interface_angles& angles) {
@@ -138,40 +138,49 @@ public:
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const output_folder folder(options_.out);
-    const auto spooled = folder.path() / "spool";
+    const bool started = spool::is_started(folder.path() / "spool");
     const run_identity identity = identity_of_run(options_, source);
     const finished_run finished(folder.path(), identity, options_);
     if (options_.resume && finished.is_there()) {
-      if (spool::is_started(spooled)) // killed when all was done but this
-        run_spool(spooled, identity, true).finish();
+      if (started) // killed when all was done but this
+        run_spool(folder.path(), identity, true).finish();
       lines_.reset();
       if (!options_.quiet)
-        std::printf("The mesh is in %s: this run is finished, nothing is left to do\n", options_.out.c_str());
+        std::printf("The mesh is in %s: this run is finished, nothing is left to do%s\n",
+                    options_.out.c_str(), options_.report.empty() ? "" : ", and no report is written");
       return exit_ok;
     }
-    const bool resumes = options_.resume && spool::is_started(spooled);
+    const bool resumes = options_.resume && started;
     if (!resumes)
       io::unfinished_folder::remove(folder.path());
-    run_spool store(spooled, identity, resumes);
+    run_spool store(folder.path(), identity, resumes);
     finished.forget();
     parameters_.store = store.get();
     parameters_.failure_folder = folder.path() / "failed";
-
-    const generated<D> result = generate(source, folder.path());
-    describe(source, result);
-    if (!result.failures.empty()) {
-      finish();
-      throw mesher_error(text_of(result.failures));
+    try {
+      make(source, folder.path(), finished);
+    } catch (const cancelled&) {
+      store.interrupt();
+      throw;
     }
-    write(result.mesh, folder.path());
-    finish();
-    if (!formats_.empty())
-      finished.record(figures_.files);
     store.finish();
     return exit_ok;
   }
 
 private:
+  void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
+    const generated<D> result = generate(source, folder);
+    describe(source, result);
+    if (!result.failures.empty()) {
+      finish();
+      throw mesher_error(text_of(result.failures));
+    }
+    write(result.mesh, folder, finished);
+    finish();
+    if (!formats_.empty())
+      finished.record(figures_.files);
+  }
+
   void show(const char* stage) {
     if (lines_)
       lines_->update(stage, 0, 0);
@@ -213,7 +222,8 @@ private:
     collect_warnings(figures_.details, figures_.warnings);
   }
 
-  void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
+  void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder,
+             const finished_run& record) {
     const stopwatch output;
     std::vector<io::any_piecewise_writer<D>> by_pieces;
     std::vector<const output_format<D>*> in_one_file;
@@ -237,10 +247,30 @@ private:
     std::vector<std::string> names;
     for (const report& part : figures_.details.children)
       append_files(part, names);
-    figures_.files = read_back(folder, names, policies_.executor);
+    read_back_files(folder, names, record);
     figures_.seconds.output = output.seconds();
     if (!formats_.empty())
       figures_.out = options_.out;
+  }
+
+  /// The mesh is complete before: who stops this or kills it loses the checksums only.
+  void read_back_files(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                       const finished_run& record) {
+    if (names.empty())
+      return;
+    std::vector<written_file> files;
+    std::error_code missing; // which is found when it is read
+    for (const auto& name : names)
+      files.push_back({name, std::filesystem::file_size(folder / name, missing), {}});
+    record.record(files);
+    try {
+      figures_.files = read_back(folder, names, policies_.executor, parameters_.on_progress);
+    } catch (const cancelled&) {
+      throw;
+    } catch (...) { // what cannot be read is not finished
+      record.forget();
+      throw;
+    }
   }
 
   void finish() {
@@ -266,7 +296,12 @@ private:
 } // namespace
 
 int run_mesh(const mesh_options& options) {
-  return options.dimension == 3 ? mesh_run<3>(options).run() : mesh_run<2>(options).run();
+  try {
+    return options.dimension == 3 ? mesh_run<3>(options).run() : mesh_run<2>(options).run();
+  } catch (const cancelled&) {
+    complain(stopped_line(work_kept_in(options.out).anything));
+    return exit_stopped;
+  }
 }
 
 } // namespace dovetail::app

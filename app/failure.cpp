@@ -36,7 +36,7 @@ int run_guarded(const std::function<int()>& command) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
   } catch (const cancelled&) {
-    complain(stopped_line);
+    complain(stopped_line(false));
     return exit_stopped;
   } catch (const error& problem) {
     complain(problem.what());

@@ -25,8 +25,10 @@ public:
 /// code.
 int run_guarded(const std::function<int()>& command);
 
-/// What a run that was stopped says.
-inline constexpr const char* stopped_line = "stopped; the same command with --resume goes on from here";
+/// What a command that was stopped says, and whether another one can go on from what it leaves.
+inline std::string stopped_line(bool can_go_on) {
+  return can_go_on ? "stopped; the same command with --resume goes on from here" : "stopped";
+}
 
 /// Writes "dovetail: <text>" on one line of the error stream.
 void complain(const std::string& text);

@@ -77,10 +77,10 @@ any_geometry cad_geometry(const std::filesystem::path& file, const model_options
                           report& summary) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(file, unknown);
+  const double megabytes = unknown ? 0 : 1e-6 * static_cast<double>(bytes);
   const risky_step reading(file.string() + ": reading and healing with Open CASCADE",
                            "the file is damaged or beyond it; export it again, best as STEP",
-                           unknown ? 0
-                                   : 60 + 40e-6 * static_cast<double>(bytes)); // it needs about one per MB
+                           60 + 40 * megabytes); // it needs about one second per megabyte
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
   auto read = read_occt_model(file, {.unit = unit, .entities = entities});

@@ -4,15 +4,17 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/parallel/spool.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 namespace dovetail::app {
 namespace {
@@ -56,9 +58,9 @@ output_format<3> format_of<3>(const std::string& name, int pieces) {
 /// The folder and those around it that do not exist, innermost first.
 std::vector<std::filesystem::path> absent_folders(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> absent;
-  for (auto folder = std::filesystem::absolute(path).lexically_normal(); !folder.empty();
+  std::error_code ignored; // no path, or no working directory any more
+  for (auto folder = std::filesystem::absolute(path, ignored).lexically_normal(); !folder.empty();
        folder = folder.parent_path()) {
-    std::error_code ignored;
     if (std::filesystem::exists(folder, ignored) || folder == folder.root_path())
       break;
     absent.push_back(folder);
@@ -73,7 +75,100 @@ void remove_empty(const std::vector<std::filesystem::path>& folders) {
       return;
 }
 
+/// What is directly in a folder; nothing when it cannot be read.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> entries;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure))
+    entries.push_back(entry->path());
+  return entries;
+}
+
+/// The folders for unfinished files: one per format.
+std::vector<std::filesystem::path> unfinished_folders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : entries_of(folder / "unfinished"))
+    if (std::filesystem::is_directory(std::filesystem::symlink_status(entry, ignored)))
+      folders.push_back(entry);
+  return folders;
+}
+
+bool is_part(const std::filesystem::path& file) {
+  return file.extension() == ".part";
+}
+
+/// The temporary name of a file, which is beside what a link names.
+void remove_part_of(const std::filesystem::path& file) {
+  std::error_code failure;
+  const auto target = std::filesystem::canonical(file, failure);
+  std::filesystem::remove((failure ? file : target).string() + ".part", failure);
+}
+
+/// Names that are written directly in the folder of a command. Whatever else is there is not ours.
+constexpr const char* written_names[] = {"mesh.msh",    "mesh_partitioned.msh", "finished_run.txt",
+                                         "compare.csv", "compare.html",         "written_by_dovetail"};
+
+/// Of what is no folder, or is not empty, nothing happens.
+void remove_empty_folder(const std::filesystem::path& folder) {
+  ::rmdir(folder.c_str());
+}
+
+void remove_parts_of_failed(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  bool ours = false;
+  for (const auto& file : entries_of(folder / "failed"))
+    if (const auto name = file.filename().string();
+        name.starts_with("failed_subdomain_") && name.ends_with(".off.part"))
+      ours = std::filesystem::remove(file, ignored) || ours;
+  if (ours)
+    remove_empty_folder(folder / "failed");
+}
+
+/// Complete files stay, since the pieces in them may have been given up.
+void remove_unfinished_parts(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const auto& of_format : unfinished_folders(folder)) {
+    for (const auto& file : entries_of(of_format))
+      if (is_part(file))
+        std::filesystem::remove(file, ignored);
+    remove_empty_folder(of_format);
+  }
+  remove_empty_folder(folder / "unfinished");
+}
+
+void remove_spool_parts(const std::filesystem::path& spooled, bool kept) {
+  std::error_code ignored;
+  bool ours =
+      spool::is_started(spooled) && !kept && std::filesystem::remove(spooled / "manifest.txt", ignored);
+  ours = std::filesystem::remove(spooled / "manifest.txt.part", ignored) || ours;
+  for (const auto& file : entries_of(spooled))
+    if (file.filename().string().ends_with(".blob.part"))
+      std::filesystem::remove(file, ignored);
+  if (ours)
+    remove_empty_folder(spooled);
+}
+
 } // namespace
+
+kept_work work_kept_in(const std::filesystem::path& folder) {
+  kept_work kept;
+  const auto spooled = folder / "spool";
+  if (!spool::is_started(spooled))
+    return kept;
+  for (const auto& file : entries_of(spooled))
+    if (file.extension() == ".blob") {
+      kept.anything = true;
+      kept.pieces = kept.pieces || file.filename().string().starts_with("piece_");
+    }
+  for (const auto& of_format : unfinished_folders(folder)) {
+    const auto files = entries_of(of_format);
+    kept.pieces = kept.pieces || !std::all_of(files.begin(), files.end(), is_part);
+  }
+  kept.anything = kept.anything || kept.pieces;
+  return kept;
+}
 
 template <int D>
 std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int pieces) {
@@ -105,34 +200,28 @@ void output_folder::remove_if_empty() {
   remove_empty(made_);
 }
 
-unfinished_output::unfinished_output(std::vector<std::filesystem::path> outputs)
-    : outputs_(std::move(outputs)) {
-  std::erase(outputs_, std::filesystem::path());
-  for (const auto& output : outputs_)
-    append(absent_, absent_folders(output));
+unfinished_output::unfinished_output(command_outputs outputs) : outputs_(std::move(outputs)) {
+  std::erase(outputs_.files, std::filesystem::path());
+  absent_ = absent_folders(outputs_.folder);
 }
 
-void unfinished_output::remove() const {
-  std::error_code ignored;
-  for (const auto& output : outputs_) {
-    std::filesystem::remove(output.string() + ".part", ignored);
-    if (!std::filesystem::is_directory(output, ignored))
-      continue;
-    std::vector<std::filesystem::path> parts;
-    bool resumable = false;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(output, ignored)) {
-      const auto& path = entry.path();
-      if (path.extension() == ".part")
-        parts.push_back(path);
-      else if (path.filename().string().starts_with("piece_") || path.filename() == "unfinished")
-        resumable = true;
-    }
-    for (const auto& part : parts)
-      std::filesystem::remove(part, ignored);
-    if (!resumable)
-      std::filesystem::remove_all(output / "spool", ignored);
+bool unfinished_output::remove() const {
+  for (const auto& file : outputs_.files)
+    remove_part_of(file);
+  const auto& folder = outputs_.folder;
+  if (folder.empty())
+    return false;
+  for (const char* name : written_names)
+    remove_part_of(folder / name);
+  bool kept = false;
+  if (outputs_.resumable) {
+    remove_parts_of_failed(folder);
+    remove_unfinished_parts(folder);
+    kept = work_kept_in(folder).anything;
+    remove_spool_parts(folder / "spool", kept);
   }
   remove_empty(absent_);
+  return kept;
 }
 
 void check_can_create(const std::filesystem::path& file) {

@@ -49,18 +49,34 @@ private:
   std::vector<std::filesystem::path> made_; ///< innermost first
 };
 
+/// What a command writes to.
+struct command_outputs {
+  std::vector<std::filesystem::path> files = {}; ///< outside the folder; empty names are none
+  std::filesystem::path folder = {};
+  bool resumable = false; ///< what it keeps in the folder is there for another run to go on from
+};
+
 /// What a command that is ended at once may leave of the files and folders that it writes to. Made before the
 /// command starts.
 class unfinished_output {
 public:
-  explicit unfinished_output(std::vector<std::filesystem::path> outputs);
-  /// Removes parts of files, a spool without any finished piece, and empty folders that were not there.
-  void remove() const;
+  explicit unfinished_output(command_outputs outputs);
+  /// Removes parts of files that the program itself writes, a spool in which nothing is kept, and empty
+  /// folders that were not there. Returns whether another run can go on from what is left. Does not throw for
+  /// what it finds on the disk.
+  bool remove() const;
 
 private:
-  std::vector<std::filesystem::path> outputs_;
+  command_outputs outputs_;
   std::vector<std::filesystem::path> absent_; ///< innermost first
 };
+
+/// What a run of `mesh` that did not come to its end keeps in its folder.
+struct kept_work {
+  bool pieces = false;   ///< meshed subdomains, in the spool or as complete files
+  bool anything = false; ///< these, or what was made before the first of them
+};
+kept_work work_kept_in(const std::filesystem::path& folder);
 
 /// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
 void check_can_create(const std::filesystem::path& file);

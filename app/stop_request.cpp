@@ -13,9 +13,19 @@ void note_request(int) {
 
 } // namespace
 
+std::vector<int> stop_signals() {
+  std::vector<int> signals{SIGINT, SIGTERM};
+  for (const int signal : {SIGHUP, SIGQUIT}) {
+    struct sigaction present {};
+    if (::sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN)
+      signals.push_back(signal);
+  }
+  return signals;
+}
+
 void catch_stop_signals() {
-  std::signal(SIGINT, note_request);
-  std::signal(SIGTERM, note_request);
+  for (const int signal : stop_signals())
+    std::signal(signal, note_request);
   std::signal(SIGXFSZ, SIG_IGN); // a limit to the size of files is then an error like a full disk
 }
 

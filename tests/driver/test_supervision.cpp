@@ -8,8 +8,10 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace dovetail::app {
@@ -23,7 +25,8 @@ struct ending {
   std::string told; ///< on the error stream
 };
 
-ending end_of(const std::function<int()>& command) {
+ending end_of(
+    const std::function<int()>& command, const std::function<bool()>& clean_up = [] { return false; }) {
   std::FILE* file = std::tmpfile();
   REQUIRE(file != nullptr);
   std::fflush(stderr);
@@ -32,7 +35,10 @@ ending end_of(const std::function<int()>& command) {
   const auto start = std::chrono::steady_clock::now();
   const pid_t test = ::getpid();
   ending result{0, 0, 0, {}};
-  result.code = run_supervised(command, [&] { ++result.cleaned; });
+  result.code = run_supervised(command, [&] {
+    ++result.cleaned;
+    return clean_up();
+  });
   if (::getpid() != test) // the child, whose command has returned
     ::_exit(result.code);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -79,6 +85,23 @@ TEST_CASE("a crash is one line, of the step that is known to be risky or of any"
     return crash(SIGABRT);
   });
   CHECK(past.told.starts_with("dovetail: ended by signal 6"));
+  const ending killed = end_of([] {
+    const risky_step step("reading", "export it again", 60);
+    return crash(SIGKILL);
+  });
+  CHECK(killed.told == "dovetail: reading was killed, perhaps for want of memory\n");
+}
+
+TEST_CASE("what goes wrong while cleaning up hides nothing") {
+  const ending end = end_of([] { return crash(SIGSEGV); }, []() -> bool { throw std::runtime_error("no"); });
+  CHECK(end.code == exit_failure);
+  CHECK(end.told.starts_with("dovetail: ended by signal 11"));
+}
+
+TEST_CASE("a command ends also where its parent does not want to hear of the end of children") {
+  std::signal(SIGCHLD, SIG_IGN);
+  CHECK(end_of([] { return 7; }).code == 7);
+  std::signal(SIGCHLD, SIG_DFL);
 }
 
 TEST_CASE("a step that does not end is ended by its processor time, which others do not have to mind") {
@@ -95,6 +118,38 @@ TEST_CASE("a step that does not end is ended by its processor time, which others
     return 3;
   });
   CHECK(after.code == 3);
+}
+
+rlim_t soft_limit() {
+  rlimit processor{};
+  ::getrlimit(RLIMIT_CPU, &processor);
+  return processor.rlim_cur;
+}
+
+void set_soft_limit(rlim_t seconds) {
+  rlimit processor{};
+  ::getrlimit(RLIMIT_CPU, &processor);
+  processor.rlim_cur = seconds;
+  ::setrlimit(RLIMIT_CPU, &processor);
+}
+
+TEST_CASE("a limit to processor time that was there is found again, and is not raised") {
+  const ending restored = end_of([] {
+    set_soft_limit(1000);
+    { const risky_step step("reading", "export it again", 60); }
+    return soft_limit() == 1000 ? 4 : 5;
+  });
+  CHECK(restored.code == 4);
+  const ending lower = end_of([] {
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    set_soft_limit(static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1);
+    const risky_step step("reading", "export it again", 60);
+    work(30);
+    return 0;
+  });
+  CHECK(lower.told ==
+        "dovetail: reading is not done within the limit to processor time; allow more (ulimit -t)\n");
 }
 
 TEST_CASE("a request to stop is passed on, and who does not listen is ended after a second") {
@@ -116,6 +171,28 @@ TEST_CASE("a request to stop is passed on, and who does not listen is ended afte
   CHECK(deaf.seconds > 0.9);
   CHECK(deaf.seconds < 10);
   CHECK(deaf.told.starts_with("dovetail: stopped"));
+}
+
+TEST_CASE("a terminal that is closed is a request to stop, unless that was to be ignored") {
+  const auto hang_up = [] {
+    ::kill(::getppid(), SIGHUP);
+    work(0.5);
+    return stop_was_requested() ? 5 : 6;
+  };
+  std::signal(SIGHUP, SIG_IGN);
+  CHECK(end_of(hang_up).code == 6);
+  std::signal(SIGHUP, SIG_DFL);
+  CHECK(end_of(hang_up).code == 5);
+}
+
+TEST_CASE("only where something is left it is said that another run can go on from it") {
+  const auto deaf = [] {
+    ::kill(::getppid(), SIGTERM);
+    work(30);
+    return 0;
+  };
+  CHECK(end_of(deaf, [] { return true; }).told.find("--resume") != std::string::npos);
+  CHECK(end_of(deaf, [] { return false; }).told == "dovetail: stopped\n");
 }
 
 TEST_CASE("a second request ends at once, a signal that comes twice does not") {
