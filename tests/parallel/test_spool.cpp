@@ -53,14 +53,19 @@ TEST_CASE("A new start forgets what was there and leaves other files alone") {
   const scratch_folder scratch;
   spool::start(scratch.path, identity).write("piece_0", some_bytes(10));
   std::ofstream(scratch.path / "mine.txt") << "keep";
+  std::ofstream(scratch.path / "mine.part") << "keep";
+  std::ofstream(scratch.path / "piece_2.blob.part") << "of a writer that was killed";
   const auto store = spool::start(scratch.path, identity);
   CHECK_FALSE(store.read("piece_0"));
   CHECK(fs::exists(scratch.path / "mine.txt"));
+  CHECK(fs::exists(scratch.path / "mine.part"));
+  CHECK_FALSE(fs::exists(scratch.path / "piece_2.blob.part"));
   store.write("piece_1", some_bytes(10));
   store.clear();
   CHECK(fs::exists(scratch.path / "mine.txt"));
   CHECK_FALSE(fs::exists(store.path_of("piece_1")));
   fs::remove(scratch.path / "mine.txt");
+  fs::remove(scratch.path / "mine.part");
   spool::start(scratch.path, identity).clear();
   CHECK_FALSE(fs::exists(scratch.path));
 }

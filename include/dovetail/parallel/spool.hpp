@@ -38,9 +38,7 @@ public:
   /// `io_error` when the folder cannot be written.
   static spool start(const std::filesystem::path& folder, const run_identity& identity) {
     make_folder(folder);
-    for (const auto& old : std::filesystem::directory_iterator(folder))
-      if (const auto suffix = old.path().extension(); suffix == blob_suffix || suffix == ".part")
-        std::filesystem::remove(old.path());
+    remove_blobs(folder);
     const std::string manifest = manifest_text(identity);
     output_file file(folder / manifest_name);
     file.text(manifest);
@@ -108,12 +106,8 @@ public:
   /// Removes the spool's files, and the folder when nothing else is in it.
   void clear() const {
     std::error_code ignored;
-    std::vector<std::filesystem::path> ours{folder_ / manifest_name};
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
-      if (entry.path().extension() == blob_suffix)
-        ours.push_back(entry.path());
-    for (const auto& path : ours)
-      std::filesystem::remove(path, ignored);
+    remove_blobs(folder_);
+    std::filesystem::remove(folder_ / manifest_name, ignored);
     std::filesystem::remove(folder_, ignored); // fails, as it should, when the folder is not empty
   }
 
@@ -131,6 +125,20 @@ private:
     content_hash hash;
     hash.text(manifest);
     identity_ = hash.value();
+  }
+
+  /// Blobs, whole ones and those of writers that were killed; other files are not ours.
+  static void remove_blobs(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::vector<std::filesystem::path> ours;
+    for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+      const std::string name = entry->path().filename().string();
+      if (name.ends_with(blob_suffix) || name.ends_with(std::string(blob_suffix) + ".part"))
+        ours.push_back(entry->path());
+    }
+    for (const auto& path : ours)
+      std::filesystem::remove(path, failed);
   }
 
   std::uint64_t checksum(std::string_view name, const byte_buffer& blob) const {
