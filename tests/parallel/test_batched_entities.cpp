@@ -3,27 +3,18 @@
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
 #include <csignal>
-#include <filesystem>
 #include <numeric>
 #include <string>
 
-#include <unistd.h>
-
 using namespace dovetail;
-namespace fs = std::filesystem;
 
 namespace {
-
-struct scratch_folder {
-  fs::path path = fs::temp_directory_path() / ("dovetail_batches_" + std::to_string(::getpid()));
-  scratch_folder() { fs::remove_all(path); }
-  ~scratch_folder() { fs::remove_all(path); }
-};
 
 const run_identity identity{{"input", "abc"}};
 
@@ -67,8 +58,8 @@ const std::vector<any_executor> executors{parallel::serial{}, parallel::threads{
 TEST_CASE("What is there is not made again, in memory and on disk, whoever runs the tasks") {
   for (const any_executor& run : executors)
     for (const bool on_disk : {false, true}) {
-      const scratch_folder scratch;
-      const auto store = on_disk ? std::make_shared<entity_store>(spool::start(scratch.path, identity))
+      const testing::scratch_folder scratch("batches");
+      const auto store = on_disk ? std::make_shared<entity_store>(spool::start(scratch, identity))
                                  : std::make_shared<entity_store>();
       batched_entities entities(store);
       CHECK(make_and_check(entities, keys_from(10, 20), run) == 20);
@@ -79,12 +70,12 @@ TEST_CASE("What is there is not made again, in memory and on disk, whoever runs 
 }
 
 TEST_CASE("A resumed run finds the batches of the earlier one") {
-  const scratch_folder scratch;
+  const testing::scratch_folder scratch("batches");
   const auto keys = keys_from(1, 10);
-  batched_entities first(std::make_shared<entity_store>(spool::start(scratch.path, identity)));
+  batched_entities first(std::make_shared<entity_store>(spool::start(scratch, identity)));
   make_and_check(first, keys, parallel::processes{2});
   std::atomic<int> made = 0;
-  batched_entities second(std::make_shared<entity_store>(spool::resume(scratch.path, identity)));
+  batched_entities second(std::make_shared<entity_store>(spool::resume(scratch, identity)));
   const auto again = [&](const std::vector<std::size_t>& wanted) {
     made += static_cast<int>(wanted.size());
     return make_of(keys, wanted);
@@ -139,8 +130,8 @@ TEST_CASE("Of batches that fail, the entities that fail alone are named; a crash
 }
 
 TEST_CASE("A blob that has gone is an error that names it") {
-  const scratch_folder scratch;
-  const auto disk = spool::start(scratch.path, identity);
+  const testing::scratch_folder scratch("batches");
+  const auto disk = spool::start(scratch, identity);
   const auto keys = keys_from(1, 3);
   batched_entities entities(std::make_shared<entity_store>(disk));
   make_and_check(entities, keys, parallel::serial{});
@@ -151,8 +142,8 @@ TEST_CASE("A blob that has gone is an error that names it") {
 TEST_CASE("What no other attempt mends is thrown as what it is, and nothing is made twice") {
   const auto keys = keys_from(1, 9);
   for (const any_executor& run : executors) {
-    const scratch_folder scratch;
-    const auto disk = spool::start(scratch.path, identity);
+    const testing::scratch_folder scratch("batches");
+    const auto disk = spool::start(scratch, identity);
     batched_entities entities(std::make_shared<entity_store>(disk));
     disk.clear(); // no folder to write to
     CHECK_THROWS_AS(make_and_check(entities, keys, run), io_error);

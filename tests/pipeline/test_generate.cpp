@@ -7,6 +7,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -17,11 +18,7 @@
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <numbers>
-#include <string>
-
-#include <unistd.h>
 
 using namespace dovetail;
 
@@ -209,8 +206,7 @@ TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
 }
 
 TEST_CASE("a run in the spool of an earlier one makes nothing again") {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("dovetail_generate_" + std::to_string(::getpid()));
+  const testing::scratch_folder folder("generate");
   const auto run = [&](const spool& disk) {
     auto options = in_parts(6);
     options.store = disk;
@@ -222,7 +218,6 @@ TEST_CASE("a run in the spool of an earlier one makes nothing again") {
   };
   const auto first = run(spool::start(folder, {}));
   const auto second = run(spool::resume(folder, {}));
-  spool::resume(folder, {}).clear();
   const auto& stages = second.summary.children;
   CHECK(first.summary.children[0].get("kept") == 0);
   CHECK(stages[0].get("kept") == 1);

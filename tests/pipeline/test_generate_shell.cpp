@@ -15,7 +15,9 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 using namespace dovetail;
 using namespace dovetail::testing;
@@ -39,6 +41,28 @@ TEST_CASE("a sphere: closed, every vertex on it") {
   CHECK(area_of(mesh) == doctest::Approx(16 * std::numbers::pi).epsilon(5e-3));
   CHECK(result.coarse_angles.violations.empty());
   CHECK(result.fine_angles.min_wedge_deg() > 48);
+}
+
+TEST_CASE(
+    "from the background mesh that an earlier run has kept comes the same mesh, within the same bounds") {
+  const scratch_folder folder("kept_background");
+  const auto run = [&](const spool& disk) {
+    auto options = in_parts(3);
+    options.store = disk;
+    // Larger than the curvature allows: the bounds of the surface are the sizes.
+    return generate<2>(occt_shape_from(BRepPrimAPI_MakeTorus(2.0, 0.7).Shape()).model, uniform_size(1.5),
+                       parameters<>{}.with_options(options));
+  };
+  const auto first = run(spool::start(folder, {}));
+  const auto hash = io::mesh_hash(first.mesh);
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const auto name = entry.path().filename().string();
+        name.starts_with("piece_") || name.starts_with("skeleton_"))
+      std::filesystem::remove(entry.path());
+  const auto second = run(spool::resume(folder, {}));
+  CHECK(second.summary.children[0].get("kept") == 1);
+  CHECK(second.summary.children.back().get("reused") == 0);
+  CHECK(io::mesh_hash(second.mesh) == hash);
 }
 
 TEST_CASE("a torus and a cylinder: seams, an edge between faces") {

@@ -205,12 +205,12 @@ private:
     return !changed.empty();
   }
 
-  /// False when it is forbidden already.
+  /// False when it is forbidden already. An edge that the region forbids itself is in no mesh of it.
   bool forbid(std::size_t r, const simplex<1>& chord) {
-    const auto before = set_.region(r).boundary.forbidden_edges;
-    if (std::find(before.begin(), before.end(), chord) != before.end())
+    auto& forbidden = set_.forbidden_edges[r];
+    if (std::find(forbidden.begin(), forbidden.end(), chord) != forbidden.end())
       return false;
-    set_.forbidden_edges[r].push_back(chord);
+    forbidden.push_back(chord);
     return true;
   }
 
