@@ -51,3 +51,20 @@ TEST_CASE("What is found near the rest is named by its own number") {
                                      {{true, true, false}, {box_around(skeleton, 2)}});
   CHECK(plan.merges == std::vector<std::array<local_id, 2>>{{2, 3}});
 }
+
+TEST_CASE("Of patches with new keys nothing is known, and their boxes are searched") {
+  const fine_skeleton skeleton = three_triangles();
+  const std::vector<local_id> first{0, 1, 2, 3}; // each a patch
+  const std::vector<content_key> keys{{7}, {3}, {5}};
+  const auto known_of = [&](const std::vector<content_key>& apart) {
+    return known_from_patches(skeleton, first, keys, apart);
+  };
+  CHECK(known_of({}).triangles.empty());
+  CHECK(known_of({{3}, {5}, {7}}).triangles == std::vector<bool>{true, true, true});
+  const known_apart known = known_of({{3}, {7}, {9}});
+  CHECK(known.triangles == std::vector<bool>{true, true, false});
+  REQUIRE(known.around_others.size() == 1);
+  CHECK(known.around_others[0].lower == box_around(skeleton, 2).lower);
+  CHECK(known.around_others[0].upper == box_around(skeleton, 2).upper);
+  CHECK(crossings(known) == 1);
+}

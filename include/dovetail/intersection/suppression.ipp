@@ -8,6 +8,7 @@
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
+#include <algorithm>
 #include <set>
 #include <span>
 
@@ -64,6 +65,27 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
 }
 
 } // namespace detail
+
+DOVETAIL_INLINE known_apart known_from_patches(const fine_skeleton& skeleton,
+                                               std::span<const local_id> first_triangle,
+                                               std::span<const content_key> patch_keys,
+                                               std::span<const content_key> apart) {
+  known_apart known;
+  if (apart.empty())
+    return known;
+  known.triangles.resize(skeleton.sides.size(), false);
+  for (std::size_t p = 0; p < patch_keys.size(); ++p)
+    if (std::binary_search(apart.begin(), apart.end(), patch_keys[p])) {
+      std::fill(known.triangles.begin() + first_triangle[p], known.triangles.begin() + first_triangle[p + 1],
+                true);
+    } else {
+      box3& box = known.around_others.emplace_back();
+      for (local_id t = first_triangle[p]; t < first_triangle[p + 1]; ++t)
+        for (const local_id v : skeleton.sides[static_cast<std::size_t>(t)])
+          box.include(skeleton.points[static_cast<std::size_t>(v)]);
+    }
+  return known;
+}
 
 DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
                                                   const std::vector<bool>& planar, const any_executor& run,

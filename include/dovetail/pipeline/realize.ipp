@@ -93,7 +93,9 @@ private:
     for (std::size_t f = 0; f < result_.coarse.faces.size(); ++f)
       if (!is_curved(result_.coarse.faces[f], result_.coarse.lines))
         mark(planar, remeshed, result_.coarse.regions.size() + f);
-    auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks, patches_apart(remeshed));
+    auto plan = plan_suppression(remeshed.fine, planar, given_.run_tasks,
+                                 known_from_patches(remeshed.fine, remeshed.first_triangle,
+                                                    remeshed.patch_keys, store_.patches_apart));
     if (plan.empty()) {
       store_.patches_apart = remeshed.patch_keys;
       sort_unique(store_.patches_apart);
@@ -107,25 +109,6 @@ private:
   static void mark(std::vector<bool>& triangles, const remeshed_skeleton& remeshed, std::size_t patch) {
     std::fill(triangles.begin() + remeshed.first_triangle[patch],
               triangles.begin() + remeshed.first_triangle[patch + 1], true);
-  }
-
-  known_apart patches_apart(const remeshed_skeleton& remeshed) const {
-    known_apart known;
-    if (store_.patches_apart.empty())
-      return known;
-    const fine_skeleton& fine = remeshed.fine;
-    known.triangles.resize(fine.sides.size(), false);
-    for (std::size_t p = 0; p < remeshed.patch_keys.size(); ++p)
-      if (std::binary_search(store_.patches_apart.begin(), store_.patches_apart.end(),
-                             remeshed.patch_keys[p])) {
-        mark(known.triangles, remeshed, p);
-      } else {
-        box3& box = known.around_others.emplace_back();
-        for (local_id t = remeshed.first_triangle[p]; t < remeshed.first_triangle[p + 1]; ++t)
-          for (const local_id v : fine.sides[static_cast<std::size_t>(t)])
-            box.include(fine.points[static_cast<std::size_t>(v)]);
-      }
-    return known;
   }
 
   void merge(const std::vector<std::array<local_id, 2>>& pairs) {
