@@ -60,6 +60,9 @@ dovetail_adapter(netgen FOUND "${Netgen_FOUND}" LIBRARIES Netgen::nglib)
 find_package(Spectra QUIET)
 dovetail_adapter(spectra FOUND "${Spectra_FOUND}" LIBRARIES Spectra::Spectra)
 
+find_package(Eigen3 3.3 QUIET CONFIG)
+dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
+
 find_package(Boost 1.71 QUIET CONFIG) # headers of Boost.Graph
 dovetail_adapter(boost_graph FOUND "${Boost_FOUND}" LIBRARIES Boost::headers)
 

@@ -16,12 +16,15 @@ struct boundary_patches {
   std::vector<local_id> of_face;  ///< per CAD face: its patch
 };
 
-/// Groups CAD faces by patch name. A face without a patch makes a patch of its own, called by the face's
-/// name, or "face N" (N counted from 1) when it has none. O(faces log faces).
-inline boundary_patches collect_patches(const distributed_mesh& mesh) {
-  auto faces = std::max(mesh.patch_names.size(), mesh.face_names.size());
-  for (const auto f : mesh.skeleton.side_hosts)
-    faces = std::max(faces, static_cast<std::size_t>(f + 1));
+/// Groups CAD faces by patch name, those with names or sides and at least `faces`. A face without a patch
+/// makes a patch of its own, called by the face's name, or "face N" (N counted from 1) when it has none.
+/// O(faces log faces).
+template <int D>
+boundary_patches collect_patches(const distributed_simplicial_mesh<D>& mesh, std::size_t faces = 0) {
+  faces = std::max({faces, mesh.patch_names.size(), mesh.face_names.size()});
+  if constexpr (D == 3) // in D = 2 sides lie on curves
+    for (const auto f : mesh.skeleton.side_hosts)
+      faces = std::max(faces, static_cast<std::size_t>(f + 1));
   boundary_patches patches;
   std::vector<local_id> by_name; // the patches in the order of their names
   for (std::size_t f = 0; f < faces; ++f) {
