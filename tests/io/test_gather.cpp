@@ -157,6 +157,30 @@ TEST_CASE("triangles: a generated plane domain in one piece, its boundary edges 
   CHECK(whole.patch_of_face.size() == 1);
 }
 
+TEST_CASE("triangles: an edge where three sheets meet is there once, with its first two triangles") {
+  distributed_simplicial_mesh<2> mesh;
+  mesh.skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  mesh.skeleton.point_hosts.resize(5);
+  for (local_id s = 0; s < 3; ++s) {
+    mesh.skeleton.sides.push_back({0, 1}); // once per triangle
+    mesh.skeleton.subdomains.push_back({s, no_id});
+    mesh.skeleton.side_hosts.push_back(6);
+    mesh.counts.push_back({0, 0, 1});
+  }
+  mesh.load = [](local_id s) {
+    simplicial_piece<2> piece;
+    piece.subdomain = s;
+    piece.skeleton_points = {0, 1, 2 + s};
+    piece.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, s == 0 ? 1.0 : -1.0, 0}}, {{0, 1, 2}}, {s}};
+    return piece;
+  };
+  const auto whole = io::gather(mesh);
+  CHECK(whole.sides == std::vector<simplex<1>>{{0, 1}});
+  CHECK(whole.side_hosts == std::vector<local_id>{6});
+  CHECK(whole.side_elements == std::vector<std::array<local_id, 2>>{{0, 1}});
+  CHECK(whole.patch_names == std::vector<std::string>{"face 1", "face 2", "face 3"});
+}
+
 TEST_CASE("rows of neighbours: points that share an element, and no others") {
   const auto mesh = testing::stacked_cubes{.cells = 2}.whole();
   const auto rows = point_neighbours(mesh);
