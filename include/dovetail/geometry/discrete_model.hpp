@@ -43,16 +43,32 @@ public:
     made->topology = std::move(network.topology);
     made->curves = std::move(network.curves);
     add_charts(*made);
+    made->face_ids.assign(made->topology.faces.size(), no_id);
+    for (std::size_t t = 0; t < made->surface.chart_of.size(); ++t)
+      if (const local_id patch = made->surface.patch_of[t]; patch != no_id)
+        made->face_ids[index(made->surface.chart_of[t])] = surfaces.patch_numbers[index(patch)];
     for (const vec3& p : made->surface.mesh.points)
       made->bounds.include(p);
     data_ = std::move(made);
   }
+
+  /// From arrays of one's own: triangles on points, in any orientation, and per triangle a number that comes
+  /// back as `face_id`, and in files as the name of a patch (empty: none). An edge between two numbers is a
+  /// feature. Throws `geometry_error` for arrays that do not fit together and for a surface that `repaired`
+  /// refuses.
+  discrete_model(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<local_id> ids = {},
+                 const discrete_options& options = {})
+      : discrete_model(repaired({std::move(points), std::move(triangles), std::move(ids), {}}, "the surface",
+                                {options.merge_tolerance, options.allow_sheets}),
+                       options) {}
 
   const geometry_topology& topology() const { return data_->topology; }
   box3 bounds() const { return data_->bounds; }
   bool thread_safe() const { return true; }
   /// What was done to the triangles, with warnings.
   const report& repairs() const { return data_->repairs; }
+  /// The number that came with the triangles of face f: one's own, or the index of a name; or no_id.
+  local_id face_id(local_id f) const { return data_->face_ids[index(f)]; }
   /// The triangles, split where charts end; `chart_of` is the face of each.
   const charted_surface& surface() const { return data_->surface; }
 
@@ -108,6 +124,7 @@ private:
     std::vector<discrete::polyline> curves;
     std::vector<box_tree> curve_trees; ///< per curve, over its segments
     std::vector<discrete::chart_surface> charts;
+    std::vector<local_id> face_ids;
     box3 bounds;
   };
 

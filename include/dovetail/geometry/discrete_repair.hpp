@@ -26,9 +26,10 @@ namespace dovetail {
 /// to the side that most of its triangles were listed with.
 struct oriented_surfaces {
   simplicial_mesh<2> mesh;
-  std::vector<local_id> patches; ///< per triangle, as in the soup
+  std::vector<local_id> patches; ///< per triangle: index into `patch_names`, or no_id
   std::vector<std::string> patch_names;
-  std::vector<local_id> solid_of; ///< per triangle: the solid behind it; no_id in sheets
+  std::vector<local_id> patch_numbers; ///< per patch: its number in the soup
+  std::vector<local_id> solid_of;      ///< per triangle: the solid behind it; no_id in sheets
   local_id solids = 0;
   report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
 };
@@ -46,12 +47,10 @@ class soup_repair {
 public:
   soup_repair(const triangle_soup& soup, std::string name, const repair_options& options)
       : name_(std::move(name)), options_(options) {
+    check_soup(soup, name_);
     result_.mesh.points = soup.points;
     result_.mesh.elements = soup.triangles;
-    result_.patches = soup.patches.size() == soup.triangles.size()
-                          ? soup.patches
-                          : std::vector<local_id>(soup.triangles.size(), no_id);
-    result_.patch_names = soup.patch_names;
+    take_patches(soup);
     result_.repairs.name = "repair";
     box3 box;
     for (const vec3& p : soup.points)
@@ -76,6 +75,26 @@ public:
   }
 
 private:
+  /// Patches without names are called by their numbers.
+  void take_patches(const triangle_soup& soup) {
+    result_.patches = soup.patches;
+    result_.patches.resize(soup.triangles.size(), no_id);
+    result_.patch_names = soup.patch_names;
+    result_.patch_numbers = own_patch_numbers(soup);
+    if (!soup.patch_names.empty()) {
+      result_.patch_numbers.resize(soup.patch_names.size());
+      std::iota(result_.patch_numbers.begin(), result_.patch_numbers.end(), local_id{0});
+      return;
+    }
+    for (const local_id number : result_.patch_numbers)
+      result_.patch_names.push_back(std::to_string(number));
+    for (local_id& patch : result_.patches)
+      if (patch != no_id)
+        patch = static_cast<local_id>(
+            std::lower_bound(result_.patch_numbers.begin(), result_.patch_numbers.end(), patch) -
+            result_.patch_numbers.begin());
+  }
+
   std::vector<vec3>& points() { return result_.mesh.points; }
   std::vector<simplex<2>>& triangles() { return result_.mesh.elements; }
   vec3 point(local_id v) { return points()[static_cast<std::size_t>(v)]; }
@@ -319,8 +338,9 @@ private:
 
 /// Merges points, drops degenerate and repeated triangles, orients, and finds solids and voids. Points are
 /// merged when equal, and, where the surface is then still open, within `merge_tolerance` times the diagonal
-/// of its box. About O(n log n) for few shells. Throws `geometry_error` naming `name` and the place when the
-/// surface is not manifold, one-sided or crosses itself, and, unless sheets are allowed, when it is open.
+/// of its box. About O(n log n) for few shells. Throws what `check_soup` throws, and `geometry_error` naming
+/// `name` and the place when the surface is not manifold, one-sided or crosses itself, and, unless sheets are
+/// allowed, when it is open.
 inline oriented_surfaces repaired(const triangle_soup& soup, const std::string& name = "the surface",
                                   const repair_options& options = {}) {
   return discrete::soup_repair(soup, name, options).run();

@@ -6,6 +6,7 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -22,9 +23,51 @@ namespace dovetail {
 struct triangle_soup {
   std::vector<vec3> points;
   std::vector<simplex<2>> triangles;
-  std::vector<local_id> patches;        ///< per triangle: index into `patch_names`, or no_id
-  std::vector<std::string> patch_names; ///< named solids or groups of the file
+  /// Per triangle: its patch, an index into `patch_names`; without names any number of one's own; or no_id.
+  /// Empty: none has a patch.
+  std::vector<local_id> patches = {};
+  std::vector<std::string> patch_names = {}; ///< named solids or groups of the file
 };
+
+/// Throws `geometry_error` naming `name` and the triangle or point when arrays disagree in length, a triangle
+/// refers to a point or patch that does not exist, or a point is not finite. O(n).
+inline void check_soup(const triangle_soup& soup, const std::string& name) {
+  if (!soup.patches.empty() && soup.patches.size() != soup.triangles.size())
+    throw geometry_error(name + ": there are " + std::to_string(soup.patches.size()) + " patches of " +
+                         std::to_string(soup.triangles.size()) +
+                         " triangles; give one per triangle, or none");
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    if (const vec3 p = soup.points[i]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw geometry_error(name + ": point " + std::to_string(i) + " is not finite");
+  const auto is_index = [](local_id i, std::size_t size) {
+    return i >= 0 && static_cast<std::size_t>(i) < size;
+  };
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (const local_id v : soup.triangles[t])
+      if (!is_index(v, soup.points.size()))
+        throw geometry_error(name + ": triangle " + std::to_string(t) + " refers to point " +
+                             std::to_string(v) + ", but there are " + std::to_string(soup.points.size()) +
+                             " points");
+  if (!soup.patch_names.empty())
+    for (std::size_t t = 0; t < soup.patches.size(); ++t)
+      if (soup.patches[t] != no_id && !is_index(soup.patches[t], soup.patch_names.size()))
+        throw geometry_error(name + ": triangle " + std::to_string(t) + " refers to patch " +
+                             std::to_string(soup.patches[t]) + ", but there are " +
+                             std::to_string(soup.patch_names.size()) + " names of patches");
+}
+
+/// The numbers that stand for patches without names, ascending; none where there are names.
+inline std::vector<local_id> own_patch_numbers(const triangle_soup& soup) {
+  std::vector<local_id> numbers;
+  if (!soup.patch_names.empty())
+    return numbers;
+  for (const local_id patch : soup.patches)
+    if (patch != no_id)
+      numbers.push_back(patch);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
 
 namespace discrete {
 
