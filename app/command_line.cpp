@@ -27,6 +27,14 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Command lines at the end of a command's help.
+void add_examples(CLI::App& command, const std::vector<std::string>& lines) {
+  std::string footer = "Examples:";
+  for (const auto& line : lines)
+    footer += "\n  " + line;
+  command.footer(footer);
+}
+
 void add_model_options(CLI::App& command, model_options& options) {
   command.add_option(
       "INPUT", options.input,
@@ -38,7 +46,7 @@ void add_model_options(CLI::App& command, model_options& options) {
       .add_option("--unit", options.unit, "Unit of lengths from STEP and IGES files: as in the file, or mm")
       ->check(CLI::IsMember({"file", "mm"}))
       ->capture_default_str();
-  auto* size = command.add_option("--size", options.size,
+  auto* size = command.add_option("-s,--size", options.size,
                                   "Target edge length, in the model's unit (default: diagonal / 25)");
   command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
       ->excludes(size);
@@ -62,7 +70,7 @@ void add_run_options(CLI::App& command, mesh_options& options) {
 }
 
 void add_output_options(CLI::App& command, mesh_options& options) {
-  command.add_option("--out", options.out, "Folder for the mesh")->capture_default_str();
+  command.add_option("-o,--out", options.out, "Folder for the mesh")->capture_default_str();
   command
       .add_option("--format", options.formats,
                   "File formats, several allowed: vtu, msh, msh-partitioned, none (default: vtu)")
@@ -103,6 +111,9 @@ struct parser {
 
   void add_mesh() {
     auto& command = *app.add_subcommand("mesh", "Mesh a CAD file or a built-in model");
+    add_examples(command, {"dovetail mesh wing.step -s 5 -o wing",
+                           "dovetail mesh wing.step --sizing sizes.json --mesher hxt -j 2 --report wing.json",
+                           "dovetail mesh plate.svg --dimension 2 -s 0.1 --format vtu,msh"});
     add_model_options(command, mesh.model);
     add_run_options(command, mesh);
     add_output_options(command, mesh);
@@ -113,6 +124,7 @@ struct parser {
   }
   void add_plan() {
     auto& command = *app.add_subcommand("plan", "Predict elements, memory and time before any meshing");
+    add_examples(command, {"dovetail plan wing.step -s 5"});
     add_model_options(command, plan.mesh.model);
     add_run_options(command, plan.mesh);
     command.add_option("--report", plan.report, "JSON file for the figures");
@@ -127,6 +139,7 @@ struct parser {
   }
   void add_check() {
     auto& command = *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, MSH) is a valid mesh");
+    add_examples(command, {"dovetail check wing/mesh.pvtu", "dovetail check --report wing.json"});
     command.add_option("MESH", check.mesh, "Mesh file");
     command.add_option("--report", check.report,
                        "Report of a run: check that its files are as it wrote them");
@@ -135,6 +148,7 @@ struct parser {
   }
   void add_stats() {
     auto& command = *app.add_subcommand("stats", "Print the quality of a mesh file");
+    add_examples(command, {"dovetail stats wing/mesh.pvtu"});
     command.add_option("MESH", stats.mesh, "Mesh file")->required();
     command.add_option("--report", stats.report, "JSON file for the figures");
     command.callback([this] {
@@ -144,8 +158,9 @@ struct parser {
   }
   void add_improve() {
     auto& command = *app.add_subcommand("improve", "Improve the elements of a mesh file, boundary kept");
+    add_examples(command, {"dovetail improve mesh.vtu -o better.vtu --preset finest"});
     command.add_option("IN", improve.input, "Mesh file")->required();
-    command.add_option("--out", improve.out, "Mesh file to write (VTU or MSH)")->required();
+    command.add_option("-o,--out", improve.out, "Mesh file to write (VTU or MSH)")->required();
     command.add_option("--preset", improve.preset, "Improver: " + joined(improver_names()));
     auto* size = command.add_option("--size", improve.size, "Target edge length (default: as in the mesh)");
     command.add_option("--sizing", improve.sizing, "JSON file with a sizing field")->excludes(size);
@@ -159,6 +174,8 @@ struct parser {
   void add_compare() {
     auto& command =
         *app.add_subcommand("compare", "Run combinations of policies on one model: table and page");
+    add_examples(command,
+                 {"dovetail compare wing.step -s 5 --partitioners metis,scotch --simplifiers paper,none"});
     add_model_options(command, compare.model);
     add_compare_options(command, compare);
     command.callback([this] {

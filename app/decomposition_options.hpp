@@ -19,7 +19,7 @@ void add_decomposition_options(CLI::App& command, Options& options) {
                      "Number of subdomains (default: from the predicted number of elements)");
   command.add_option("--coarsening", options.coarsening,
                      "Edge length of the background mesh over the target (default: from the prediction)");
-  command.add_option("--workers", options.workers, "Worker processes (default: the number of processors)");
+  command.add_option("-j,--workers", options.workers, "Worker processes (default: the number of processors)");
 }
 
 } // namespace dovetail::app

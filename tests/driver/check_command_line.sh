@@ -41,4 +41,17 @@ done
 expect_error "--size" mesh --model combustor --size large
 expect_error "larger than the model" mesh --model combustor --size 1e9
 expect_error "--size: 1e-20 is less" mesh --model combustor --size 1e-20
+
+# The examples at the end of each help are command lines: what is missing are their files.
+examples=0
+for command in mesh plan check stats improve compare; do
+  mapfile -t lines < <("$driver" $command --help | sed -n '/^Examples:/,$ s/^  dovetail //p')
+  ((${#lines[@]})) || { what="$command --help"; fault "there is no example"; }
+  for line in "${lines[@]}"; do
+    expect_error 'wing|plate|sizes|mesh' $line
+    ((status == 1)) || fault "the example is a wrong command line"
+    examples=$((examples + 1))
+  done
+done
+((examples >= 8)) || fault "there are $examples examples only"
 finish
