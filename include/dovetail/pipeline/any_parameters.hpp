@@ -44,9 +44,6 @@ struct any_parameters {
 private:
   template <class M, class P, class I, class E>
   static any_mesher<D> mesher_of(const parameters<M, P, I, E>& given) {
-    static_assert(
-        std::same_as<M, no_mesher> || boundary_keeping_mesher<M, D>,
-        "generate<D> needs a mesher of D that keeps its boundary, or none for the native one of D = 2");
     if constexpr (boundary_keeping_mesher<M, D>)
       return given.mesh_it;
     else if constexpr (D == 2)
@@ -56,9 +53,38 @@ private:
   }
   template <class I>
   static any_improver<D> improver_of(const I& given) {
-    static_assert(improver<I, D>, "generate<D> needs an improver of elements of D");
     return given;
   }
 };
+
+namespace detail {
+
+template <class T>
+inline constexpr bool is_parameters = false;
+template <class M, class P, class I, class E>
+inline constexpr bool is_parameters<parameters<M, P, I, E>> = true;
+
+/// Whether `generate<D>` can run on these; where not, the compiler's first error says what it needs.
+template <int D, class Given>
+consteval bool checked_parameters() {
+  if constexpr (is_parameters<Given>) {
+    using mesher_type = decltype(Given::mesh_it);
+    constexpr bool has_mesher = D == 2 || !std::same_as<mesher_type, no_mesher>;
+    constexpr bool fits = std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, D>;
+    constexpr bool improves = improver<decltype(Given::improve_it), D>;
+    static_assert(has_mesher, "generate<3> needs a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
+    static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
+    static_assert(improves, "generate<D> needs an improver of elements of dimension D");
+    return has_mesher && fits && improves;
+  } else {
+    constexpr bool is_erased = std::same_as<Given, any_parameters<D>>;
+    static_assert(is_erased,
+                  "generate takes parameters: options go into parameters<>{}.with_options(options), "
+                  "a mesher into .with_mesher(mesher)");
+    return is_erased;
+  }
+}
+
+} // namespace detail
 
 } // namespace dovetail

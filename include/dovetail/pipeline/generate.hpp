@@ -52,10 +52,12 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 template <int D, geometry_model G, sizing_field H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {
-  const any_geometry model(given_model);
-  const erased_sizing size(given_size);
-  const any_parameters<D> given(policies);
-  return generate_from_background<D>(model, make_background<D>(model, size, given), given);
+  if constexpr (detail::checked_parameters<D, Parameters>()) {
+    const any_geometry model(given_model);
+    const erased_sizing size(given_size);
+    const any_parameters<D> given(policies);
+    return generate_from_background<D>(model, make_background<D>(model, size, given), given);
+  }
 }
 
 } // namespace dovetail
