@@ -7,7 +7,7 @@
 #pragma once
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "dovetail needs IEEE arithmetic as written: compile without -ffast-math and its parts (docs/building.md)"
+#error "dovetail needs IEEE arithmetic: compile without -ffast-math and its parts (docs/building.md)"
 #endif
 
 #include "dovetail/core/vector.hpp"
