@@ -9,7 +9,7 @@
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/generate.hpp"
-#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -46,22 +46,20 @@ struct decomposed_shell {
         background(make_background<3>(model, uniform_size(0.2), given)),
         sides(build_sides(background.mesh.volume)) {
     const auto simplified = simplify<3>(background.mesh.volume, sides, simplifier::none{});
-    states = simplified.side_states;
     pieces = decompose<3>(background.mesh.volume, sides, simplified.super_of_element, simplified.graph,
                           background.mesh.volume.tags, given.partition_it, parts);
   }
 
-  realized_skeleton realize_with(merge_account& account) const {
-    skeleton_store made(std::make_shared<entity_store>());
-    return realize(model, background.mesh, sides, states, pieces.part_of_element, account, background.size,
-                   {}, made, given);
+  /// The rounds, of which so large a fraction of the subdomains may be merged.
+  decomposition_rounds<3> rounds(double largest_merged_fraction) {
+    given.options.largest_merged_fraction = largest_merged_fraction;
+    return {model, background.mesh, sides, pieces, background.size, given};
   }
 
   any_geometry model;
   any_parameters<3> given;
   background_result<3> background;
   side_table<3> sides;
-  std::vector<side_state> states;
   decomposition pieces;
 };
 
@@ -159,11 +157,12 @@ TEST_CASE("One of four subdomains may be merged, two may not; of many a fraction
 }
 
 TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {
-  const decomposed_shell given(0.97, 16);
-  merge_account account(given.pieces.parts, 1);
-  const auto result = given.realize_with(account);
+  decomposed_shell given(0.97, 16);
+  auto rounds = given.rounds(1);
+  const auto result = rounds.realize_boundaries();
+  const merge_account& account = rounds.merges();
   CHECK(plan_for(result.fine).empty());
-  CHECK(result.intersection_summary.get("rounds") > 2); // one merge led to another
+  CHECK(rounds.intersection().get("rounds") > 2); // one merge led to another
   std::map<local_id, std::set<local_id>> made_of;
   std::map<local_id, std::set<local_id>> went_to;
   for (std::size_t e = 0; e < result.subdomain_of_element.size(); ++e) {
@@ -180,9 +179,8 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
   CHECK(account.subdomains() == static_cast<local_id>(made_of.size()));
   CHECK(account.merged() == given.pieces.parts - static_cast<local_id>(made_of.size()));
 
-  merge_account of_few(given.pieces.parts, 0.05);
-  CHECK_THROWS_WITH_AS(given.realize_with(of_few), doctest::Contains("subdomains would have to be merged"),
-                       intersection_error);
+  CHECK_THROWS_WITH_AS(given.rounds(0.05).realize_boundaries(),
+                       doctest::Contains("subdomains would have to be merged"), intersection_error);
 }
 
 TEST_CASE("Where the faces of a shell cross, their size is made smaller until they do not") {

@@ -1,6 +1,5 @@
 /// @file
-/// Smaller sizes where surfaces cross, round by round: what D = 3 does with its skeleton and D = 2 with its
-/// finished pieces.
+/// Smaller sizes where surfaces cross, round by round.
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
