@@ -198,6 +198,30 @@ TEST_CASE("Where the faces of a shell cross, their size is made smaller until th
   CHECK(plan_for(result.mesh.skeleton).empty());
 }
 
+TEST_CASE("A refinement makes again what it reaches alone, and that is what a fresh run makes") {
+  decomposed_shell given(0.5, 16);
+  const auto realize_at = [&](const refined_sizing& size, skeleton_store& store) {
+    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+                      static_cast<std::size_t>(given.pieces.parts), size, store, given.given);
+  };
+  const auto empty = [] { return skeleton_store(std::make_shared<entity_store>()); };
+  skeleton_store store = empty();
+  refined_sizing size(given.background.size);
+  const auto before = realize_at(size, store);
+  size.refine(std::vector<size_ball>{{{0, 0, 1}, 0.05, 0.15}});
+  const auto after = realize_at(size, store);
+  for (const char* made : {"lines_made", "patches_made"}) {
+    CHECK(after.summary.get(made) > 0);
+    CHECK(after.summary.get(made) < 0.25 * before.summary.get(made));
+  }
+  CHECK(after.fine.sides.size() > before.fine.sides.size());
+  skeleton_store other_store = empty();
+  const auto fresh = realize_at(size, other_store);
+  CHECK(fresh.summary.get("patches_made") > before.summary.get("patches_made") - 1);
+  CHECK(fresh.fine.points == after.fine.points);
+  CHECK(fresh.fine.sides == after.fine.sides);
+}
+
 TEST_CASE(
     "Merges after failures are in the same account, and what is refused then is told with its reasons") {
   plane_drawing drawing;

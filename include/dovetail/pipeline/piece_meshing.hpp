@@ -90,12 +90,11 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
 template <int D>
 meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
                                  const realized<D>& skeleton, std::span<const double> weights,
-                                 const any_sizing& size, content_key field,
-                                 const std::shared_ptr<entity_store>& store, const any_parameters<D>& given) {
+                                 const refined_sizing& size, const std::shared_ptr<entity_store>& store,
+                                 const any_parameters<D>& given) {
   meshing_options options;
   options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
   options.store = store;
-  options.field = field;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;

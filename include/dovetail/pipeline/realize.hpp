@@ -36,13 +36,13 @@ struct skeleton_store {
 
 /// Finds the skeleton of a decomposition into `subdomains` and remeshes what bounds its pieces, each line and
 /// patch once. D = 3 does with the pieces that its subdomains induce on the surface what D = 2 does with its
-/// own, and adds interface faces. `size` has the key `field`; `made` carries lines and patches from one call
+/// own, and adds interface faces. `made` carries lines and patches from one call
 /// to the next. Patches that fail are in the result; throws `mesher_error` when a line or patch cannot be
 /// evaluated at all.
 template <int D>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const side_table<D>& sides, std::vector<local_id> subdomain_of_element,
-                    std::size_t subdomains, const any_sizing& size, content_key field, skeleton_store& made,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const any_parameters<D>& given);
 
 } // namespace dovetail

@@ -22,15 +22,15 @@ namespace detail {
 template <int D>
 realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface,
                           std::span<const vec3> coarse_points, const triangle_subdomains& pieces,
-                          std::vector<skeleton_face> faces, const any_sizing& size, content_key field,
-                          skeleton_store& made, const any_parameters<D>& given) {
+                          std::vector<skeleton_face> faces, const refined_sizing& size, skeleton_store& made,
+                          const any_parameters<D>& given) {
   const stopwatch clock;
   const std::size_t made_before = made.lines.made();
   realized<D> result;
   result.coarse = extract_skeleton(surface, pieces, std::move(faces));
   result.lines = number_lines(result.coarse,
-                              remesh_lines(model, result.coarse.lines, coarse_points, size, field,
-                                           given.run_tasks, made.lines, given.options.on_progress),
+                              remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
+                                           made.lines, given.options.on_progress),
                               coarse_points, surface.vertex_hosts);
   report& summary = result.summary;
   summary.name = "skeleton";
@@ -44,10 +44,10 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
 inline realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
                                       const side_table<2>& sides,
                                       const std::vector<local_id>& subdomain_of_element,
-                                      const any_sizing& size, content_key field, skeleton_store& made,
+                                      const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<2>& given) {
   auto result = realize_lines<2>(model, mesh.surface, mesh.surface.mesh.points,
-                                 own_subdomains(subdomain_of_element), {}, size, field, made, given);
+                                 own_subdomains(subdomain_of_element), {}, size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
   result.summary.set("edges", static_cast<double>(result.fine.sides.size()));
   result.summary.set("points", static_cast<double>(result.fine.points.size()));
@@ -57,13 +57,13 @@ inline realized<2> realize_boundaries(const any_geometry& model, const simplicia
 inline realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
                                       const side_table<3>& sides,
                                       const std::vector<local_id>& subdomain_of_element,
-                                      const any_sizing& size, content_key field, skeleton_store& made,
+                                      const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<3>& given) {
-  auto result = realize_lines<3>(
-      model, mesh.surface, mesh.volume.points, induced_subdomains(mesh, sides, subdomain_of_element),
-      interface_faces(mesh, sides, subdomain_of_element), size, field, made, given);
+  auto result = realize_lines<3>(model, mesh.surface, mesh.volume.points,
+                                 induced_subdomains(mesh, sides, subdomain_of_element),
+                                 interface_faces(mesh, sides, subdomain_of_element), size, made, given);
   auto remeshed =
-      remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size, field,
+      remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size,
                       given.mesh_surface, given.run_tasks, made.patches, given.options.on_progress);
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
@@ -85,11 +85,10 @@ inline local_id material_of(const simplicial_background<2>&, std::size_t) {
 template <int D>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const side_table<D>& sides, std::vector<local_id> subdomain_of_element,
-                    std::size_t subdomains, const any_sizing& size, content_key field, skeleton_store& made,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const any_parameters<D>& given) {
   const stopwatch clock;
-  auto result =
-      detail::realize_boundaries(model, mesh, sides, subdomain_of_element, size, field, made, given);
+  auto result = detail::realize_boundaries(model, mesh, sides, subdomain_of_element, size, made, given);
   result.material_of_subdomain.assign(subdomains, 0);
   for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
     result.material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] =
@@ -106,12 +105,12 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
 #ifdef DOVETAIL_COMPILED
 template realized<2> realize<2>(const any_geometry& model, const simplicial_background<2>& mesh,
                                 const side_table<2>& sides, std::vector<local_id> subdomain_of_element,
-                                std::size_t subdomains, const any_sizing& size, content_key field,
-                                skeleton_store& made, const any_parameters<2>& given);
+                                std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                                const any_parameters<2>& given);
 template realized<3> realize<3>(const any_geometry& model, const simplicial_background<3>& mesh,
                                 const side_table<3>& sides, std::vector<local_id> subdomain_of_element,
-                                std::size_t subdomains, const any_sizing& size, content_key field,
-                                skeleton_store& made, const any_parameters<3>& given);
+                                std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                                const any_parameters<3>& given);
 #endif
 
 } // namespace dovetail

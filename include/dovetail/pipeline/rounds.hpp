@@ -31,7 +31,6 @@ public:
       : model_(model), mesh_(mesh), sides_(sides), given_(given),
         subdomain_of_element_(std::move(pieces.part_of_element)),
         merges_(pieces.parts, given.options.largest_merged_fraction), size_(size),
-        refinement_(size, given.options.refinement_rounds),
         made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
         pieces_(std::make_shared<entity_store>(given.options.store)) {
     intersection_.name = "intersection";
@@ -47,8 +46,7 @@ public:
   realized<D> realize_boundaries() {
     for (;;) {
       auto made = realize<D>(model_, mesh_, sides_, subdomain_of_element_,
-                             static_cast<std::size_t>(merges_.subdomains()), size_, refinement_.key({}),
-                             made_, given_);
+                             static_cast<std::size_t>(merges_.subdomains()), size_, made_, given_);
       const bool whole = suppress(plan_for_boundaries(made, made_, given_, intersection_));
       skeleton_seconds_ += made.summary.seconds;
       made.summary.seconds = skeleton_seconds_;
@@ -62,8 +60,7 @@ public:
   std::pair<realized<D>, meshed_pieces<D>> mesh_pieces(std::span<const double> weights) {
     for (;;) {
       auto made = realize_boundaries();
-      auto meshed =
-          mesh_all_pieces(model_, mesh_, made, weights, size_, refinement_.key({}), pieces_, given_);
+      auto meshed = mesh_all_pieces(model_, mesh_, made, weights, size_, pieces_, given_);
       if (merge_failed(made, meshed) ||
           !suppress(plan_for_pieces(model_, made, meshed, given_, intersection_)))
         continue;
@@ -82,7 +79,9 @@ private:
     if (plan.empty())
       return true;
     if (plan.merges.empty()) {
-      size_ = refinement_.refine(plan.surface_crossings, model_.topology());
+      if (refinements_ == given_.options.refinement_rounds)
+        throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
+      size_.refine(balls_around(plan.surface_crossings));
       ++refinements_;
     } else if (const std::string refused = merges_.merge(subdomain_of_element_, plan.merges);
                !refused.empty()) {
@@ -116,8 +115,7 @@ private:
   const any_parameters<D>& given_;
   std::vector<local_id> subdomain_of_element_;
   merge_account merges_;
-  any_sizing size_; ///< the field given, smaller where something crossed
-  crossing_refinement refinement_;
+  refined_sizing size_; ///< the field given, smaller where something crossed
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;
   report intersection_;

@@ -38,13 +38,13 @@ struct remeshed_skeleton {
   report summary;
 };
 
-/// Remeshes what lies between remeshed lines to the sizing field, of which `field` is the key. `made` carries
-/// patches from one call to the next as long as the model and the mesher are the same. "patches_made" in the
-/// summary are those that were not in it. About linear in the triangles made. Faults come back as `failures`;
-/// throws `mesher_error` when a patch cannot be evaluated at all.
+/// Remeshes what lies between remeshed lines to the sizing field. `made` carries
+/// patches from one call to the next as long as the model, the plain field and the mesher are the same.
+/// "patches_made" in the summary are those that were not in it. About linear in the triangles made. Faults
+/// come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at all.
 remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                  const numbered_lines& lines, const any_sizing& size, content_key field,
+                                  const numbered_lines& lines, const refined_sizing& size,
                                   const any_surface_mesher& mesher, const any_executor& run,
                                   batched_entities& made, const progress& on_progress = {});
 

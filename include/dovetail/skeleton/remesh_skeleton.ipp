@@ -19,11 +19,10 @@ class skeleton_remesher {
 public:
   skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
                     std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                    const numbered_lines& lines, const any_sizing& size, content_key field,
-                    const any_surface_mesher& mesher, const any_executor& run, batched_entities& made,
-                    const progress& on_progress)
+                    const numbered_lines& lines, const refined_sizing& size, const any_surface_mesher& mesher,
+                    const any_executor& run, batched_entities& made, const progress& on_progress)
       : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), lines_(lines),
-        size_(size), field_(field), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
+        size_(size), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
 
   remeshed_skeleton run() {
     const std::size_t made_before = store_.made();
@@ -80,7 +79,7 @@ private:
 
   void mesh_patches() {
     region_set set = patches();
-    meshed_ = mesh_regions(model_, set, mesher_, size_, field_, run_, store_,
+    meshed_ = mesh_regions(model_, set, mesher_, size_, run_, store_,
                            {.parameters = false, .on_progress = on_progress_, .stage = "skeleton"});
     if (!meshed_.failures.empty()) {
       const auto& [patch, reason] = *meshed_.failures.begin();
@@ -187,8 +186,7 @@ private:
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
   const numbered_lines& lines_;
-  const any_sizing& size_;
-  content_key field_;
+  const refined_sizing& size_;
   const any_surface_mesher& mesher_;
   const any_executor& run_;
   batched_entities& store_;
@@ -201,12 +199,11 @@ private:
 DOVETAIL_INLINE remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                                   std::span<const vec3> coarse_points,
                                                   const coarse_skeleton& skeleton,
-                                                  const numbered_lines& lines, const any_sizing& size,
-                                                  content_key field, const any_surface_mesher& mesher,
-                                                  const any_executor& run, batched_entities& made,
-                                                  const progress& on_progress) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, field, mesher, run,
-                                   made, on_progress)
+                                                  const numbered_lines& lines, const refined_sizing& size,
+                                                  const any_surface_mesher& mesher, const any_executor& run,
+                                                  batched_entities& made, const progress& on_progress) {
+  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher, run, made,
+                                   on_progress)
       .run();
 }
 
