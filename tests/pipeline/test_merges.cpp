@@ -183,6 +183,39 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
                        doctest::Contains("subdomains would have to be merged"), intersection_error);
 }
 
+TEST_CASE("After merges a search near new patches finds what a search of everything does") {
+  decomposed_shell given(0.97, 16);
+  merge_account account(given.pieces.parts, 1);
+  skeleton_store store(std::make_shared<entity_store>());
+  std::vector<local_id>& part = given.pieces.part_of_element;
+  std::vector<content_key> apart; // of patches among which nothing crosses
+  std::size_t compared = 0;
+  for (;;) {
+    const auto made =
+        realize<3>(given.model, given.background.mesh, given.sides, part,
+                   static_cast<std::size_t>(account.subdomains()), given.background.size, store, given.given);
+    const fine_skeleton& fine = made.fine;
+    const auto& first = made.patches.first_triangle;
+    const auto everything = plan_for(fine);
+    const auto known = known_from_patches(fine, first, made.patches.keys, apart);
+    const auto near =
+        plan_suppression(fine, std::vector<bool>(fine.sides.size(), false), parallel::serial{}, known);
+    CHECK(near.crossings == everything.crossings);
+    CHECK(near.merges == everything.merges);
+    if (std::count(known.triangles.begin(), known.triangles.end(), true) > 0)
+      compared += near.crossings;
+    if (everything.empty())
+      break;
+    REQUIRE(account.merge(part, everything.merges).empty());
+    apart = made.patches.keys;
+    for (const auto& [i, j] : crossing_triangles(fine.points, fine.sides, {}, parallel::serial{}))
+      apart[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1)] =
+          {};
+    sort_unique(apart);
+  }
+  CHECK(compared > 0);
+}
+
 TEST_CASE("Where the faces of a shell cross, their size is made smaller until they do not") {
   generate_options options;
   options.subdomains = 20;
