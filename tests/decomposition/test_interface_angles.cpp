@@ -1,5 +1,6 @@
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -155,10 +156,9 @@ TEST_CASE("the summary has the counters of the driver's report and names the wor
   skeleton.sides = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   skeleton.subdomains = {{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
   skeleton.side_hosts = {no_id, 5, 5, 5};
-  const std::vector<std::uint8_t> refused{1, 0, 0, 0};
   for (const bool known : {false, true}) {
-    const auto origins = triangle_origins(skeleton, known ? std::span<const std::uint8_t>(refused)
-                                                          : std::span<const std::uint8_t>());
+    std::vector<triangle_origin> origins(4, triangle_origin::cad);
+    origins[0] = known ? triangle_origin::refused : triangle_origin::kept;
     const auto angles =
         measure_interface_angles({skeleton.points, skeleton.sides, skeleton.subdomains, origins});
     const report summary = summarize(angles, "interfaces");

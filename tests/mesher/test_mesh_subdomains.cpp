@@ -300,8 +300,8 @@ TEST_CASE("What a store has is not made again, under whatever number") {
   };
   meshing_options options;
   options.store = std::make_shared<entity_store>();
-  const auto run = [&](const auto& source) {
-    return mesh_subdomains(piece_count, source, fan_mesher{}, counting_improver{}, unit_size,
+  const auto run = [&](const auto& source, const refined_sizing& size = unit_size) {
+    return mesh_subdomains(piece_count, source, fan_mesher{}, counting_improver{}, size,
                            parallel::processes{2}, options);
   };
   CHECK(run(cube_number).summary.get("reused") == 0);
@@ -314,6 +314,7 @@ TEST_CASE("What a store has is not made again, under whatever number") {
     CHECK_NOTHROW(check_mesher_result(shifted(s).boundary, piece.mesh));
   }
   CHECK(run(changed).summary.get("reused") == piece_count - 1);
-  options.field = {1};
-  CHECK(run(cube_number).summary.get("reused") == 0);
+  refined_sizing refined(unit_size);
+  refined.refine(std::vector<size_ball>{{{4.5, 0.5, 0.5}, 0.1, 0.9}}); // reaches over less than its cube
+  CHECK(run(cube_number, refined).summary.get("reused") == piece_count - 1);
 }

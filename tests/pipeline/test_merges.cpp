@@ -9,7 +9,7 @@
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/generate.hpp"
-#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -46,22 +46,20 @@ struct decomposed_shell {
         background(make_background<3>(model, uniform_size(0.2), given)),
         sides(build_sides(background.mesh.volume)) {
     const auto simplified = simplify<3>(background.mesh.volume, sides, simplifier::none{});
-    states = simplified.side_states;
     pieces = decompose<3>(background.mesh.volume, sides, simplified.super_of_element, simplified.graph,
                           background.mesh.volume.tags, given.partition_it, parts);
   }
 
-  realized_skeleton realize_with(merge_account& account) const {
-    skeleton_store made(std::make_shared<entity_store>());
-    return realize(model, background.mesh, sides, states, pieces.part_of_element, account, background.size,
-                   {}, made, given);
+  /// The rounds, of which so large a fraction of the subdomains may be merged.
+  decomposition_rounds<3> rounds(double largest_merged_fraction) {
+    given.options.largest_merged_fraction = largest_merged_fraction;
+    return {model, background.mesh, sides, pieces, background.size, given};
   }
 
   any_geometry model;
   any_parameters<3> given;
   background_result<3> background;
   side_table<3> sides;
-  std::vector<side_state> states;
   decomposition pieces;
 };
 
@@ -159,11 +157,12 @@ TEST_CASE("One of four subdomains may be merged, two may not; of many a fraction
 }
 
 TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {
-  const decomposed_shell given(0.97, 16);
-  merge_account account(given.pieces.parts, 1);
-  const auto result = given.realize_with(account);
+  decomposed_shell given(0.97, 16);
+  auto rounds = given.rounds(1);
+  const auto result = rounds.realize_boundaries();
+  const merge_account& account = rounds.merges();
   CHECK(plan_for(result.fine).empty());
-  CHECK(result.intersection_summary.get("rounds") > 2); // one merge led to another
+  CHECK(rounds.intersection().get("rounds") > 2); // one merge led to another
   std::map<local_id, std::set<local_id>> made_of;
   std::map<local_id, std::set<local_id>> went_to;
   for (std::size_t e = 0; e < result.subdomain_of_element.size(); ++e) {
@@ -180,9 +179,41 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
   CHECK(account.subdomains() == static_cast<local_id>(made_of.size()));
   CHECK(account.merged() == given.pieces.parts - static_cast<local_id>(made_of.size()));
 
-  merge_account of_few(given.pieces.parts, 0.05);
-  CHECK_THROWS_WITH_AS(given.realize_with(of_few), doctest::Contains("subdomains would have to be merged"),
-                       intersection_error);
+  CHECK_THROWS_WITH_AS(given.rounds(0.05).realize_boundaries(),
+                       doctest::Contains("subdomains would have to be merged"), intersection_error);
+}
+
+TEST_CASE("After merges a search near new patches finds what a search of everything does") {
+  decomposed_shell given(0.97, 16);
+  merge_account account(given.pieces.parts, 1);
+  skeleton_store store(std::make_shared<entity_store>());
+  std::vector<local_id>& part = given.pieces.part_of_element;
+  std::vector<content_key> apart; // of patches among which nothing crosses
+  std::size_t compared = 0;
+  for (;;) {
+    const auto made =
+        realize<3>(given.model, given.background.mesh, given.sides, part,
+                   static_cast<std::size_t>(account.subdomains()), given.background.size, store, given.given);
+    const fine_skeleton& fine = made.fine;
+    const auto& first = made.patches.first_triangle;
+    const auto everything = plan_for(fine);
+    const auto known = known_from_patches(fine, first, made.patches.keys, apart);
+    const auto near =
+        plan_suppression(fine, std::vector<bool>(fine.sides.size(), false), parallel::serial{}, known);
+    CHECK(near.crossings == everything.crossings);
+    CHECK(near.merges == everything.merges);
+    if (std::count(known.triangles.begin(), known.triangles.end(), true) > 0)
+      compared += near.crossings;
+    if (everything.empty())
+      break;
+    REQUIRE(account.merge(part, everything.merges).empty());
+    apart = made.patches.keys;
+    for (const auto& [i, j] : crossing_triangles(fine.points, fine.sides, {}, parallel::serial{}))
+      apart[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1)] =
+          {};
+    sort_unique(apart);
+  }
+  CHECK(compared > 0);
 }
 
 TEST_CASE("Where the faces of a shell cross, their size is made smaller until they do not") {
@@ -198,6 +229,30 @@ TEST_CASE("Where the faces of a shell cross, their size is made smaller until th
   CHECK(intersection.get("merges") == 20 - static_cast<double>(result.mesh.counts.size()));
   CHECK(intersection.get("largest_merged") > 1);
   CHECK(plan_for(result.mesh.skeleton).empty());
+}
+
+TEST_CASE("A refinement makes again what it reaches alone, and that is what a fresh run makes") {
+  decomposed_shell given(0.5, 16);
+  const auto realize_at = [&](const refined_sizing& size, skeleton_store& store) {
+    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+                      static_cast<std::size_t>(given.pieces.parts), size, store, given.given);
+  };
+  const auto empty = [] { return skeleton_store(std::make_shared<entity_store>()); };
+  skeleton_store store = empty();
+  refined_sizing size(given.background.size);
+  const auto before = realize_at(size, store);
+  size.refine(std::vector<size_ball>{{{0, 0, 1}, 0.05, 0.15}});
+  const auto after = realize_at(size, store);
+  for (const char* made : {"lines_made", "patches_made"}) {
+    CHECK(after.summary.get(made) > 0);
+    CHECK(after.summary.get(made) < 0.25 * before.summary.get(made));
+  }
+  CHECK(after.fine.sides.size() > before.fine.sides.size());
+  skeleton_store other_store = empty();
+  const auto fresh = realize_at(size, other_store);
+  CHECK(fresh.summary.get("patches_made") > before.summary.get("patches_made") - 1);
+  CHECK(fresh.fine.points == after.fine.points);
+  CHECK(fresh.fine.sides == after.fine.sides);
 }
 
 TEST_CASE(

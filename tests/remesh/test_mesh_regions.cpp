@@ -71,7 +71,7 @@ struct meshed_set {
   meshed_set(listed_regions given, const any_surface_mesher& mesher, const any_executor& run, int chords,
              batched_entities& store)
       : list(std::move(given)), set(list.set()),
-        result(mesh_regions(model, set, mesher, coarse, {}, run, store, {.attempts = {.chords = chords}})),
+        result(mesh_regions(model, set, mesher, coarse, run, store, {.attempts = {.chords = chords}})),
         meshes(set.count) {
     result.for_each(store, [&](std::size_t r, patch_mesh mesh) { meshes[r] = std::move(mesh); });
   }

@@ -6,7 +6,6 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
-#include "dovetail/mesh/distributed_mesh.hpp"
 
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
@@ -91,11 +90,6 @@ inline void sort_by_angle(std::vector<angle_violation>& violations) {
 /// The origins of the sides of a decomposed coarse mesh, from what the simplification decided about them.
 std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
                                               std::span<const side_state> side_states);
-
-/// The origins of the triangles of a fine skeleton; `from_refused` marks those on coarse sides that ought to
-/// have been removed (one entry per triangle, or empty when that is not known).
-std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
-                                              std::span<const std::uint8_t> from_refused = {});
 
 /// Measures the interface angles. About linear in the number of triangles. Throws `usage_error` when the
 /// spans do not match.

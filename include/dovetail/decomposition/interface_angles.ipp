@@ -8,7 +8,6 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
-#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
@@ -160,16 +159,6 @@ DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const subdomain_bo
       origins[k] = side_states[static_cast<std::size_t>(boundary.side_ids[k])] == side_state::refused
                        ? triangle_origin::refused
                        : triangle_origin::kept;
-  return origins;
-}
-
-DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const fine_skeleton& skeleton,
-                                                              std::span<const std::uint8_t> from_refused) {
-  std::vector<triangle_origin> origins(skeleton.sides.size(), triangle_origin::cad);
-  for (std::size_t t = 0; t < origins.size(); ++t)
-    if (skeleton.side_hosts[t] == no_id)
-      origins[t] =
-          !from_refused.empty() && from_refused[t] != 0 ? triangle_origin::refused : triangle_origin::kept;
   return origins;
 }
 

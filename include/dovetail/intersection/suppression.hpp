@@ -24,11 +24,11 @@ struct surface_crossing {
 
 /// How the crossings found are to be removed.
 struct suppression_plan {
-  std::vector<std::array<local_id, 2>> merges; ///< pairs of subdomains, smaller first, sorted, each once
-  std::vector<surface_crossing> surface_crossings;
+  std::vector<std::array<local_id, 2>> merges = {}; ///< pairs of subdomains, smaller first, sorted, each once
+  std::vector<surface_crossing> surface_crossings = {};
   std::size_t crossings = 0;
 
-  bool empty() const { return crossings == 0; }
+  bool empty() const { return merges.empty() && surface_crossings.empty(); }
 };
 
 namespace detail {

@@ -7,6 +7,7 @@
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -38,11 +39,9 @@ struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
   /// Finished pieces go here under their keys; those that are there already are not made again. Without a
-  /// store the result has one of its own, in memory.
+  /// store the result has one of its own, in memory. Mesher, improver and the plain sizes must be the same as
+  /// long as the store is.
   std::shared_ptr<entity_store> store = {};
-  /// What else all pieces are a function of: the key of a size field that was changed. Mesher and improver
-  /// must be the same as long as the store is.
-  content_key field = {};
   /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
   /// keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
@@ -74,9 +73,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 
 /// Meshes subdomains 0 .. count-1. In the worker, right after meshing: the checks of `check_mesher_result`,
 /// improvement, the same checks again, quality, and the write to the store, under a key of the piece's
-/// boundary: what the store has is not made again, whatever its number was then. A round ends before the next
-/// begins, and what it tries depends on its number only, so the result does not depend on the number of
-/// workers, nor on whether the run was interrupted and resumed.
+/// boundary and the sizes near it: what the store has is not made again, whatever its number was then. A
+/// round ends before the next begins, and what it tries depends on its number only, so the result does not
+/// depend on the number of workers, nor on whether the run was interrupted and resumed.
 ///
 /// Failed subdomains do not throw. Throws what `require_policies` throws, `io_error` when a finished piece
 /// cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`. Memory: one piece
@@ -86,8 +85,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 template <int D = 3>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const std::type_identity_t<any_mesher<D>>& mesh_it,
-                                 const std::type_identity_t<any_improver<D>>& improve, const any_sizing& size,
-                                 const any_executor& run_tasks, const meshing_options& options = {});
+                                 const std::type_identity_t<any_improver<D>>& improve,
+                                 const refined_sizing& size, const any_executor& run_tasks,
+                                 const meshing_options& options = {});
 
 } // namespace dovetail
 

@@ -128,7 +128,7 @@ template <int D>
 class subdomain_rounds {
 public:
   subdomain_rounds(std::size_t count, const piece_source<D>& source, const any_mesher<D>& mesh_it,
-                   const any_improver<D>& improve, const any_sizing& size, const any_executor& run_tasks,
+                   const any_improver<D>& improve, const refined_sizing& size, const any_executor& run_tasks,
                    const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
         ladder_(ladder_of(mesh_it)),
@@ -161,7 +161,7 @@ private:
   byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
     const bool climbs = rung < ladder_.size();
     return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
-                         size_, piece.reasons);
+                         size_.near(place_of(input)), piece.reasons);
   }
 
   void run_round(std::size_t rung) {
@@ -198,7 +198,7 @@ private:
     try {
       piece_input<D> input = source_(piece.subdomain);
       entity_store& store = shelf_->store();
-      piece_receipt receipt{.key = key_of(input, options_.field)};
+      piece_receipt receipt{.key = key_of(input, size_.key_near(place_of(input)))};
       auto finished = store.find(receipt.key);
       if (!finished)
         finished = shelf_->find_released(receipt.key);
@@ -317,7 +317,7 @@ private:
 
   const piece_source<D>& source_;
   const any_improver<D>& improve_;
-  const any_sizing& size_;
+  const refined_sizing& size_;
   const any_executor& run_tasks_;
   const meshing_options& options_;
   std::vector<any_mesher<D>> ladder_;
@@ -345,8 +345,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 template <int D>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const std::type_identity_t<any_mesher<D>>& mesh_it,
-                                 const std::type_identity_t<any_improver<D>>& improve, const any_sizing& size,
-                                 const any_executor& run_tasks, const meshing_options& options) {
+                                 const std::type_identity_t<any_improver<D>>& improve,
+                                 const refined_sizing& size, const any_executor& run_tasks,
+                                 const meshing_options& options) {
   require_policies(mesh_it, improve, run_tasks);
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
@@ -360,11 +361,11 @@ template void require_policies<3>(const any_mesher<3>& mesh_it, const any_improv
                                   const any_executor& run_tasks);
 template meshed_pieces<2> mesh_subdomains<2>(std::size_t count, const piece_source<2>& source,
                                              const any_mesher<2>& mesh_it, const any_improver<2>& improve,
-                                             const any_sizing& size, const any_executor& run_tasks,
+                                             const refined_sizing& size, const any_executor& run_tasks,
                                              const meshing_options& options);
 template meshed_pieces<3> mesh_subdomains<3>(std::size_t count, const piece_source<3>& source,
                                              const any_mesher<3>& mesh_it, const any_improver<3>& improve,
-                                             const any_sizing& size, const any_executor& run_tasks,
+                                             const refined_sizing& size, const any_executor& run_tasks,
                                              const meshing_options& options);
 #endif
 

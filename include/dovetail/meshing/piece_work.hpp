@@ -14,6 +14,7 @@
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -41,11 +42,18 @@ struct piece_summary {
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
 };
 
-/// The key of a piece: its boundary as the mesher gets it. The numbers of its points in the skeleton are no
-/// part of it, since a merge elsewhere changes these.
+/// The box in which a piece looks for refined sizes.
 template <int D>
-content_key key_of(const piece_input<D>& input, content_key field) {
-  key_maker make(field, input.context);
+box3 place_of(const piece_input<D>& input) {
+  const auto& points = input.boundary.boundary.points;
+  return D == 3 ? box_around(points) : roomy_box_around(points);
+}
+
+/// The key of a piece: its boundary as the mesher gets it, and the key of the sizes near it. The numbers of
+/// its points in the skeleton are no part of it, since a merge elsewhere changes these.
+template <int D>
+content_key key_of(const piece_input<D>& input, content_key sizes) {
+  key_maker make(sizes, input.context);
   make(std::int64_t{D})(std::int64_t{input.boundary.material})(input.boundary.boundary.points)(
       input.boundary.boundary.elements);
   if constexpr (D == 2)

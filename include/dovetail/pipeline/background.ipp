@@ -94,8 +94,8 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
       return result;
     if (round == refinement_rounds) {
       const auto& tags = result.surface.mesh.tags;
-      detail::throw_crossing_faces(model.topology(), tags[static_cast<std::size_t>(pairs.front().first)],
-                                   tags[static_cast<std::size_t>(pairs.front().second)]);
+      throw_crossing_faces(model.topology(), {tags[static_cast<std::size_t>(pairs.front().first)],
+                                              tags[static_cast<std::size_t>(pairs.front().second)]});
     }
     for (const triangle_pair& pair : pairs)
       detail::add_balls_at_crossing(result.surface, pair, parameters.refinement);

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/corner_angles.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
@@ -75,10 +76,19 @@ inline interface_angles coarse_interface_angles(const simplicial_background<2>& 
 }
 
 inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
-                                              const side_table<3>&, std::span<const side_state>,
+                                              const side_table<3>& sides,
+                                              std::span<const side_state> side_states,
                                               const generate_options& options) {
+  const auto& first = skeleton.patches.first_triangle;
+  std::vector<triangle_origin> origins(skeleton.fine.sides.size(), triangle_origin::cad);
+  for (std::size_t f = 0; f < skeleton.coarse.faces.size(); ++f) {
+    const auto side = static_cast<std::size_t>(find_side<3>(sides, skeleton.coarse.faces[f].vertices));
+    const std::size_t patch = skeleton.coarse.regions.size() + f;
+    std::fill(origins.begin() + first[patch], origins.begin() + first[patch + 1],
+              side_states[side] == side_state::refused ? triangle_origin::refused : triangle_origin::kept);
+  }
   return measure_interface_angles({span_of(skeleton.fine.points), span_of(skeleton.fine.sides),
-                                   span_of(skeleton.fine.subdomains), span_of(skeleton.origins)},
+                                   span_of(skeleton.fine.subdomains), span_of(origins)},
                                   options.interface_angle_deg);
 }
 

@@ -5,6 +5,7 @@
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/realize.hpp"
+#include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/subdomain_surface.hpp"
 
@@ -13,7 +14,9 @@
 #include <type_traits>
 #include <utility>
 
-namespace dovetail::detail {
+namespace dovetail {
+
+namespace detail {
 
 /// The input of each piece's mesher, made in the worker.
 inline piece_source<3> source_of_pieces(const any_geometry&, const simplicial_background<3>&,
@@ -37,14 +40,16 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
       std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
   auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
-  return [&model, &mesh, &skeleton, sorted, rule, own_model](local_id s) {
+  auto regions = std::make_shared<const std::vector<std::vector<local_id>>>(
+      regions_of_subdomains(skeleton.coarse, skeleton.material_of_subdomain.size()));
+  return [&model, &mesh, &skeleton, sorted, rule, regions, own_model](local_id s) {
     auto lines = boundary_of_subdomain(skeleton.fine, *sorted, s);
     const std::shared_ptr<const any_geometry> evaluated =
         own_model ? std::make_shared<const any_geometry>(model)
                   : std::shared_ptr<const any_geometry>(&model, [](const any_geometry*) {});
     const auto numbers = std::make_shared<const std::vector<local_id>>(lines.skeleton_points);
     piece_input<2> input;
-    for (const local_id r : skeleton.regions[static_cast<std::size_t>(s)]) {
+    for (const local_id r : (*regions)[static_cast<std::size_t>(s)]) {
       const skeleton_region& region = skeleton.coarse.regions[static_cast<std::size_t>(r)];
       patch_boundary boundary = region_patch(*evaluated, mesh.surface, region, skeleton.lines).boundary;
       any_surface surface = surface_of_face(evaluated, region.cad_face);
@@ -63,7 +68,7 @@ inline piece_source<2> source_of_pieces(const any_geometry& model, const simplic
                                   (*numbers)[static_cast<std::size_t>(b)]);
            }});
     }
-    input.context = rule->key(skeleton.regions[static_cast<std::size_t>(s)], lines.skeleton_points);
+    input.context = rule->key((*regions)[static_cast<std::size_t>(s)], lines.skeleton_points);
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
     return input;
@@ -79,22 +84,24 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
   return sums;
 }
 
+} // namespace detail
+
 /// Meshes all pieces of a realized decomposition that the store does not have.
 template <int D>
 meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
                                  const realized<D>& skeleton, std::span<const double> weights,
-                                 const std::shared_ptr<entity_store>& store, const any_parameters<D>& given) {
+                                 const refined_sizing& size, const std::shared_ptr<entity_store>& store,
+                                 const any_parameters<D>& given) {
   meshing_options options;
-  options.predicted_cost = weights_of_subdomains(skeleton, weights);
+  options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
   options.store = store;
-  options.field = skeleton.field;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;
   const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();
   return mesh_subdomains<D>(skeleton.material_of_subdomain.size(),
-                            source_of_pieces(model, mesh, skeleton, own_model), given.mesh_it,
-                            given.improve_it, skeleton.size, given.run_tasks, options);
+                            detail::source_of_pieces(model, mesh, skeleton, own_model), given.mesh_it,
+                            given.improve_it, size, given.run_tasks, options);
 }
 
-} // namespace dovetail::detail
+} // namespace dovetail

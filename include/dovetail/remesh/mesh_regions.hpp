@@ -15,6 +15,7 @@
 #include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/remesh/surface_region.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
 
 #include <array>
 #include <cstddef>
@@ -92,13 +93,13 @@ struct mesh_regions_options {
 
 /// Makes the meshes that are not in `store`, through the executor; then, while two regions have an inner edge
 /// between the same boundary points, or one where another's line is, forbids it to all but the first and
-/// makes those again (`set.forbidden_edges` tell). A mesh is a function of its region, of the sizes, of
-/// which `field` is the key, of the model and the mesher; these two must be the same for all calls with a
-/// store. A region that fails keeps none of the others from being made. Throws `usage_error` when the mesher
-/// may not run in the threads of `run`.
+/// makes those again (`set.forbidden_edges` tell). A mesh is a function of its region, of the sizes near it,
+/// of the model and the mesher; these two and the plain sizes must be the same for all calls with a store. A
+/// region that fails keeps none of the others from being made. Throws `usage_error` when the mesher may not
+/// run in the threads of `run`.
 meshed_regions mesh_regions(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
-                            const any_sizing& size, content_key field, const any_executor& run,
-                            batched_entities& store, const mesh_regions_options& options);
+                            const refined_sizing& size, const any_executor& run, batched_entities& store,
+                            const mesh_regions_options& options);
 
 /// Appends a region's own points to `points`, and calls `visit(triangle, uv)` for its triangles: oriented
 /// along the face, named by labels and by the places in `points`, with the parameters of their corners where

@@ -92,10 +92,9 @@ inline void check_region(const patch_boundary& boundary, const patch_mesh& made)
 class region_making {
 public:
   region_making(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
-                const any_sizing& size, content_key field, const any_executor& run, batched_entities& store,
+                const refined_sizing& size, const any_executor& run, batched_entities& store,
                 const mesh_regions_options& options)
-      : model_(model), set_(set), mesher_(mesher), size_(size), field_(field), run_(run), store_(store),
-        options_(options) {
+      : model_(model), set_(set), mesher_(mesher), size_(size), run_(run), store_(store), options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = set.region(r);
       const auto segments = static_cast<double>(region.boundary.segments.size());
@@ -126,7 +125,7 @@ private:
       if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
           at_x != first_with_label.end() && at_y != first_with_label.end())
         forbidden.push_back({at_x->second, at_y->second});
-    key_maker make(field_);
+    key_maker make(size_.key_near(roomy_box_around(b.points)));
     make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
         std::int64_t{options_.parameters});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
@@ -164,8 +163,9 @@ private:
   }
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
-    patch_mesh made =
-        mesh_region(mesher_, set_.surface_of(model, r), set_.region(r), size_, options_.attempts);
+    const surface_region region = set_.region(r);
+    patch_mesh made = mesh_region(mesher_, set_.surface_of(model, r), region,
+                                  size_.near(roomy_box_around(region.boundary.points)), options_.attempts);
     if (!options_.parameters)
       made.inner_uv.clear();
     made.summary = {};
@@ -217,8 +217,7 @@ private:
   const any_geometry& model_;
   region_set& set_;
   const any_surface_mesher& mesher_;
-  const any_sizing& size_;
-  content_key field_;
+  const refined_sizing& size_;
   const any_executor& run_;
   batched_entities& store_;
   const mesh_regions_options& options_;
@@ -246,13 +245,13 @@ DOVETAIL_INLINE patch_mesh mesh_region(const any_surface_mesher& mesher, const a
 }
 
 DOVETAIL_INLINE meshed_regions mesh_regions(const any_geometry& model, region_set& set,
-                                            const any_surface_mesher& mesher, const any_sizing& size,
-                                            content_key field, const any_executor& run,
-                                            batched_entities& store, const mesh_regions_options& options) {
+                                            const any_surface_mesher& mesher, const refined_sizing& size,
+                                            const any_executor& run, batched_entities& store,
+                                            const mesh_regions_options& options) {
   if (runs_in_threads(run) && !mesher.may_run_in_threads())
     throw usage_error(
         "this surface mesher must not run in several threads of one process; use worker processes");
-  return detail::region_making(model, set, mesher, size, field, run, store, options).run();
+  return detail::region_making(model, set, mesher, size, run, store, options).run();
 }
 
 } // namespace dovetail

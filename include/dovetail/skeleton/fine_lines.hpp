@@ -61,15 +61,4 @@ inline numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<
   return result;
 }
 
-/// Remeshes the lines of a skeleton that are not in `made`, each once, and numbers their points: the step
-/// that D = 2 and the surface of D = 3 share.
-inline numbered_lines realize_lines(const any_geometry& model, const surface_mesh& surface,
-                                    const coarse_skeleton& skeleton, std::span<const vec3> coarse_points,
-                                    const any_sizing& size, content_key field, const any_executor& run,
-                                    batched_entities& made, const progress& on_progress) {
-  return number_lines(skeleton,
-                      remesh_lines(model, skeleton.lines, coarse_points, size, field, run, made, on_progress),
-                      coarse_points, surface.vertex_hosts);
-}
-
 } // namespace dovetail

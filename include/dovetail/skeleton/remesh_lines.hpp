@@ -8,6 +8,7 @@
 #include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -118,9 +119,17 @@ inline fine_line remesh_line(const any_geometry& model, const skeleton_line& lin
   return detail::space_straight(first, last, size);
 }
 
-/// The key of a line: all that its points are a function of but the model. `field` is that of the sizes.
-inline content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points, content_key field) {
-  key_maker make(field);
+/// The box in which a line looks for refined sizes.
+inline box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_points) {
+  const std::array ends{coarse_points[static_cast<std::size_t>(line.vertices[0])],
+                        coarse_points[static_cast<std::size_t>(line.vertices[1])]};
+  return roomy_box_around(ends);
+}
+
+/// The key of a line: all that its points are a function of but the model and the plain sizes.
+inline content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points,
+                          const refined_sizing& size) {
+  key_maker make(size.key_near(place_of(line, coarse_points)));
   make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id});
   for (std::size_t end = 0; end < 2; ++end) {
     const vec3 p = coarse_points[static_cast<std::size_t>(line.vertices[end])];
@@ -129,16 +138,16 @@ inline content_key key_of(const skeleton_line& line, std::span<const vec3> coars
   return make.key();
 }
 
-/// Points of all lines; those that are not in `made` are made through `run`. `field` is the key of `size`.
+/// Points of all lines; those that are not in `made` are made through `run`.
 /// Throws `mesher_error` naming what could not be evaluated.
 inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
-                                           std::span<const vec3> coarse_points, const any_sizing& size,
-                                           content_key field, const any_executor& run, batched_entities& made,
+                                           std::span<const vec3> coarse_points, const refined_sizing& size,
+                                           const any_executor& run, batched_entities& made,
                                            const progress& on_progress = {}) {
   constexpr double lines_per_task = 256;
   std::vector<content_key> keys;
   for (const skeleton_line& line : lines)
-    keys.push_back(key_of(line, coarse_points, field));
+    keys.push_back(key_of(line, coarse_points, size));
   const std::vector<double> costs(lines.size(), 1);
   const auto failures = made.make_missing(
       keys, costs, lines_per_task,
@@ -146,7 +155,8 @@ inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<
         const task_model own(model, run);
         std::vector<byte_buffer> encoded;
         for (const std::size_t l : wanted) {
-          const fine_line fine = remesh_line(own.get(), lines[l], coarse_points, size);
+          const fine_line fine =
+              remesh_line(own.get(), lines[l], coarse_points, size.near(place_of(lines[l], coarse_points)));
           byte_writer out;
           out.array(fine.points);
           out.array(fine.t);

@@ -19,29 +19,19 @@ class skeleton_remesher {
 public:
   skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
                     std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                    const any_sizing& size, content_key field, const any_surface_mesher& mesher,
-                    const any_executor& run, skeleton_store& made, const progress& on_progress)
-      : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), size_(size),
-        field_(field), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
+                    const numbered_lines& lines, const refined_sizing& size, const any_surface_mesher& mesher,
+                    const any_executor& run, batched_entities& made, const progress& on_progress)
+      : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), lines_(lines),
+        size_(size), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
 
   remeshed_skeleton run() {
-    const stopwatch clock;
-    const std::size_t lines_before = store_.lines.made(), patches_before = store_.patches.made();
-    lines_ = realize_lines(model_, surface_, skeleton_, coarse_points_, size_, field_, run_, store_.lines,
-                           on_progress_);
-    const double line_seconds = clock.seconds();
+    const std::size_t made_before = store_.made();
     mesh_patches();
     remeshed_skeleton result = assemble();
-    result.summary.name = "skeleton";
-    result.summary.set("lines", static_cast<double>(skeleton_.lines.size()));
-    result.summary.set("regions", static_cast<double>(skeleton_.regions.size()));
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
     result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("lines_made", static_cast<double>(store_.lines.made() - lines_before));
-    result.summary.set("patches_made", static_cast<double>(store_.patches.made() - patches_before));
-    result.summary.set("line_seconds", line_seconds);
-    result.summary.seconds = clock.seconds();
+    result.summary.set("patches_made", static_cast<double>(store_.made() - made_before));
     return result;
   }
 
@@ -89,7 +79,7 @@ private:
 
   void mesh_patches() {
     region_set set = patches();
-    meshed_ = mesh_regions(model_, set, mesher_, size_, field_, run_, store_.patches,
+    meshed_ = mesh_regions(model_, set, mesher_, size_, run_, store_,
                            {.parameters = false, .on_progress = on_progress_, .stage = "skeleton"});
     if (!meshed_.failures.empty()) {
       const auto& [patch, reason] = *meshed_.failures.begin();
@@ -112,9 +102,9 @@ private:
     append(fine.points, lines_.points); // boundaries are still made of them
     append(fine.point_hosts, lines_.hosts);
     double folded = 0;
-    meshed_.for_each(store_.patches, [&](std::size_t p, const patch_mesh& mesh) {
+    meshed_.for_each(store_, [&](std::size_t p, const patch_mesh& mesh) {
       if (!mesh.crossings.empty() || !mesh.misplaced.empty())
-        result.failures.push_back(failure_of(p, mesh));
+        result.patches.failures.push_back(failure_of(p, mesh));
       if (!mesh.folded.empty()) {
         folded += static_cast<double>(mesh.folded.size());
         if (is_region(p))
@@ -123,19 +113,19 @@ private:
       }
       append_patch(p, mesh, result);
     });
-    result.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
+    result.patches.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
     result.summary.set("folded_triangles", folded);
     for (std::size_t l = 0; l < lines_.keys.size(); ++l)
       if (lines_.keys[l].on.dimension == 1)
         append_curve_edges(static_cast<local_id>(l), fine);
-    result.patch_keys = std::move(meshed_.keys);
+    result.patches.keys = std::move(meshed_.keys);
     return result;
   }
 
   /// Exactly: what grows by doubling holds up to twice as much, and both copies as it grows.
   void reserve(fine_skeleton& fine) const {
     std::size_t points = lines_.points.size(), triangles = 0;
-    meshed_.for_each(store_.patches, [&](std::size_t, const patch_mesh& mesh) {
+    meshed_.for_each(store_, [&](std::size_t, const patch_mesh& mesh) {
       points += mesh.inner_points.size();
       triangles += mesh.triangles.size();
     });
@@ -166,7 +156,7 @@ private:
 
   void append_patch(std::size_t p, const patch_mesh& mesh, remeshed_skeleton& result) const {
     fine_skeleton& fine = result.fine;
-    result.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
+    result.patches.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
     auto subdomains = is_region(p) ? skeleton_.regions[p].subdomains : face_of(p).subdomains;
     const bool bounds_nothing_behind = subdomains[0] == no_id;
     if (bounds_nothing_behind)
@@ -195,13 +185,12 @@ private:
   const surface_mesh& surface_;
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
-  const any_sizing& size_;
-  content_key field_;
+  const numbered_lines& lines_;
+  const refined_sizing& size_;
   const any_surface_mesher& mesher_;
   const any_executor& run_;
-  skeleton_store& store_;
+  batched_entities& store_;
   const progress& on_progress_;
-  numbered_lines lines_;
   meshed_regions meshed_;
 };
 
@@ -209,11 +198,11 @@ private:
 
 DOVETAIL_INLINE remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                                   std::span<const vec3> coarse_points,
-                                                  const coarse_skeleton& skeleton, const any_sizing& size,
-                                                  content_key field, const any_surface_mesher& mesher,
-                                                  const any_executor& run, skeleton_store& made,
-                                                  const progress& on_progress) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, size, field, mesher, run, made,
+                                                  const coarse_skeleton& skeleton,
+                                                  const numbered_lines& lines, const refined_sizing& size,
+                                                  const any_surface_mesher& mesher, const any_executor& run,
+                                                  batched_entities& made, const progress& on_progress) {
+  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher, run, made,
                                    on_progress)
       .run();
 }

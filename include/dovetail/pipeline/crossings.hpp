@@ -1,0 +1,161 @@
+/// @file
+/// What crosses in a realized decomposition, and what to do about it: in D = 3 patches of the skeleton,
+/// before pieces are meshed; in D = 2 finished pieces, since what lies between their lines is meshed with
+/// them.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/intersection/crossing_triangles.hpp"
+#include "dovetail/intersection/suppression.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/pipeline/realize.hpp"
+#include "dovetail/skeleton/patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Whether all faces are known to lie in one plane. Pieces there cannot cross: each covers what its lines
+/// enclose, which is checked, and the lines were tested with the background mesh.
+inline bool lies_in_one_plane(const any_geometry& model) {
+  std::optional<surface_frame> first;
+  const double tolerance = 1e-9 * model.bounds().diagonal();
+  for (std::size_t f = 0; f < model.topology().faces.size(); ++f) {
+    const auto plane = model.plane_of_face(static_cast<local_id>(f));
+    if (!plane)
+      return false;
+    if (!first)
+      first = plane;
+    const vec3 normal = normalized(cross(first->du, first->dv));
+    if (std::abs(dot(plane->point - first->point, normal)) > tolerance ||
+        norm(cross(normalized(cross(plane->du, plane->dv)), normal)) > 1e-9)
+      return false;
+  }
+  return true;
+}
+
+/// All pieces as one mesh; the elements' tags are CAD faces.
+inline simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton,
+                                        const meshed_pieces<2>& meshed) {
+  std::size_t points = skeleton.points.size(), elements = 0;
+  for (const piece_summary& piece : meshed.pieces) {
+    points += static_cast<std::size_t>(piece.counts.inner_points);
+    elements += static_cast<std::size_t>(piece.counts.elements);
+  }
+  simplicial_mesh<2> whole;
+  whole.points.reserve(points);
+  whole.elements.reserve(elements);
+  whole.tags.reserve(elements);
+  append(whole.points, skeleton.points);
+  for (std::size_t s = 0; s < meshed.pieces.size(); ++s) {
+    const simplicial_piece<2> piece = meshed.load(static_cast<local_id>(s));
+    const std::size_t shared = piece.skeleton_points.size();
+    const std::size_t first = whole.points.size();
+    whole.points.insert(whole.points.end(), piece.mesh.points.begin() + static_cast<std::ptrdiff_t>(shared),
+                        piece.mesh.points.end());
+    for (simplex<2> triangle : piece.mesh.elements) {
+      for (local_id& v : triangle)
+        v = static_cast<std::size_t>(v) < shared
+                ? piece.skeleton_points[static_cast<std::size_t>(v)]
+                : static_cast<local_id>(first + static_cast<std::size_t>(v) - shared);
+      whole.elements.push_back(triangle);
+    }
+    append(whole.tags, piece.mesh.tags);
+  }
+  return whole;
+}
+
+/// Lines that cross in a region's parameter plane go, with the interfaces that end on them. Throws
+/// `mesher_error` where there are none that could go.
+inline std::vector<std::array<local_id, 2>>
+merges_of_failed_patches(const coarse_skeleton& coarse, const std::vector<patch_failure>& failures) {
+  std::set<std::array<local_id, 2>> pairs;
+  for (const patch_failure& failure : failures) {
+    bool can_go = false;
+    for (const local_id line : failure.removable_lines) {
+      const auto& ends = coarse.lines[static_cast<std::size_t>(line)].vertices;
+      for (const skeleton_face& face : coarse.faces)
+        if (std::count(face.vertices.begin(), face.vertices.end(), ends[0]) +
+                std::count(face.vertices.begin(), face.vertices.end(), ends[1]) ==
+            2) {
+          pairs.insert(face.subdomains);
+          can_go = true;
+        }
+    }
+    if (!can_go)
+      throw mesher_error(failure.reason + "; give a smaller size there");
+  }
+  return {pairs.begin(), pairs.end()};
+}
+
+} // namespace detail
+
+/// What to do about the boundaries of pieces, before these are meshed: in D = 2 nothing. Counts in
+/// `intersection`. After a merge most patches are of a skeleton that was searched before.
+inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& store,
+                                            const any_parameters<3>& given, report& intersection) {
+  const remeshed_patches& patches = made.patches;
+  if (!patches.failures.empty())
+    return {.merges = detail::merges_of_failed_patches(made.coarse, patches.failures)};
+  const stopwatch clock;
+  given.options.on_progress("intersection", 0, 0);
+  std::vector<bool> planar(made.fine.sides.size(), false);
+  for (std::size_t f = 0; f < made.coarse.faces.size(); ++f)
+    if (!is_curved(made.coarse.faces[f], made.coarse.lines)) {
+      const std::size_t patch = made.coarse.regions.size() + f;
+      std::fill(planar.begin() + patches.first_triangle[patch],
+                planar.begin() + patches.first_triangle[patch + 1], true);
+    }
+  auto plan = plan_suppression(
+      made.fine, planar, given.run_tasks,
+      known_from_patches(made.fine, patches.first_triangle, patches.keys, store.patches_apart));
+  if (plan.empty()) {
+    store.patches_apart = patches.keys;
+    sort_unique(store.patches_apart);
+  }
+  intersection.add("crossings", static_cast<double>(plan.crossings));
+  intersection.add("rounds", 1);
+  intersection.seconds += clock.seconds();
+  return plan;
+}
+inline suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const any_parameters<2>&,
+                                            report&) {
+  return {};
+}
+
+/// What to do about finished pieces, in an order that does not depend on the executor. Loads points and
+/// triangles of all pieces at once, also from a spool: about 32 bytes per triangle with the search's lists,
+/// which is the only step of D = 2 that needs memory for the whole mesh. Nothing is loaded when the model
+/// lies in one plane. O(n log n); on smooth surfaces a small part of the time for meshing them.
+inline suppression_plan plan_for_pieces(const any_geometry& model, const realized<2>& made,
+                                        const meshed_pieces<2>& meshed, const any_parameters<2>& given,
+                                        report& intersection) {
+  suppression_plan plan;
+  if (!meshed.failures.empty() || detail::lies_in_one_plane(model))
+    return plan;
+  const stopwatch clock;
+  const simplicial_mesh<2> whole = detail::joined_pieces(made.fine, meshed);
+  for (const auto& [i, j] : crossing_triangles(whole.points, whole.elements, {}, given.run_tasks))
+    plan.surface_crossings.push_back(detail::describe_crossing(
+        whole.points, whole.elements, whole.tags, static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
+  plan.crossings = plan.surface_crossings.size();
+  intersection.add("crossings", static_cast<double>(plan.crossings));
+  intersection.seconds += clock.seconds();
+  return plan;
+}
+/// Tetrahedra inside a boundary without crossings do not cross.
+inline suppression_plan plan_for_pieces(const any_geometry&, const realized<3>&, const meshed_pieces<3>&,
+                                        const any_parameters<3>&, report&) {
+  return {};
+}
+
+} // namespace dovetail

@@ -1,0 +1,128 @@
+/// @file
+/// The rounds in which a decomposition becomes pieces: its boundaries are remeshed and its pieces meshed, and
+/// what fails or crosses is merged or refined and done again, to a fixpoint (paper, sections 3.5, 3.6 and 4).
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/intersection/merge_subdomains.hpp"
+#include "dovetail/pipeline/crossings.hpp"
+#include "dovetail/pipeline/piece_meshing.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Lines, patches and pieces are kept from round to round, so that one makes again only what the one before
+/// has changed.
+template <int D>
+class decomposition_rounds {
+public:
+  decomposition_rounds(const any_geometry& model, const simplicial_background<D>& mesh,
+                       const side_table<D>& sides, decomposition pieces, const any_sizing& size,
+                       const any_parameters<D>& given)
+      : model_(model), mesh_(mesh), sides_(sides), given_(given),
+        subdomain_of_element_(std::move(pieces.part_of_element)),
+        merges_(pieces.parts, given.options.largest_merged_fraction), size_(size),
+        made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
+        pieces_(std::make_shared<entity_store>(given.options.store)) {
+    intersection_.name = "intersection";
+  }
+
+  const merge_account& merges() const { return merges_; }
+  /// What was found and done so far.
+  const report& intersection() const { return intersection_; }
+
+  /// Remeshes the boundaries until no patch fails and none crosses another. Throws `intersection_error` when
+  /// too many subdomains would have to be merged in all or two CAD faces cross, `mesher_error` when a patch
+  /// cannot be remeshed.
+  realized<D> realize_boundaries() {
+    for (;;) {
+      auto made = realize<D>(model_, mesh_, sides_, subdomain_of_element_,
+                             static_cast<std::size_t>(merges_.subdomains()), size_, made_, given_);
+      const bool whole = suppress(plan_for_boundaries(made, made_, given_, intersection_));
+      skeleton_seconds_ += made.summary.seconds;
+      made.summary.seconds = skeleton_seconds_;
+      if (whole)
+        return made;
+    }
+  }
+
+  /// The same with the pieces meshed, of which `weights` are the costs per coarse element. What no rung of
+  /// the mesher's ladder can mesh is merged with a neighbour, as long as that may be.
+  std::pair<realized<D>, meshed_pieces<D>> mesh_pieces(std::span<const double> weights) {
+    for (;;) {
+      auto made = realize_boundaries();
+      auto meshed = mesh_all_pieces(model_, mesh_, made, weights, size_, pieces_, given_);
+      if (merge_failed(made, meshed) ||
+          !suppress(plan_for_pieces(model_, made, meshed, given_, intersection_)))
+        continue;
+      intersection_.set("refinements", refinements_);
+      intersection_.set("merges", merges_.merged() - merged_after_failure_);
+      intersection_.set("largest_merged", merges_.largest());
+      meshed.summary.set("merged_after_failure", merged_after_failure_);
+      append(meshed.summary.warnings, told_);
+      return {std::move(made), std::move(meshed)};
+    }
+  }
+
+private:
+  /// Whether nothing is to be done; does it otherwise.
+  bool suppress(const suppression_plan& plan) {
+    if (plan.empty())
+      return true;
+    if (plan.merges.empty()) {
+      if (refinements_ == given_.options.refinement_rounds)
+        throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
+      size_.refine(balls_around(plan.surface_crossings));
+      ++refinements_;
+    } else if (const std::string refused = merges_.merge(subdomain_of_element_, plan.merges);
+               !refused.empty()) {
+      throw intersection_error(refused + ": their interfaces cross the surface; give a smaller size or fewer "
+                                         "subdomains");
+    }
+    return false;
+  }
+
+  /// Merges what no attempt could mesh; whether that changed anything.
+  bool merge_failed(const realized<D>& made, const meshed_pieces<D>& meshed) {
+    std::vector<local_id> failed;
+    for (const piece_failure& failure : meshed.failures)
+      failed.push_back(failure.subdomain);
+    const auto merges = merges_of_failed(made.fine, failed);
+    if (merges.empty())
+      return false;
+    const local_id before = merges_.merged();
+    const std::string refused = merges_.merge(subdomain_of_element_, merges);
+    merged_after_failure_ += merges_.merged() - before;
+    for (const piece_failure& failure : meshed.failures)
+      told_.push_back("no attempt could mesh a subdomain, " +
+                      (refused.empty() ? "merged with a neighbour" : "and " + refused) + ": " +
+                      joined_reasons(failure.reasons));
+    return refused.empty();
+  }
+
+  const any_geometry& model_;
+  const simplicial_background<D>& mesh_;
+  const side_table<D>& sides_;
+  const any_parameters<D>& given_;
+  std::vector<local_id> subdomain_of_element_;
+  merge_account merges_;
+  refined_sizing size_; ///< the field given, smaller where something crossed
+  skeleton_store made_;
+  std::shared_ptr<entity_store> pieces_;
+  report intersection_;
+  double skeleton_seconds_ = 0;
+  int refinements_ = 0;
+  local_id merged_after_failure_ = 0;
+  std::vector<std::string> told_;
+};
+
+} // namespace dovetail

@@ -1,0 +1,82 @@
+/// @file
+/// A sizing field that is refined at places, round by round, such that what is made elsewhere stays.
+#pragma once
+
+#include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/sizing/size_balls.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A field, and balls that were added to it. Each entity (line, patch, piece) gets the field with the balls
+/// in reach of the box that it lies in, and has these in its key: what a refinement does not reach keeps its
+/// key and its bytes. A ball reaches to where, grown, it asks for what the field does at its center.
+class refined_sizing {
+public:
+  template <sizing_field H>
+  refined_sizing(H plain) : plain_(std::move(plain)) {} // NOLINT: converts
+
+  /// Adds the balls that ask for less than the field at their centers. O(n log n) in all balls.
+  void refine(std::span<const size_ball> more) {
+    for (const size_ball& ball : more)
+      if (const double plain = plain_(ball.center); ball.size < plain) {
+        balls_.push_back(ball);
+        reaches_.push_back(ball.radius + (plain - ball.size) / growth);
+      }
+    std::vector<box3> boxes;
+    for (std::size_t k = 0; k < balls_.size(); ++k)
+      boxes.push_back(inflated({balls_[k].center, balls_[k].center}, reaches_[k]));
+    tree_ = box_tree(boxes);
+  }
+
+  /// The field for an entity.
+  any_sizing near(const box3& entity) const { return within_bounds(plain_, balls_near(entity), growth); }
+  /// The key of that field, given that the plain one is always the same. O(log n + balls near).
+  content_key key_near(const box3& entity) const {
+    const std::vector<size_ball> balls = balls_near(entity);
+    return balls.empty() ? content_key{} : key_maker{}(balls).key();
+  }
+
+private:
+  static constexpr double growth = 0.3;
+
+  std::vector<size_ball> balls_near(const box3& entity) const {
+    std::vector<std::size_t> found;
+    tree_.for_each([&](const box3& node, std::size_t) { return node.overlaps(entity); },
+                   [&](local_id ball) {
+                     const auto k = static_cast<std::size_t>(ball);
+                     if (distance_squared(entity, balls_[k].center) <= reaches_[k] * reaches_[k])
+                       found.push_back(k);
+                   });
+    std::sort(found.begin(), found.end());
+    std::vector<size_ball> balls;
+    for (const std::size_t k : found)
+      balls.push_back(balls_[k]);
+    return balls;
+  }
+
+  any_sizing plain_;
+  std::vector<size_ball> balls_; ///< in the order in which they were added
+  std::vector<double> reaches_;  ///< per ball
+  box_tree tree_;                ///< of the boxes that they reach
+};
+
+/// The box around points of an entity.
+inline box3 box_around(std::span<const vec3> points) {
+  box3 box;
+  for (const vec3 p : points)
+    box.include(p);
+  return box;
+}
+/// The same with room for what bulges out between the points of a line or of the boundary of a surface.
+inline box3 roomy_box_around(std::span<const vec3> points) {
+  const box3 box = box_around(points);
+  return inflated(box, 0.5 * box.diagonal());
+}
+
+} // namespace dovetail
