@@ -43,6 +43,24 @@ TEST_CASE("a sphere: closed, every vertex on it") {
   CHECK(result.fine_angles.min_wedge_deg() > 48);
 }
 
+TEST_CASE("the report has all stages in their order, each with what it did") {
+  const auto summary = mesh_shell(BRepPrimAPI_MakeSphere(2.0).Shape(), 0.3, 4).summary;
+  const std::vector<std::pair<std::string, std::string>> stages{
+      {"background", "elements"},  {"simplification", "super_elements"},
+      {"partition", "subdomains"}, {"skeleton", "lines"},
+      {"intersection", ""},        {"meshing", "elements"}};
+  REQUIRE(summary.children.size() == stages.size());
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const auto& [name, counter] = stages[k];
+    CAPTURE(name);
+    CHECK(summary.children[k].name == name);
+    if (!counter.empty()) {
+      CHECK(summary.children[k].get(counter) > 0);
+      CHECK(summary.children[k].seconds > 0);
+    }
+  }
+}
+
 TEST_CASE(
     "from the background mesh that an earlier run has kept comes the same mesh, within the same bounds") {
   const scratch_folder folder("kept_background");

@@ -75,7 +75,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);
   result.summary.children = {std::move(background.summary), std::move(simplification_summary),
-                             std::move(pieces.summary),     std::move(skeleton.summary),
+                             std::move(partition_summary),  std::move(skeleton.summary),
                              rounds.intersection(),         std::move(meshed.summary)};
   result.summary.seconds = result.summary.children.front().seconds + clock.seconds();
   return result;
