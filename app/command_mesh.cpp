@@ -84,16 +84,15 @@ void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
   figures.interfaces = figures_of(result.fine_angles);
   figures.coarse_interfaces = figures_of(result.coarse_angles);
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
-  const report& intersection = stage_report(summary, "intersection");
+  const report& intersection = summary.find("intersection");
   figures.merges = static_cast<std::int64_t>(intersection.get("merges") +
-                                             stage_report(summary, "meshing").get("merged_after_failure"));
+                                             summary.find("meshing").get("merged_after_failure"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
   const double geometry = figures.seconds.geometry;
   figures.seconds = seconds_of_stages(summary);
   figures.seconds.geometry = geometry;
-  figures.peak_rss_bytes =
-      std::max(figures.peak_rss_bytes,
-               static_cast<std::uint64_t>(stage_report(summary, "meshing").get("peak_rss_bytes")));
+  figures.peak_rss_bytes = std::max(
+      figures.peak_rss_bytes, static_cast<std::uint64_t>(summary.find("meshing").get("peak_rss_bytes")));
 }
 
 template <int D>

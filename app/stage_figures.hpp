@@ -13,24 +13,16 @@
 
 namespace dovetail::app {
 
-/// The report of a stage; an empty one when there is none of that name.
-inline const report& stage_report(const report& summary, const std::string& name) {
-  static const report none;
-  const auto found = std::find_if(summary.children.begin(), summary.children.end(),
-                                  [&](const report& child) { return child.name == name; });
-  return found == summary.children.end() ? none : *found;
-}
-
 /// Wall times from the report of `generate`, whose own is the total. Mesher and improver run in one task, one
 /// after the other, and share the stage's time in proportion to what the workers spent on each.
 inline stage_seconds seconds_of_stages(const report& summary) {
   stage_seconds seconds;
-  seconds.background = stage_report(summary, "background").seconds;
-  seconds.simplification = stage_report(summary, "simplification").seconds;
-  seconds.partition = stage_report(summary, "partition").seconds;
-  seconds.skeleton = stage_report(summary, "skeleton").seconds;
-  seconds.intersection = stage_report(summary, "intersection").seconds;
-  const report& meshing = stage_report(summary, "meshing");
+  seconds.background = summary.find("background").seconds;
+  seconds.simplification = summary.find("simplification").seconds;
+  seconds.partition = summary.find("partition").seconds;
+  seconds.skeleton = summary.find("skeleton").seconds;
+  seconds.intersection = summary.find("intersection").seconds;
+  const report& meshing = summary.find("meshing");
   const double improver = meshing.get("improver_seconds");
   const double both = meshing.get("mesher_seconds") + improver;
   seconds.improvement = both > 0 ? meshing.seconds * improver / both : 0;

@@ -55,10 +55,17 @@ TEST_CASE("the report has all stages in their order, each with what it did") {
     CAPTURE(name);
     CHECK(summary.children[k].name == name);
     if (!counter.empty()) {
-      CHECK(summary.children[k].get(counter) > 0);
+      CHECK(summary.find(name).get(counter) > 0);
       CHECK(summary.children[k].seconds > 0);
     }
   }
+}
+
+TEST_CASE("a part of a report is found by its name at any depth, the first in order") {
+  report root{"root", 0, {}, {}, {{"a", 0, {}, {}, {{"leaf", 1}}}, {"leaf", 2}}};
+  CHECK(root.find("leaf").seconds == 1);
+  CHECK(root.find("root").children.size() == 2);
+  CHECK(root.find("nothing").name.empty());
 }
 
 TEST_CASE(
