@@ -4,7 +4,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/parallel/spool.hpp"
@@ -39,7 +38,7 @@ output_format<2> format_of<2>(const std::string& name, int pieces) {
   if (name == "vtu")
     return {name, 45, io::vtu_writer{.pieces = pieces}};
   if (name == "msh")
-    return in_one_file<2>(name, 45, io::msh_surface_writer{});
+    return in_one_file<2>(name, 45, io::msh_writer{});
   throw command_line_error("--format: there is no '" + name + "' for triangles; there are: vtu, msh, none");
 }
 

@@ -10,7 +10,6 @@
 #include "dovetail/geometry/occt_triangulation.hpp"
 #include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/geometry/plane_read.hpp"
-#include "dovetail/io/msh_surface_writer.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/write_mesh.hpp"

@@ -43,7 +43,7 @@ TEST_CASE("header-only: a plane domain becomes a mesh of triangles, is written a
   CHECK(io::check_distributed(made.mesh).valid());
   io::vtu_writer{}(made.mesh, folder);
   CHECK(io::mesh_hash(io::read_mesh(folder / "mesh.pvtu")) == io::mesh_hash(made.mesh));
-  io::msh_surface_writer{}(made.mesh, folder);
+  io::msh_writer{}(made.mesh, folder);
 }
 
 TEST_CASE("header-only: sizes from a file, triangles from a file, a formula") {

@@ -112,6 +112,19 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
   }
 }
 
+TEST_CASE("a piece whose quality is known is not measured again") {
+  auto mesh = cubes.distributed();
+  const auto measured = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+    mesh.quality.push_back(measure_quality(mesh.load(static_cast<local_id>(p)).mesh));
+    mesh.quality.back().min_wedge_deg = 0.5 + static_cast<double>(p);
+  }
+  const auto known = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
+  CHECK(measured.min_wedge_deg > 1);
+  CHECK(known.min_wedge_deg == 0.5);
+  CHECK(known.min_wedges.bins == measured.min_wedges.bins);
+}
+
 TEST_CASE("a piece is loaded once, whatever is written of it") {
   const testing::scratch_folder folder("finish_once");
   store pieces;

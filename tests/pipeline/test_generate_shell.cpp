@@ -3,7 +3,7 @@
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
-#include "dovetail/io/msh_surface_writer.hpp"
+#include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/parallel/processes.hpp"
@@ -190,7 +190,7 @@ TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, wi
   const scratch_folder folder("shell_files");
   io::vtu_writer{}(result.mesh, folder / "vtu");
   io::vtu_writer{.pieces = 2}(result.mesh, folder / "vtu2");
-  io::msh_surface_writer{}(result.mesh, folder / "msh");
+  io::msh_writer{}(result.mesh, folder / "msh");
   for (const char* name : {"vtu", "vtu2", "msh"}) {
     const auto read = io::read_mesh(folder / name);
     INFO(name);
@@ -201,6 +201,8 @@ TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, wi
       ++read_of_face[face];
     CHECK(read_of_face == of_face);
   }
+  CHECK_THROWS_WITH_AS(io::msh_writer{.partitioned = true}(result.mesh, folder / "msh"),
+                       doctest::Contains("whole, not partitioned"), usage_error);
 }
 
 TEST_CASE("the aircraft in its box: several closed shells") {

@@ -1,6 +1,6 @@
 /// @file
-/// The last pass over a mesh: each piece is loaded once, checked against the skeleton, measured, hashed,
-/// written, and its storage given up.
+/// The last pass over a mesh: each piece is loaded once, checked against the skeleton, hashed, written, and
+/// its storage given up.
 #pragma once
 
 #include "dovetail/core/progress.hpp"
@@ -31,8 +31,9 @@ struct finished_mesh {
 };
 
 /// One task per file, or per piece without writers: loads its pieces one after the other, checks each as
-/// `check_piece` does, measures it, and hands it to the writers. Files are complete under temporary names
-/// before any gets its final one. The result and the files do not depend on the executor.
+/// `check_piece` does, measures it unless its quality is known, and hands it to the writers. Files are
+/// complete under temporary names before any gets its final one. The result and the files do not depend on
+/// the executor.
 ///
 /// A piece that does not fit throws `mesh_error` naming the subdomain and the place; further `io_error`
 /// naming the path, `usage_error` when pieces were given up to files that are not among these, and

@@ -197,7 +197,9 @@ private:
       const auto faults = check_piece<D>(piece, mesh_.skeleton, sides_[p]);
       if (!faults.valid())
         throw mesh_error("the mesh does not conform: " + faults.text());
-      done.quality.merge(measure_quality(piece.mesh), numbers_.first_element[static_cast<std::size_t>(p)]);
+      const auto at = static_cast<std::size_t>(p);
+      done.quality.merge(mesh_.quality.empty() ? measure_quality(piece.mesh) : mesh_.quality[at],
+                         numbers_.first_element[at]);
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto& output = outputs_[k];

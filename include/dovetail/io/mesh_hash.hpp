@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <string>
 #include <utility>
 
 namespace dovetail::io {
@@ -124,15 +123,6 @@ inline std::uint64_t mesh_hash(const loaded_mesh& loaded) {
     hasher.element(std::array<global_id, 3>{id(a), id(b), id(c)});
   }
   return hasher.value();
-}
-
-/// The hash as 16 hexadecimal digits, the form reports use.
-inline std::string hash_text(std::uint64_t hash) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t k = text.size(); k-- > 0; hash >>= 4)
-    text[k] = digits[hash & 15];
-  return text;
 }
 
 } // namespace dovetail::io

@@ -2,6 +2,7 @@
 /// The entities of an MSH 4.1 file with their numbers, boxes and nodes, and the sections that list them.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/io/msh_encoder.hpp"
 #include "dovetail/io/partition_entities.hpp"
 #include "dovetail/io/patches.hpp"
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::io::detail {
@@ -32,7 +35,7 @@ inline local_id partition_tag(local_id subdomain) {
 }
 
 /// Collects boxes, points, edges and triangles per entity. O(skeleton).
-inline void collect_members(msh_entities& out, const fine_skeleton& skeleton) {
+inline void collect_members(msh_entities& out, const std::vector<vec3>& points) {
   const auto& entities = out.entities;
   for (std::size_t d = 0; d < 4; ++d) {
     out.boxes[d].resize(entities.of_dimension[d].size());
@@ -42,7 +45,7 @@ inline void collect_members(msh_entities& out, const fine_skeleton& skeleton) {
   out.simplices[2].resize(entities.of_dimension[2].size());
   const auto include = [&](int dimension, local_id entity, local_id point) {
     out.boxes[static_cast<std::size_t>(dimension)][static_cast<std::size_t>(entity)].include(
-        skeleton.points[static_cast<std::size_t>(point)]);
+        points[static_cast<std::size_t>(point)]);
   };
   for (std::size_t v = 0; v < entities.of_point.size(); ++v)
     if (const auto at = entities.of_point[v]; at.id != no_id) {
@@ -78,7 +81,39 @@ inline msh_entities number_cad_entities(const distributed_mesh& mesh, const poin
   for (std::size_t d = 0; d < 4; ++d)
     for (const auto& entity : out.entities.of_dimension[d])
       out.tags[d].push_back(cad_tag(entity.on.id));
-  collect_members(out, mesh.skeleton);
+  collect_members(out, mesh.skeleton.points);
+  return out;
+}
+
+/// The curves and faces of a mesh of triangles, of which `faces` have some; what bounds them is not said.
+inline msh_entities number_cad_entities(const distributed_simplicial_mesh<2>& mesh,
+                                        const std::set<local_id>& faces) {
+  msh_entities out;
+  const auto add = [&](int dimension, local_id id) {
+    out.entities.of_dimension[static_cast<std::size_t>(dimension)].push_back({{dimension, id}, {}, {}});
+    out.tags[static_cast<std::size_t>(dimension)].push_back(cad_tag(id));
+  };
+  const auto& skeleton = mesh.skeleton;
+  std::vector<std::pair<local_id, simplex<1>>>
+      edges; // one of other than two triangles is there several times
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    if (skeleton.side_hosts[e] != no_id)
+      edges.emplace_back(skeleton.side_hosts[e], sorted_vertices(skeleton.sides[e]));
+  sort_unique(edges);
+  for (const auto& [curve, ends] : edges) {
+    if (out.tags[1].empty() || out.tags[1].back() != cad_tag(curve))
+      add(1, curve);
+    out.entities.edges.push_back({ends, static_cast<local_id>(out.tags[1].size() - 1)});
+  }
+  for (const local_id face : faces)
+    add(2, face);
+  collect_members(out, skeleton.points);
+  box3 whole;
+  for (std::size_t v = 0; v < skeleton.points.size(); ++v) {
+    whole.include(skeleton.points[v]);
+    out.points[2].front().push_back(static_cast<local_id>(v));
+  }
+  out.boxes[2].assign(faces.size(), whole);
   return out;
 }
 
@@ -94,7 +129,7 @@ inline msh_entities number_partition_entities(const distributed_mesh& mesh, cons
     for (std::size_t i = 0; i < out.entities.of_dimension[d].size(); ++i)
       out.tags[d].push_back(next++);
   }
-  collect_members(out, mesh.skeleton);
+  collect_members(out, mesh.skeleton.points);
   return out;
 }
 

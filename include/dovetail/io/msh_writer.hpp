@@ -10,8 +10,9 @@
 
 namespace dovetail::io {
 
-/// Writes `<stem>.msh`. Physical groups are boundary patches and materials. A partitioned file has one
-/// partitioned entity per CAD entity or interface and set of sharers; partition s + 1 is subdomain s.
+/// Writes `<stem>.msh`. Physical groups are boundary patches and materials. A partitioned file (D = 3) has
+/// one partitioned entity per CAD entity or interface and set of sharers; partition s + 1 is subdomain s. In
+/// D = 2 the nodes are all in the block of the first CAD face.
 struct msh_writer {
   bool partitioned = false;
   bool ghosts = false; ///< with `partitioned`: one layer of elements that touch another partition in a point
@@ -20,9 +21,11 @@ struct msh_writer {
   bool release = false; ///< gives up each piece when it is read for the last time; after a failure, or when
                         ///< the program is stopped, a resumed run makes these pieces again
 
-  /// Every piece is loaded twice, once for its nodes and once for its elements. Memory: the skeleton with
-  /// several times its size in work arrays, one piece, and the ghosts.
-  report operator()(const distributed_mesh& mesh, const std::filesystem::path& folder) const;
+  /// Every piece is loaded twice, once for its nodes and once for its elements; in D = 2 once more, to count
+  /// those on each CAD face. Memory: the skeleton with several times its size in work arrays, one piece, and
+  /// the ghosts. Throws `usage_error` when a mesh of D = 2 is to be partitioned.
+  template <int D>
+  report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const;
 };
 
 } // namespace dovetail::io

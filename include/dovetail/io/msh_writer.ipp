@@ -2,6 +2,7 @@
 /// What `msh_writer.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/global_numbering.hpp"
@@ -11,7 +12,11 @@
 #include "dovetail/io/patches.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,54 +26,96 @@ namespace dovetail::io {
 
 namespace detail {
 
+/// A block of elements: all of some pieces, or in D = 2 those of a piece on one CAD face.
+struct element_block {
+  std::size_t entity = 0; ///< of dimension D
+  std::vector<local_id> pieces = {};
+  global_id elements = 0;
+};
+
 /// Everything but the pieces: what the sections of one MSH file are written from.
+template <int D>
 struct msh_document {
-  const distributed_mesh& mesh;
+  const distributed_simplicial_mesh<D>& mesh;
   global_numbering numbers;
   boundary_patches patches;
-  std::vector<std::string> materials;
-  point_sharers sharers;
+  std::vector<std::string> materials; ///< of D = 3
+  point_sharers sharers;              ///< of D = 3
   msh_entities cad;
   msh_entities parts; ///< only of a partitioned file
   bool partitioned = false;
   std::vector<local_id> ghost_tags = {}; ///< per subdomain; empty without ghosts
+  std::vector<element_block> blocks = {};
 
   /// The entities that nodes and elements are filed under.
   const msh_entities& filing() const { return partitioned ? parts : cad; }
-  /// The volume that a subdomain's nodes and elements are filed under.
-  std::size_t volume_of(std::size_t subdomain) const {
-    return partitioned ? subdomain : static_cast<std::size_t>(mesh.counts[subdomain].material);
-  }
-  /// The subdomains of each volume, ascending.
-  std::vector<std::vector<local_id>> subdomains_of_volumes() const {
-    std::vector<std::vector<local_id>> result(filing().tags[3].size());
+  /// The subdomains whose inner points are filed under each entity of dimension D, ascending.
+  std::vector<std::vector<local_id>> subdomains_of_entities() const {
+    std::vector<std::vector<local_id>> result(filing().tags[D].size());
     for (std::size_t s = 0; s < mesh.counts.size(); ++s)
-      result[volume_of(s)].push_back(static_cast<local_id>(s));
+      result[D == 2        ? 0
+             : partitioned ? s
+                           : static_cast<std::size_t>(mesh.counts[s].material)]
+          .push_back(static_cast<local_id>(s));
     return result;
   }
 };
 
-inline msh_document prepare_msh(const distributed_mesh& mesh, bool partitioned, bool ghosts) {
-  // Checks the skeleton's references; everything after indexes freely.
-  triangles_by_subdomain{mesh};
-  msh_document document{mesh,
-                        number_globally(mesh),
-                        collect_patches(mesh),
-                        collect_material_names(mesh),
-                        point_sharers(mesh.skeleton),
-                        {},
-                        {},
-                        partitioned};
+inline msh_document<3> prepare_msh(const distributed_mesh& mesh, bool partitioned, bool ghosts) {
+  msh_document<3> document{mesh,
+                           number_globally(mesh),
+                           collect_patches(mesh),
+                           collect_material_names(mesh),
+                           point_sharers(mesh.skeleton),
+                           {},
+                           {},
+                           partitioned};
   document.cad = number_cad_entities(mesh, document.sharers, document.materials.size());
   if (partitioned)
     document.parts = number_partition_entities(mesh, document.sharers, document.cad);
   if (partitioned && ghosts)
     for (std::size_t s = 0; s < mesh.counts.size(); ++s)
       document.ghost_tags.push_back(document.parts.tags[3].back() + 1 + static_cast<local_id>(s));
+  auto subdomains = document.subdomains_of_entities();
+  for (std::size_t volume = 0; volume < subdomains.size(); ++volume) {
+    element_block block{volume, std::move(subdomains[volume])};
+    for (const local_id s : block.pieces)
+      block.elements += mesh.counts[static_cast<std::size_t>(s)].elements;
+    if (block.elements > 0)
+      document.blocks.push_back(std::move(block));
+  }
   return document;
 }
 
-inline std::vector<physical_name> physical_names(const msh_document& document) {
+inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh, bool partitioned, bool) {
+  if (partitioned)
+    throw usage_error("a mesh of triangles is written to MSH whole, not partitioned");
+  std::vector<std::map<local_id, global_id>> of_face(mesh.counts.size()); // per piece
+  std::set<local_id> faces;
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p)
+    for (const local_id face : load_checked(mesh, static_cast<local_id>(p)).mesh.tags) {
+      ++of_face[p][face];
+      faces.insert(face);
+    }
+  if (faces.empty())
+    throw mesh_error("there are no triangles to write");
+  msh_document<2> document{mesh,
+                           number_globally(mesh),
+                           collect_patches(mesh, static_cast<std::size_t>(*faces.rbegin()) + 1),
+                           {},
+                           point_sharers(fine_skeleton{}),
+                           number_cad_entities(mesh, faces),
+                           {}};
+  for (std::size_t p = 0; p < of_face.size(); ++p)
+    for (const auto& [face, triangles] : of_face[p])
+      document.blocks.push_back({static_cast<std::size_t>(std::distance(faces.begin(), faces.find(face))),
+                                 {static_cast<local_id>(p)},
+                                 triangles});
+  return document;
+}
+
+template <int D>
+std::vector<physical_name> physical_names(const msh_document<D>& document) {
   std::vector<physical_name> names;
   for (const auto& name : document.patches.names)
     names.push_back({2, static_cast<local_id>(names.size() + 1), name});
@@ -93,8 +140,9 @@ inline std::uint64_t msh_tag(global_id id) {
 
 /// The nodes of one entity: skeleton points, then the inner points of subdomains. MSH lists a block's tags
 /// before its coordinates; tags follow from the counts, so pieces are loaded for the coordinates only.
-inline void write_node_block(msh_encoder& out, const msh_document& document, int dimension,
-                             std::size_t entity, const std::vector<local_id>& subdomains) {
+template <int D>
+void write_node_block(msh_encoder& out, const msh_document<D>& document, int dimension, std::size_t entity,
+                      const std::vector<local_id>& subdomains) {
   const auto& mesh = document.mesh;
   const auto& filing = document.filing();
   const auto d = static_cast<std::size_t>(dimension);
@@ -128,12 +176,13 @@ inline void write_node_block(msh_encoder& out, const msh_document& document, int
   }
 }
 
-inline void write_nodes(msh_encoder& out, const msh_document& document) {
+template <int D>
+void write_nodes(msh_encoder& out, const msh_document<D>& document) {
   const auto& filing = document.filing();
-  const auto subdomains = document.subdomains_of_volumes();
-  const auto inner = [&](std::size_t volume) {
+  const auto subdomains = document.subdomains_of_entities();
+  const auto inner = [&](std::size_t entity) {
     global_id count = 0;
-    for (const auto s : subdomains[volume])
+    for (const auto s : subdomains[entity])
       count += document.mesh.counts[static_cast<std::size_t>(s)].inner_points;
     return count;
   };
@@ -141,7 +190,7 @@ inline void write_nodes(msh_encoder& out, const msh_document& document) {
   auto nodes = static_cast<std::uint64_t>(document.numbers.points());
   for (std::size_t d = 0; d < 4; ++d)
     for (std::size_t i = 0; i < filing.points[d].size(); ++i)
-      if (!filing.points[d][i].empty() || (d == 3 && inner(i) > 0))
+      if (!filing.points[d][i].empty() || (d == D && inner(i) > 0))
         ++blocks;
   for (const auto& at : filing.entities.of_point)
     if (at.id == no_id)
@@ -155,7 +204,7 @@ inline void write_nodes(msh_encoder& out, const msh_document& document) {
   for (std::size_t d = 0; d < 4; ++d)
     for (std::size_t i = 0; i < filing.points[d].size(); ++i)
       write_node_block(out, document, static_cast<int>(d), i,
-                       d == 3 ? subdomains[i] : std::vector<local_id>{});
+                       d == D ? subdomains[i] : std::vector<local_id>{});
   out.end("Nodes");
 }
 
@@ -168,8 +217,8 @@ void write_element(msh_encoder& out, std::uint64_t tag, const std::array<global_
 }
 
 /// One point element per vertex, then the line and triangle elements of the entities. Returns the next tag.
-inline std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document& document,
-                                             std::uint64_t tag) {
+template <int D>
+std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document<D>& document, std::uint64_t tag) {
   const auto& filing = document.filing();
   for (std::size_t i = 0; i < filing.tags[0].size(); ++i) {
     write_block_head(out, 0, filing.tags[0][i], static_cast<int>(msh_type::point), 1);
@@ -186,7 +235,7 @@ inline std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_documen
       write_element<2>(out, tag++, {v[0], v[1]});
     }
   }
-  for (std::size_t i = 0; i < filing.tags[2].size(); ++i) {
+  for (std::size_t i = 0; D == 3 && i < filing.tags[2].size(); ++i) {
     const auto& triangles = filing.simplices[2][i];
     if (triangles.empty())
       continue;
@@ -234,52 +283,49 @@ struct ghost_elements {
 
 /// Returns the ghosts, if they are wanted: they are collected on the way. This is the last reading of a
 /// piece.
-inline ghost_elements write_elements(msh_encoder& out, const msh_document& document, bool release) {
+template <int D>
+ghost_elements write_elements(msh_encoder& out, const msh_document<D>& document, bool release) {
   const auto& mesh = document.mesh;
   const auto& filing = document.filing();
-  const auto subdomains = document.subdomains_of_volumes();
-  auto elements = static_cast<std::uint64_t>(document.numbers.elements());
-  std::uint64_t blocks = filing.tags[0].size();
-  std::uint64_t total = elements + filing.tags[0].size();
-  for (std::size_t d = 1; d < 3; ++d)
+  std::uint64_t blocks = filing.tags[0].size() + document.blocks.size();
+  std::uint64_t total = static_cast<std::uint64_t>(document.numbers.elements()) + filing.tags[0].size();
+  for (std::size_t d = 1; d < D; ++d)
     for (const auto& simplices : filing.simplices[d]) {
       blocks += simplices.empty() ? 0 : 1;
       total += simplices.size();
     }
-  const auto inside = [&](std::size_t volume) {
-    global_id count = 0;
-    for (const auto s : subdomains[volume])
-      count += mesh.counts[static_cast<std::size_t>(s)].elements;
-    return count;
-  };
-  for (std::size_t i = 0; i < subdomains.size(); ++i)
-    blocks += inside(i) > 0 ? 1 : 0;
-
   out.begin("Elements");
   out.count(blocks);
   out.count(total);
   out.count(1);
   out.count(total);
   out.line();
-  // Tetrahedra carry their global numbers; the others are numbered after them.
+  // Elements of dimension D carry their global numbers; the others are numbered after them.
   write_skeleton_elements(out, document, msh_tag(document.numbers.elements()));
   ghost_elements ghosts;
-  for (std::size_t i = 0; i < subdomains.size(); ++i) {
-    if (inside(i) == 0)
-      continue;
-    write_block_head(out, 3, filing.tags[3][i], static_cast<int>(msh_type::tetrahedron), inside(i));
-    for (const auto s : subdomains[i]) {
-      const auto piece = load_checked(mesh, s);
-      auto id = document.numbers.first_element[static_cast<std::size_t>(s)];
-      if (!document.ghost_tags.empty())
-        ghosts.collect(piece, document.sharers, id);
-      for (const auto& e : piece.mesh.elements)
-        write_element<4>(
-            out, msh_tag(id++),
-            {global_point(piece, document.numbers, e[0]), global_point(piece, document.numbers, e[1]),
-             global_point(piece, document.numbers, e[2]), global_point(piece, document.numbers, e[3])});
-      if (release && mesh.release)
-        mesh.release(s, {});
+  simplicial_piece<D> piece;
+  for (const element_block& block : document.blocks) {
+    write_block_head(out, D, filing.tags[D][block.entity],
+                     static_cast<int>(D == 2 ? msh_type::triangle : msh_type::tetrahedron), block.elements);
+    for (const local_id s : block.pieces) {
+      if (piece.subdomain != s) {
+        piece = {}; // not two at a time
+        piece = load_checked(mesh, s);
+        if (release && mesh.release)
+          mesh.release(s, {});
+      }
+      const global_id first = document.numbers.first_element[static_cast<std::size_t>(s)];
+      if constexpr (D == 3)
+        if (!document.ghost_tags.empty())
+          ghosts.collect(piece, document.sharers, first);
+      for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
+        if (D == 2 && cad_tag(piece.mesh.tags[e]) != filing.tags[D][block.entity])
+          continue;
+        std::array<global_id, D + 1> vertices;
+        for (std::size_t k = 0; k <= D; ++k)
+          vertices[k] = global_point(piece, document.numbers, piece.mesh.elements[e][k]);
+        write_element(out, msh_tag(first + static_cast<global_id>(e)), vertices);
+      }
     }
   }
   out.end("Elements");
@@ -303,10 +349,12 @@ inline void write_ghosts(msh_encoder& out, const ghost_elements& ghosts) {
 
 } // namespace detail
 
-DOVETAIL_INLINE report msh_writer::operator()(const distributed_mesh& mesh,
-                                              const std::filesystem::path& folder) const {
+template <int D>
+report msh_writer::operator()(const distributed_simplicial_mesh<D>& mesh,
+                              const std::filesystem::path& folder) const {
   const stopwatch clock;
   make_folder(folder);
+  sides_by_subdomain<D>{mesh}; // checks the skeleton's references; everything after indexes freely
   const auto document = detail::prepare_msh(mesh, partitioned, ghosts);
   output_file file(folder / (stem + ".msh"));
   msh_encoder out(file, binary);
@@ -329,5 +377,12 @@ DOVETAIL_INLINE report msh_writer::operator()(const distributed_mesh& mesh,
   summary.set("files", 1);
   return summary;
 }
+
+#ifdef DOVETAIL_COMPILED
+template report msh_writer::operator()<2>(const distributed_simplicial_mesh<2>& mesh,
+                                          const std::filesystem::path& folder) const;
+template report msh_writer::operator()<3>(const distributed_simplicial_mesh<3>& mesh,
+                                          const std::filesystem::path& folder) const;
+#endif
 
 } // namespace dovetail::io

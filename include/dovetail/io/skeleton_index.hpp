@@ -46,6 +46,4 @@ private:
   sides_of_subdomains sides_;
 };
 
-using triangles_by_subdomain = sides_by_subdomain<3>;
-
 } // namespace dovetail::io

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <cstddef>
@@ -75,6 +76,7 @@ template <int D>
 struct distributed_simplicial_mesh {
   simplicial_skeleton<D> skeleton;
   std::vector<piece_counts> counts;
+  std::vector<quality_statistics> quality = {};      ///< of each piece; empty where nobody has measured it
   std::function<simplicial_piece<D>(local_id)> load; ///< loads piece p; pure
   /// Gives up the storage of piece p, which is not loaded again. A resumed run takes the files of the note
   /// for the piece; without any, it makes the piece again. May be called in a worker; empty: not possible.

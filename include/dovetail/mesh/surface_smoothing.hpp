@@ -32,11 +32,6 @@ public:
     awake_.swap(next_);
     return moved;
   }
-  /// Makes the next pass visit v.
-  void wake(local_id v) {
-    awake_.resize(s_.point.size(), 1);
-    awake_[s_.at(v)] = 1;
-  }
   void wake_all() { awake_.assign(s_.point.size(), 1); }
 
   /// Moves v towards the middle of its star when that raises the sum of the qualities there and does not make

@@ -1,5 +1,5 @@
 /// @file
-/// How well a triangle is shaped, alone and as a part of an oriented surface.
+/// How well a triangle is shaped, as a part of an oriented surface.
 #pragma once
 
 #include "dovetail/core/vector.hpp"
@@ -9,16 +9,9 @@
 
 namespace dovetail::detail {
 
-/// sin^2 of the smallest angle of a triangle; 0.75 when equilateral, 0 when degenerate.
-inline double shape_quality(vec3 a, vec3 b, vec3 c) {
-  const vec3 ab = b - a, bc = c - b, ca = a - c;
-  const double x = norm_squared(ab), y = norm_squared(bc), z = norm_squared(ca);
-  const double two_longest = std::max({x * y, y * z, z * x});
-  return two_longest > 0 ? norm_squared(cross(ab, bc)) / two_longest : 0.0;
-}
-
-/// Quality that also judges the triangle's normal: `shape_quality` where it agrees with the given surface
-/// normal direction (any length), otherwise a negative number that grows with the agreement.
+/// sin^2 of the smallest angle of a triangle (0.75 when equilateral, 0 when degenerate) where its normal
+/// agrees with the given surface normal direction (any length), otherwise a negative number that grows with
+/// the agreement.
 inline double oriented_quality(vec3 a, vec3 b, vec3 c, vec3 normal) {
   constexpr double least_cosine = 0.15;
   const vec3 ab = b - a, bc = c - b, ca = a - c;

@@ -170,7 +170,7 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_
 
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
-                                     const any_parameters<D>& given) {
+                                     const any_parameters<D>& given, const background_maker<D>& make) {
   const stopwatch clock;
   const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
@@ -183,33 +183,41 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   background_result<D> result;
   result.summary.name = "background";
   result.plan = plan_background<D>(model, size, given);
-
-  options.on_progress("background surface", 0, 0);
-  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
-                                           options.refinement_rounds);
-  result.summary.children.push_back(std::move(surface.summary));
-  if constexpr (D == 2)
-    result.bounds = std::move(surface.bounds);
+  make(result, coarse_size(size, result.plan.coarse_scale, model.bounds()));
   result.size = allowed_size<D>(size, result.bounds);
-  result.mesh.surface = std::move(surface.surface);
-  if constexpr (D == 3) {
-    options.on_progress("background volume", 0, 0);
-    auto volume = background::coarse_volume(
-        result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,
-        given.run_tasks,
-        {.on_failure = write_facets_of_failures(options.failure_folder),
-         .limit_seconds = options.limit_seconds,
-         .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
-    result.mesh.volume = std::move(volume.mesh);
-    result.summary.children.push_back(std::move(volume.summary));
-  }
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.seconds = clock.seconds();
   keep_background(options.store, model, size, result);
   return result;
+}
+
+template <int D>
+background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
+                                     const any_parameters<D>& given) {
+  const generate_options& options = given.options;
+  const auto make = [&](background_result<D>& result, const any_sizing& coarse) {
+    options.on_progress("background surface", 0, 0);
+    auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
+                                             options.refinement_rounds);
+    result.summary.children.push_back(std::move(surface.summary));
+    if constexpr (D == 2)
+      result.bounds = std::move(surface.bounds);
+    result.mesh.surface = std::move(surface.surface);
+    if constexpr (D == 3) {
+      options.on_progress("background volume", 0, 0);
+      auto volume = background::coarse_volume(
+          result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,
+          given.run_tasks,
+          {.on_failure = write_facets_of_failures(options.failure_folder),
+           .limit_seconds = options.limit_seconds,
+           .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
+      result.mesh.volume = std::move(volume.mesh);
+      result.summary.children.push_back(std::move(volume.summary));
+    }
+  };
+  return make_background<D>(model, given_size, given, background_maker<D>(make));
 }
 
 #ifdef DOVETAIL_COMPILED
@@ -229,8 +237,14 @@ template mesh_plan plan_background<3>(const any_geometry& model, const erased_si
                                       const any_parameters<3>& given);
 template background_result<2> make_background<2>(const any_geometry& model, const erased_sizing& size,
                                                  const any_parameters<2>& given);
+template background_result<2> make_background<2>(const any_geometry& model, const erased_sizing& size,
+                                                 const any_parameters<2>& given,
+                                                 const background_maker<2>& make);
 template background_result<3> make_background<3>(const any_geometry& model, const erased_sizing& size,
                                                  const any_parameters<3>& given);
+template background_result<3> make_background<3>(const any_geometry& model, const erased_sizing& size,
+                                                 const any_parameters<3>& given,
+                                                 const background_maker<3>& make);
 #endif
 
 } // namespace dovetail

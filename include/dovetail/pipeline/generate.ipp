@@ -20,8 +20,10 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
                                              const meshed_pieces<D>& meshed) {
   distributed_simplicial_mesh<D> mesh;
   mesh.skeleton = std::move(skeleton);
-  for (const piece_summary& piece : meshed.pieces)
+  for (const piece_summary& piece : meshed.pieces) {
     mesh.counts.push_back(piece.counts);
+    mesh.quality.push_back(piece.quality);
+  }
   mesh.load = meshed.load;
   mesh.release = meshed.release;
   mesh.released = meshed.released;

@@ -8,66 +8,47 @@
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/pipeline/background.hpp"
-#include "dovetail/pipeline/kept_background.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
-#include "dovetail/sizing/checked_size.hpp"
 
 #include <cstddef>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace dovetail {
 
 DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
-                                                        const any_geometry& model,
-                                                        const erased_sizing& given_size,
+                                                        const any_geometry& model, const erased_sizing& size,
                                                         const any_parameters<3>& given) {
-  const stopwatch clock;
-  const erased_sizing size(checked_sizing{given_size});
-  const generate_options& options = given.options;
   if (const std::size_t solids = model.topology().solids.size(); solids != 1)
     throw geometry_error(
         "the model has " + std::to_string(solids) +
         " solids, and a mesher of whole domains makes the background mesh of one; use the native "
         "background mesher");
-  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
-  if (auto kept = find_background<3>(given.options.store, model, size))
-    return *std::move(kept);
-  background_result<3> result;
-  result.summary.name = "background";
-  result.plan = plan_background<3>(model, size, given);
+  const auto make = [&](background_result<3>& result, const any_sizing& coarse) {
+    // The domain is finer than the mesh of it, so that its points are near to the CAD surface.
+    constexpr double finer = 0.4;
+    given.options.on_progress("background surface", 0, 0);
+    auto domain = surface_without_crossings(
+        model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.mesh_surface,
+        given.options.refinement_rounds);
+    result.summary.children.push_back(domain.summary);
 
-  // The domain is finer than the mesh of it, so that its points are near to the CAD surface.
-  constexpr double finer = 0.4;
-  options.on_progress("background surface", 0, 0);
-  const auto coarse = coarse_size(size, result.plan.coarse_scale, model.bounds());
-  auto domain = surface_without_crossings(
-      model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.mesh_surface,
-      options.refinement_rounds);
-  result.summary.children.push_back(domain.summary);
-  result.size = allowed_size<3>(size, {});
-
-  options.on_progress("background volume", 0, 0);
-  const simplicial_mesh<2> shape = outer_surface(domain.surface, model.topology());
-  auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
-  result.summary.children.push_back(std::move(whole.summary));
-  result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
-  if (given.improve_background) {
-    const mesher_input<3> frozen{outer_surface(result.mesh.surface, model.topology()), 0};
-    mesher_result<3> made{std::move(result.mesh.volume), {}};
-    result.summary.children.push_back(
-        detail::by_policy("background improver", given.improve_background.name(), [&] {
-          return detail::improve_checked<3>(made, frozen, given.improve_background, coarse);
-        }));
-    result.mesh.volume = std::move(made.mesh);
-  }
-  result.summary.set("predicted_elements", result.plan.predicted_elements);
-  result.summary.set("coarse_scale", result.plan.coarse_scale);
-  result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
-  result.summary.seconds = clock.seconds();
-  keep_background(given.options.store, model, size, result);
-  return result;
+    given.options.on_progress("background volume", 0, 0);
+    const simplicial_mesh<2> shape = outer_surface(domain.surface, model.topology());
+    auto whole = mesh_whole.with_lines(background::lines_on_curves(domain.surface))({shape, 0}, coarse);
+    result.summary.children.push_back(std::move(whole.summary));
+    result.mesh = background::background_of_whole_domain(model, domain.surface, whole.mesh);
+    if (given.improve_background) {
+      const mesher_input<3> frozen{outer_surface(result.mesh.surface, model.topology()), 0};
+      mesher_result<3> made{std::move(result.mesh.volume), {}};
+      result.summary.children.push_back(
+          detail::by_policy("background improver", given.improve_background.name(), [&] {
+            return detail::improve_checked<3>(made, frozen, given.improve_background, coarse);
+          }));
+      result.mesh.volume = std::move(made.mesh);
+    }
+  };
+  return make_background<3>(model, size, given, background_maker<3>(make));
 }
 
 } // namespace dovetail

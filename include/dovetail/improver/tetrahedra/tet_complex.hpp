@@ -108,7 +108,6 @@ public:
     }
   }
   void mark(local_id e) { element_marks_[index(e)] = current_mark_; }
-  void unmark(local_id e) { element_marks_[index(e)] = current_mark_ - 1; }
   bool is_marked(local_id e) const { return element_marks_[index(e)] == current_mark_; }
 
   /// Whether the mesh may overlap itself, because some elements are (or were) flat or inverted. Then positive
