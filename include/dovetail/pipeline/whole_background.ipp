@@ -22,8 +22,11 @@ namespace dovetail {
 DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
                                                         const any_geometry& model,
                                                         const erased_sizing& given_size,
-                                                        const any_parameters<3>& given) {
+                                                        const any_parameters<3>& wanted) {
   const stopwatch clock;
+  any_parameters<3> given = wanted;
+  const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
+  given.run_tasks = watch;
   const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
   if (const std::size_t solids = model.topology().solids.size(); solids != 1)
@@ -65,6 +68,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.volume.elements.size()));
+  result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = clock.seconds();
   keep_background(given.options.store, model, size, result);
   return result;
