@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
+#include "improvable_mesh.hpp"
 #include "mesh_files.hpp"
 #include "model_source.hpp"
 #include "policies.hpp"
@@ -7,7 +8,7 @@
 
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/zlib.hpp"
-#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/quality.hpp"
 
 #include <cstdio>
 #include <string>
@@ -22,22 +23,6 @@ box3 bounds_of(const simplicial_mesh<D>& mesh) {
   for (const vec3& p : mesh.points)
     bounds.include(p);
   return bounds;
-}
-
-/// The sides between elements of different regions; they must stay.
-template <int D>
-frozen_entities<D> material_interfaces(const simplicial_mesh<D>& mesh) {
-  frozen_entities<D> frozen;
-  if (mesh.tags.empty())
-    return frozen;
-  const auto tag = [&](local_id element) { return mesh.tags[static_cast<std::size_t>(element)]; };
-  const side_table<D> sides = build_sides(mesh);
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const auto [first, second] = sides.elements[s];
-    if (second != no_id && tag(first) != tag(second))
-      frozen.sides.push_back(sides.vertices[s]);
-  }
-  return frozen;
 }
 
 /// How the quality of elements of one dimension is named and judged.
@@ -76,21 +61,22 @@ void print_change(const quality_terms& name, const quality_statistics& before,
     std::printf("  %-32s %14.0f\n", "Elements per second", static_cast<double>(before.elements) / seconds);
 }
 
-/// Improves `mesh` and says what that changed; `write` saves it before anything is printed.
-template <int D, class Write>
-void improve_and_report(const any_improver<D>& improve, simplicial_mesh<D>& mesh,
-                        const improve_options& options, const Write& write) {
-  const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(mesh));
-  const quality_statistics before = measure_quality(mesh);
-  const frozen_entities<D> frozen = material_interfaces(mesh);
+/// Improves the mesh of a file and says what that changed; the result is written before anything is printed.
+template <int D>
+void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded,
+                        const improve_options& options) {
+  improvable_mesh<D> given(std::move(loaded));
+  const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(given.mesh));
+  const quality_statistics before = measure_quality(given.mesh);
   const stopwatch clock;
-  const report made = improve(mesh, frozen, size);
+  const report made = improve(given.mesh, given.frozen, size);
   const double seconds = clock.seconds();
-  const quality_statistics after = measure_quality(mesh);
+  const quality_statistics after = measure_quality(given.mesh);
 
-  write();
+  const io::loaded_mesh whole = std::move(given).put_back();
+  write_mesh_file(whole, options.out);
   if (!options.report.empty())
-    write_quality_report(after, static_cast<std::int64_t>(mesh.points.size()), made, options.report);
+    write_quality_report(after, static_cast<std::int64_t>(whole.mesh.points.size()), made, options.report);
   if (!options.quiet)
     print_change(terms<D>, before, after, seconds);
   for (const auto& warning : made.warnings)
@@ -103,17 +89,11 @@ int run_improve(const improve_options& options) {
   const auto improve_tetrahedra = make_improver<3>(options.preset);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
-  const bool of_triangles = is_of_triangles(loaded);
-  const std::string lost = left_out(loaded, of_triangles ? 2 : 3);
-  const io::tag_names names = loaded.region_names;
-  if (of_triangles) {
-    simplicial_mesh<2> surface = take_triangles(std::move(loaded));
-    improve_and_report(make_improver<2>(options.preset), surface, options,
-                       [&] { write_mesh_file(surface, names, options.out); });
-  } else {
-    improve_and_report(improve_tetrahedra, loaded.mesh, options,
-                       [&] { write_mesh_file(loaded.mesh, names, options.out); });
-  }
+  const std::string lost = left_out(loaded);
+  if (is_of_triangles(loaded))
+    improve_and_report(make_improver<2>(options.preset), std::move(loaded), options);
+  else
+    improve_and_report(improve_tetrahedra, std::move(loaded), options);
   if (!lost.empty())
     std::fprintf(stderr, "warning: %s: not kept of %s: %s\n", options.out.c_str(), options.input.c_str(),
                  lost.c_str());

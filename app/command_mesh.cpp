@@ -218,6 +218,7 @@ private:
     add_mesh_figures(result.mesh, figures_);
     figures_.details.name = "mesh";
     figures_.details.children = {source.summary, result.summary};
+    figures_.repeatable = stops_by_clock(result.summary) == 0;
     collect_warnings(figures_.details, figures_.warnings);
   }
 

@@ -18,14 +18,7 @@ simplicial_mesh<2> take_triangles(io::loaded_mesh mesh);
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);
 
-/// Writes a VTU or MSH file; the extension decides. `names` are those of tags. Throws `io_error` naming the
-/// file.
-template <int D>
-void write_mesh_file(const simplicial_mesh<D>& mesh, const io::tag_names& names,
-                     const std::filesystem::path& file);
-
-/// What a file said of its mesh beside the points, the elements of the dimension, their tags and the names
-/// of those: what is lost when these alone are written. Empty when there was no more.
-std::string left_out(const io::loaded_mesh& mesh, int dimension);
+/// Writes a VTU or MSH file; the extension decides. Throws `io_error` naming the file.
+void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file);
 
 } // namespace dovetail::app

@@ -1,9 +1,11 @@
 #include "model_source.hpp"
 
 #include "failure.hpp"
+#include "file_checksums.hpp"
 #include "policies.hpp"
 #include "supervision.hpp"
 
+#include "dovetail/core/hash.hpp"
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/geometry/occt_model.hpp"
@@ -18,7 +20,9 @@
 
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -105,8 +109,9 @@ model_source builtin_source(const model_options& options) {
   any_geometry geometry(std::move(built.model));
   const box3 domain = geometry.bounds();
   any_sizing size;
+  std::string meshes;
   if (!options.sizing.empty()) {
-    size = load_sizing(options.sizing, {}, domain, &geometry);
+    size = load_sizing(options.sizing, {}, domain, &geometry, &meshes);
   } else {
     const double ambient = options.size ? checked_size(*options.size, domain) : built.size;
     for (auto& source : built.sources)
@@ -114,7 +119,7 @@ model_source builtin_source(const model_options& options) {
         spacing *= ambient / built.size;
     size = keep_bounds(source_field(ambient, std::move(built.sources)));
   }
-  return {name, std::move(geometry), std::move(size), std::move(built.report)};
+  return {name, std::move(geometry), std::move(size), std::move(built.report), std::move(meshes)};
 }
 
 model_source file_source(const model_options& options, int dimension) {
@@ -124,17 +129,24 @@ model_source file_source(const model_options& options, int dimension) {
   const box3 domain = geometry.bounds();
   if (!std::isfinite(domain.diagonal()))
     throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
-  any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry);
+  std::string meshes;
+  any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry, &meshes);
   if (!size)
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
-  return {file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
+  return {file.filename().string(), std::move(geometry), std::move(size), std::move(summary),
+          std::move(meshes)};
 }
 
-background_field load_background(const std::filesystem::path& file, const std::string& array) {
+/// `read` takes in what is read.
+background_field load_background(const std::filesystem::path& file, const std::string& array,
+                                 content_hash& read) {
   io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
   const auto* sizes = loaded.scalars(array);
   if (!sizes)
     throw sizing_error(file.string() + ": there is no point array '" + array + "' in this mesh");
+  read.bytes(std::as_bytes(std::span(loaded.mesh.points)));
+  read.bytes(std::as_bytes(std::span(loaded.mesh.elements)));
+  read.bytes(std::as_bytes(std::span(*sizes)));
   return background_field(std::move(loaded.mesh), *sizes);
 }
 
@@ -147,12 +159,20 @@ model_source load_model(const model_options& options, int dimension) {
 }
 
 any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,
-                       const any_geometry* model) {
+                       const any_geometry* model, std::string* meshes) {
   if (!file.empty()) {
-    sizing::json_options options{.domain = domain, .load_background = load_background};
+    content_hash read;
+    const std::uint64_t nothing = read.value();
+    sizing::json_options options{.domain = domain};
+    options.load_background = [&](const auto& mesh, const auto& array) {
+      return load_background(mesh, array, read);
+    };
     if (model)
       options.size_from_model = [model](const automatic_options& o) { return automatic_size(*model, o); };
-    return keep_bounds(sizing::read_sizing(file, options));
+    any_sizing sizes = keep_bounds(sizing::read_sizing(file, options));
+    if (meshes && read.value() != nothing)
+      *meshes = hexadecimal(read.value());
+    return sizes;
   }
   if (size)
     return keep_bounds(uniform_size(checked_size(*size, domain)));

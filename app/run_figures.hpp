@@ -58,6 +58,7 @@ struct run_figures {
   std::int64_t failed_subdomains = 0;
   std::uint64_t peak_rss_bytes = 0;
   std::uint64_t mesh_hash = 0;
+  bool repeatable = true; ///< no limit of wall-clock time has decided anything: the hash is that of any run
   std::vector<std::string> warnings;
   std::string out; ///< folder with the mesh
   std::vector<written_file> files = {};

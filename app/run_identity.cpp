@@ -40,6 +40,8 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   }
   if (std::filesystem::is_regular_file(options.model.sizing)) // not a pipe, which is read already
     identity.emplace_back("sizing", checksum_of_file(options.model.sizing));
+  if (!source.sizing_meshes.empty())
+    identity.emplace_back("meshes of the sizing", source.sizing_meshes);
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");

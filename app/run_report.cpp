@@ -115,6 +115,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"failed_subdomains", figures.failed_subdomains},
               {"peak_rss_bytes", figures.peak_rss_bytes},
               {"mesh_hash", hexadecimal(figures.mesh_hash)},
+              {"repeatable", figures.repeatable},
               {"folder", folder_from(file, figures.out)},
               {"files", files_json(figures.files)},
               {"warnings", figures.warnings},

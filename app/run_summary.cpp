@@ -138,6 +138,8 @@ std::string summary_text(const run_figures& figures) {
   if (figures.subdomains > 1)
     add_interfaces(rows, figures);
   add_quality(rows, figures.quality, figures.dimension);
+  if (!figures.repeatable)
+    rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");
   for (const auto& warning : figures.warnings)
     rows.heading("warning: " + warning);
   if (!figures.out.empty())

@@ -99,13 +99,26 @@ expect_error "--surface-mesher: there is no 'nonsense'; there are: native" \
 expect_error "--surface-mesher.*--dimension 2.*--mesher" \
   mesh "$inputs/cube.off" --dimension 2 --surface-mesher native
 
-# Improving keeps a mesh valid.
+# Improving keeps a mesh valid, and what the file says of it.
+cat >"$inputs/with_pressure.vtu" <<'VTU'
+<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1"><PointData>
+<DataArray type="Float32" Name="pressure" format="ascii">1 2 3 4</DataArray></PointData>
+<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>
+VTU
 expect_success improve "$inputs/mesh.msh" --out better.vtu --preset fast
 cp "$sandbox/work/better.vtu" "$inputs"
-grep -qE "not kept of .*mesh.msh: [0-9]+ triangles with their tags" "$sandbox/stderr" || fault "what is lost is not named"
+[[ ! -s $sandbox/stderr ]] || fault "something is lost"
 grep -qa 'Name="region_names" NumberOfTuples="1"' "$inputs/better.vtu" || fault "the name of the region is lost"
+grep -qa 'Name="patch_names" NumberOfTuples="12"' "$inputs/better.vtu" || fault "the names of the faces are lost"
 expect_success improve "$inputs/mesh_partitioned.msh" --out better.msh --preset fast
-grep -q "triangles with their tags, the subdomains of elements" "$sandbox/stderr" || fault "what is lost is not named"
+grep -qa "PartitionedEntities" "$sandbox/work/better.msh" || fault "the subdomains are lost"
+expect_success improve "$inputs/with_pressure.vtu" --out better.msh --preset fast
+grep -q "not kept of .*with_pressure.vtu: the values 'pressure' of points, which have moved$" "$sandbox/stderr" ||
+  fault "what is lost is not named"
 expect_success improve "$inputs/better.vtu" --out best.vtu --preset fast
 [[ ! -s $sandbox/stderr ]] || fault "something is lost"
 expect_success check "$inputs/better.vtu"
@@ -195,20 +208,75 @@ grep -q -- "--resume" "$sandbox/stderr" || fault "nothing is said about --resume
 [[ ! -e $sandbox/work/report.json ]] || fault "a report of half a run"
 
 # Another run cannot be resumed, and says what differs; the pieces stay for the right one.
-what="resuming with another size"
-(cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --size 0.03 --subdomains 12 --resume) \
-  >"$sandbox/stdout" 2>"$sandbox/stderr"
-status=$?
-((status == 1)) || fault "exit code is $status"
-grep -q "cannot be resumed.*sizes" "$sandbox/stderr" || fault "the difference is not named"
-if [[ $surface_meshers == *cgal* ]]; then
-  what="resuming with another surface mesher"
-  (cd "$sandbox/work" && "$driver" "${long[@]}" --surface-mesher cgal --resume) >"$sandbox/stdout" 2>"$sandbox/stderr"
+stale() { # what differs, arguments of the other run
+  what="resuming with another $1"
+  (cd "$sandbox/work" && "$driver" "${@:2}" --resume) >"$sandbox/stdout" 2>"$sandbox/stderr"
   status=$?
   ((status == 1)) || fault "exit code is $status"
-  grep -q "cannot be resumed.*surface mesher" "$sandbox/stderr" || fault "the difference is not named"
-fi
+  grep -q "cannot be resumed: .*$1" "$sandbox/stderr" || fault "the difference is not named"
+}
+stale sizes mesh "$inputs/cube.off" --size 0.03 --subdomains 12
+stale subdomains mesh "$inputs/cube.off" --size 0.028 --subdomains 11
+stale coarsening "${long[@]}" --coarsening 2
+stale dimension "${long[@]}" --dimension 2
+stale partitioner "${long[@]}" --partitioner greedy
+stale simplifier "${long[@]}" --simplifier none
+stale improver "${long[@]}" --improver none
+[[ $surface_meshers == *cgal* ]] && stale "surface mesher" "${long[@]}" --surface-mesher cgal
+[[ $background_meshers == *cgal* ]] && stale "background mesher" "${long[@]}" --background-mesher cgal
+other_mesher=$("$driver" mesh --help | tr -s ' \n' ' ' | grep -oE "hxt|netgen" | head -n 1)
+[[ -z $other_mesher ]] || stale "mesher" "${long[@]}" --mesher "$other_mesher"
+cp "$inputs/cube.off" "$inputs/as_it_was.off"
+echo "# the same shape" >>"$inputs/cube.off"
+stale file "${long[@]}"
+cp "$inputs/as_it_was.off" "$inputs/cube.off"
 resume
+
+# So it is with what the sizes are read from: the text, and the mesh that it names, even where no sample of the field
+# tells: one size, at a point in a corner.
+cat >"$inputs/sizes.msh" <<'MSH'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 -1 -1 -1
+2 9 -1 -1
+3 -1 9 -1
+4 -1 -1 9
+5 -1 -1 -0.999
+$EndNodes
+$Elements
+2
+1 4 2 1 1 5 2 3 4
+2 4 2 1 1 1 2 3 5
+$EndElements
+$NodeData
+1
+"size"
+1
+0
+3
+0
+1
+5
+1 0.03
+2 0.03
+3 0.03
+4 0.03
+5 0.03
+$EndNodeData
+MSH
+echo '{ "background": { "file": "sizes.msh" } }' >"$inputs/sizes.json"
+long=(mesh "$inputs/cube.off" --sizing "$inputs/sizes.json" --subdomains 12 --workers 1 --format none)
+interrupt KILL
+sed -i 's/^1 0.03$/1 0.02/' "$inputs/sizes.msh"
+stale "meshes of the sizing" "${long[@]}"
+sed -i 's/^1 0.02$/1 0.03/' "$inputs/sizes.msh"
+echo >>"$inputs/sizes.json"
+stale sizing "${long[@]}"
+long=("${written[@]}")
+expect_success "${long[@]}"
 
 # A batch script always says --resume: what is finished is left alone, what is not there is started.
 inode=$(stat -c %i "$sandbox/work/out/mesh.pvtu")

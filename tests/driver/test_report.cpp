@@ -74,6 +74,7 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   CHECK(document["interfaces"]["refused"] == 3);
   CHECK(document["interfaces"]["coarse"]["min_face_angle_deg"] == 31.5);
   CHECK(document["mesh_hash"] == "0123456789abcdef");
+  CHECK(document["repeatable"] == true);
   CHECK(document["details"]["children"][0]["counters"]["cells"] == 5.0);
 }
 
@@ -95,6 +96,17 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
                                "Domain decomposition", "Mesh generation", "Relative speed", "150 M",
                                "Minimum dihedral angle", "11.50", "6,000", "Interfaces"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+}
+
+TEST_CASE("a mesh that the clock had a part in is called not repeatable") {
+  const temporary_folder folder;
+  run_figures figures = example();
+  CHECK(summary_text(figures).find("REPEATABLE") == std::string::npos);
+  figures.repeatable = false;
+  CHECK(summary_text(figures).find("NOT REPEATABLE") != std::string::npos);
+  write_report(figures, folder.path / "report.json");
+  std::ifstream file(folder.path / "report.json");
+  CHECK(nlohmann::json::parse(file)["repeatable"] == false);
 }
 
 TEST_CASE("the summary of a mesh of triangles speaks of edges and angles") {

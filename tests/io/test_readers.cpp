@@ -187,6 +187,8 @@ TEST_CASE("MSH 2.2: sparse node numbers, names, tags, partitions and node data")
   CHECK(read.subdomains == std::vector<local_id>{1, 0});
   REQUIRE(read.scalars("size") != nullptr);
   CHECK(*read.scalars("size") == std::vector<double>{1.5, 2, 3, 4, 5});
+  CHECK(read.triangle_names == io::tag_names{{6, "wall"}});
+  CHECK(read.passed_over == std::vector<std::string>{"points and lines as elements"});
 }
 
 TEST_CASE("VTU in text and in base64, with small types and without optional arrays") {
@@ -196,6 +198,14 @@ TEST_CASE("VTU in text and in base64, with small types and without optional arra
   CHECK(text.mesh.points == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   CHECK(text.mesh.tags == std::vector<local_id>{0});
   CHECK(text.node_ids.empty());
+  CHECK(text.passed_over.empty());
+  testing::write_content(folder / "c.vtu",
+                         vtu_head + ascii_points + vtu_cells +
+                             R"(<CellData><DataArray type="Int32" Name="region" format="ascii">3</DataArray>
+<DataArray type="Int32" Name="porosity" format="ascii">1</DataArray></CellData>)" +
+                             vtu_tail);
+  CHECK(io::read_mesh(folder / "c.vtu").passed_over ==
+        std::vector<std::string>{"the values 'porosity' of cells"});
   // Twelve floats behind a 32-bit byte count: in one base64 text, and as two.
   for (const std::string base64 :
        {"MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAAAAAACAPw==",

@@ -2,6 +2,7 @@
 /// What every executor must do; each model's test calls this.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
 #include <doctest/doctest.h>
@@ -55,11 +56,13 @@ void check_order_is_validated(const E& executor) {
   }
 }
 
-/// A task that throws fails alone, with the exception's text.
+/// A task that throws fails alone, with the exception's text; a time limit within it counts as its own.
 template <class E>
 void check_exceptions(const E& executor) {
   const auto outcomes = executor.run(9,
                                      [](std::size_t i) -> byte_buffer {
+                                       if (i == 7)
+                                         throw time_limit_error("seven");
                                        if (i == 3)
                                          throw std::runtime_error("three");
                                        if (i == 5)
@@ -68,9 +71,9 @@ void check_exceptions(const E& executor) {
                                      },
                                      {});
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    CHECK(outcomes[i].ok == (i != 3 && i != 5));
+    CHECK(outcomes[i].ok == (i != 3 && i != 5 && i != 7));
     CHECK_FALSE(outcomes[i].crashed);
-    CHECK_FALSE(outcomes[i].timed_out);
+    CHECK(outcomes[i].timed_out == (i == 7));
   }
   CHECK(outcomes[3].failure == "three");
   CHECK_FALSE(outcomes[5].failure.empty());

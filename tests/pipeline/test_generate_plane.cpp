@@ -4,8 +4,13 @@
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "io/scratch_folder.hpp"
 
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <thread>
 
 using namespace dovetail;
 using namespace dovetail::testing;
@@ -94,6 +99,65 @@ TEST_CASE("a piece that fails is merged with its neighbour, and others are found
   // One more is made again: its region and the merged one are beside the same curves, and which of two
   // regions may have a chord between points of both goes by their order.
   CHECK(meshing.get("reused") == 3);
+}
+
+namespace {
+
+bool has_corner(const simplicial_mesh<2>& mesh) {
+  return std::find(mesh.points.begin(), mesh.points.end(), vec3{0, 0, 0}) != mesh.points.end();
+}
+
+/// Its time is over at the corner of the square, as if it ran in a process of its own.
+struct late_at_the_corner : improvement::native {
+  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen,
+                    const any_sizing& size) const {
+    if (has_corner(mesh))
+      throw time_limit_error("exceeded the time limit");
+    return improvement::native::operator()(mesh, frozen, size);
+  }
+};
+
+/// Does not come back from the corner, the first time that it is asked.
+struct stuck_at_the_corner : mesher::native_surface {
+  mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
+    auto made = mesher::native_surface::operator()(input, size);
+    if (has_corner(made.mesh) && !std::filesystem::exists(mark)) {
+      std::ofstream{mark};
+      std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+    return made;
+  }
+  std::filesystem::path mark = {};
+};
+
+} // namespace
+
+TEST_CASE("what a limit of time has decided is counted, and is remembered with the piece") {
+  const plane_domain domain(square_with_hole());
+  const scratch_folder folder("clock");
+  const auto given = parameters<>{}.with_options(in_parts(5));
+  CHECK(stops_by_clock(generate<2>(domain, uniform_size(0.05), given).summary) == 0);
+  auto late = given.with_improver(late_at_the_corner{});
+  late.options.store = spool::start(folder / "spool", {});
+  for (const int reused : {0, 5}) {
+    const auto result = generate<2>(domain, uniform_size(0.05), late);
+    CHECK(stops_by_clock(result.summary) > 0);
+    CHECK(result.summary.children.back().get("reused") == reused);
+  }
+}
+
+TEST_CASE("a piece that does not come back is ended, meshed again, and counted") {
+  const plane_domain domain(square_with_hole());
+  const scratch_folder folder("clock");
+  stuck_at_the_corner stuck;
+  stuck.mark = folder / "stuck";
+  auto given =
+      parameters<>{}.with_mesher(stuck).with_executor(parallel::processes{2}).with_options(in_parts(5));
+  given.options.limit_seconds = 3;
+  const auto result = generate<2>(domain, uniform_size(0.05), given);
+  require_valid(result);
+  CHECK(result.mesh.counts.size() == 5);
+  CHECK(stops_by_clock(result.summary) > 0);
 }
 
 TEST_CASE("the plane mesh is the same for every executor and number of workers") {

@@ -49,6 +49,12 @@ public:
   using error::error;
 };
 
+/// A policy was stopped by a limit of wall-clock time: what is done instead is decided by the machine's load.
+class time_limit_error : public mesher_error {
+public:
+  using mesher_error::mesher_error;
+};
+
 /// A mesh that breaks the invariants a function requires.
 class mesh_error : public error {
 public:

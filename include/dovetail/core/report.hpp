@@ -48,6 +48,15 @@ struct report {
   }
 };
 
+/// How often a limit of wall-clock time, and not the input, has decided what came next: the counter
+/// "stops_by_clock" of a report and of its parts. Where it is not 0 another run may make another mesh.
+inline double stops_by_clock(const report& made) {
+  double stops = made.get("stops_by_clock");
+  for (const report& part : made.children)
+    stops += stops_by_clock(part);
+  return stops;
+}
+
 /// Wall-clock stopwatch.
 class stopwatch {
 public:

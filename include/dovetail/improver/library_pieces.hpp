@@ -291,6 +291,9 @@ report improve_by_library(const std::string& name, simplicial_mesh<3>& mesh, con
       fault = detail::fault_of(piece, made, cutter.frozen_sides());
     } catch (const usage_error&) {
       throw;
+    } catch (const time_limit_error& stop) {
+      fault = stop.what();
+      result.add("stops_by_clock", 1);
     } catch (const std::exception& failure) {
       fault = failure.what();
     }

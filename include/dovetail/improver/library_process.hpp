@@ -13,8 +13,8 @@
 
 namespace dovetail::improvement::detail {
 
-/// The mesh that `work()` returns in a child. Throws `mesher_error` when the child fails, crashes or takes
-/// longer than the limit; `usage_error` when this process has other threads.
+/// The mesh that `work()` returns in a child. Throws `mesher_error` when the child fails or crashes,
+/// `time_limit_error` when it takes longer than the limit; `usage_error` when this process has other threads.
 template <class Work>
 simplicial_mesh<3> run_in_child(double limit_seconds, const Work& work) {
   run_options alone;
@@ -31,8 +31,7 @@ simplicial_mesh<3> run_in_child(double limit_seconds, const Work& work) {
         });
       },
       alone);
-  if (!outcomes.front().ok)
-    throw mesher_error(outcomes.front().failure);
+  dovetail::detail::require_done(outcomes.front(), "its process");
   byte_reader reader(outcomes.front().result);
   simplicial_mesh<3> made;
   made.points = reader.array<vec3>();

@@ -4,6 +4,7 @@
 
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,15 @@ struct loaded_mesh {
   std::vector<global_id> node_ids;        ///< per point: its global number in the file
   std::vector<local_id> subdomains;       ///< per tetrahedron; empty when the file has no subdomains
   std::vector<point_array> point_scalars; ///< all one-component point arrays
-  std::vector<std::pair<local_id, std::string>> region_names; ///< of the tags of the mesh
+  std::vector<std::pair<local_id, std::string>> region_names;   ///< of the tags of the mesh
+  std::vector<std::pair<local_id, std::string>> triangle_names; ///< of the tags of the triangles
+  std::vector<std::string> passed_over; ///< what else is in the file, such as "12 lines"; each once
 
+  /// Notes what a reader does not take.
+  void pass_over(const std::string& what) {
+    if (std::find(passed_over.begin(), passed_over.end(), what) == passed_over.end())
+      passed_over.push_back(what);
+  }
   /// The values of a point array, or null when the file has none of that name.
   const std::vector<double>* scalars(const std::string& name) const {
     for (const auto& array : point_scalars)

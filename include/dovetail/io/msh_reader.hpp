@@ -97,6 +97,8 @@ private:
   }
   bool is_4() const { return version_ == 4.1; }
   void skip_section(const std::string& section) {
+    if (section != "Comments" && section != "GhostElements" && mesh_.passed_over.size() < most_point_arrays)
+      mesh_.pass_over("the section $" + section.substr(0, 40));
     const auto end = "$End" + section;
     const auto found = at_.rest().find(end);
     if (found == std::string_view::npos)
@@ -114,9 +116,9 @@ private:
       const auto last = text.rfind('"');
       if (first == std::string_view::npos || last == first)
         at_.fail("the name of a physical group is not in quotes");
-      if (dimension == 3)
-        mesh_.region_names.emplace_back(region_of(tag),
-                                        std::string(text.substr(first + 1, last - first - 1)));
+      if (dimension == 2 || dimension == 3)
+        (dimension == 3 ? mesh_.region_names : mesh_.triangle_names)
+            .emplace_back(region_of(tag), std::string(text.substr(first + 1, last - first - 1)));
     }
   }
 
@@ -142,6 +144,8 @@ private:
           in_.real();
         const auto physicals = read_integers();
         entity.physical = physicals.empty() ? 0 : physicals.front();
+        if (physicals.size() > 1 && dimension > 1)
+          mesh_.pass_over("all but the first group of what is in several");
         if (dimension > 0)
           read_integers(); // what bounds it
       }
@@ -266,6 +270,8 @@ private:
       tetrahedra_.push_back(vertices);
       mesh_.mesh.tags.push_back(region_of(tag));
       partitions_.push_back(partition);
+    } else {
+      mesh_.pass_over("points and lines as elements");
     }
   }
 
@@ -306,6 +312,8 @@ private:
       at_.fail("there are more than " + std::to_string(most_point_arrays) + " sections of node data");
     if (components == 1)
       node_data_.push_back(std::move(data));
+    else
+      mesh_.pass_over("node data of several components");
   }
 
   void translate_nodes() {

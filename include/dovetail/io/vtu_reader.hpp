@@ -123,9 +123,12 @@ private:
     for (const auto& array : section->children) {
       const auto components = array.attribute("NumberOfComponents");
       const auto name = xml_unescaped(array.attribute("Name"));
-      if (array.name != "DataArray" || (!components.empty() && components != "1") ||
-          name == "GlobalNodeIds" || array.attribute("type") == "String")
+      if (array.name != "DataArray" || name == "GlobalNodeIds")
         continue;
+      if ((!components.empty() && components != "1") || array.attribute("type") == "String") {
+        mesh_.pass_over("arrays of points that are not numbers or of several components");
+        continue;
+      }
       const auto values = read_vtk_array<double>(array, encoding_, points_);
       auto& all = scalars(name);
       all.resize(static_cast<std::size_t>(first_point_), std::numeric_limits<double>::quiet_NaN());
@@ -143,11 +146,22 @@ private:
   }
 
   /// The first of the cell arrays that exists, or nothing.
-  std::vector<local_id> cell_values(std::initializer_list<std::string_view> names) const {
+  std::vector<local_id> cell_values(std::initializer_list<std::string_view> names) {
     for (const auto name : names)
-      if (const auto* array = find_array(piece_.child("CellData"), name))
+      if (const auto* array = find_array(piece_.child("CellData"), name)) {
+        used_.push_back(array);
         return read_vtk_array<local_id>(*array, encoding_, cells_);
+      }
     return {};
+  }
+  /// Numbers of cells mean nothing in another mesh; the other arrays of cells do.
+  void name_unused_arrays() {
+    if (const auto* section = piece_.child("CellData"))
+      for (const auto& array : section->children)
+        if (const auto name = array.attribute("Name");
+            std::find(used_.begin(), used_.end(), &array) == used_.end() && name != "GlobalCellIds" &&
+            mesh_.passed_over.size() < most_point_arrays)
+          mesh_.pass_over("the values '" + xml_unescaped(name) + "' of cells");
   }
   void read_cells() {
     const auto& section = required_child(piece_, "Cells");
@@ -162,6 +176,7 @@ private:
     const auto subdomains = cell_values({"subdomain"});
     const auto ghosts = cell_values({"vtkGhostType"});
     const auto cad_faces = cell_values({"cad_face", "patch", "region", "gmsh:physical", "CellEntityIds"});
+    name_unused_arrays();
     constexpr local_id duplicate = 1; // vtkGhostType: the cell belongs to another piece
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < cells_; ++c) {
@@ -182,8 +197,12 @@ private:
       } else if (types[c] == static_cast<int>(vtk_cell::triangle)) {
         mesh_.triangles.push_back(simplex_of<2>(vertices, c));
         mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
-      } else if (types[c] != static_cast<int>(vtk_cell::line) &&
-                 types[c] != static_cast<int>(vtk_cell::vertex)) {
+        if (!subdomains.empty() && subdomains[c] != no_id)
+          mesh_.pass_over("the subdomains of triangles");
+      } else if (types[c] == static_cast<int>(vtk_cell::line) ||
+                 types[c] == static_cast<int>(vtk_cell::vertex)) {
+        mesh_.pass_over("points and lines as cells");
+      } else {
         throw input_error("cell " + std::to_string(c) + " is a " + vtk_cell_name(types[c]) +
                           "; only linear tetrahedra and triangles are read");
       }
@@ -210,6 +229,7 @@ private:
   std::uint64_t points_;
   std::uint64_t cells_;
   local_id first_point_;
+  std::vector<const xml_element*> used_; ///< arrays of cells
 };
 
 /// The strings of a string array in the field data.
@@ -241,16 +261,21 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
     const auto encoding = read_vtk_encoding(root, expand);
     const auto& grid = required_child(root, "UnstructuredGrid");
     bool found = false;
+    const char* names_of_triangles = "patch_names";
     for (const auto& piece : grid.children)
       if (piece.name == "Piece") {
         vtu_piece_reader(piece, encoding, mesh).read();
         found = true;
+        if (find_array(piece.child("CellData"), "cad_face"))
+          names_of_triangles = "face_names";
       }
     if (!found)
       throw input_error("there is no <Piece>");
-    if (mesh.region_names.empty())
-      for (auto& name : field_strings(grid, "region_names"))
-        mesh.region_names.emplace_back(static_cast<local_id>(mesh.region_names.size()), std::move(name));
+    for (const auto& [array, names] :
+         {std::pair("region_names", &mesh.region_names), std::pair(names_of_triangles, &mesh.triangle_names)})
+      if (names->empty())
+        for (auto& name : field_strings(grid, array))
+          names->emplace_back(static_cast<local_id>(names->size()), std::move(name));
   } catch (const input_error& problem) {
     throw input_error(file.string() + ": " + problem.what());
   }

@@ -62,6 +62,8 @@ private:
       throw mesher_error(std::to_string(made.folded.size()) +
                          " triangles stay folded over; repair the face or give a smaller size there");
     return made;
+  } catch (const time_limit_error&) {
+    throw;
   } catch (const mesher_error& problem) {
     throw mesher_error("a region of face " + std::to_string(region.face) + ": " + problem.what());
   }

@@ -192,8 +192,7 @@ inline mesher_result<3> mesh_with_gmsh(const gmsh_settings& settings, const mesh
   auto outcomes = parallel::processes{1}.run(
       1, [&](std::size_t) { return run_gmsh(settings, input.boundary, bodies, size); }, alone);
   task_outcome& outcome = outcomes.front();
-  if (!outcome.ok)
-    throw mesher_error(settings.name + " failed: " + outcome.failure);
+  require_done(outcome, settings.name);
   auto answer = decode_gmsh_answer(outcome.result);
   outcome.result = {};
   if (!answer.sizing_failure.empty())

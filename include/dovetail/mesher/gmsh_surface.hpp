@@ -241,8 +241,7 @@ struct gmsh_frontal {
       });
     };
     auto outcomes = parallel::processes{1}.run(1, run, alone);
-    if (!outcomes.front().ok)
-      throw mesher_error("Gmsh's surface mesher failed: " + outcomes.front().failure);
+    dovetail::detail::require_done(outcomes.front(), "Gmsh's surface mesher");
     byte_reader in(outcomes.front().result);
     if (const std::string failure = in.text(); !failure.empty())
       throw sizing_error(failure);

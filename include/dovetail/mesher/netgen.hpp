@@ -183,8 +183,7 @@ inline mesher_result<3> netgen::operator()(const mesher_input<3>& input, const a
   alone.limit_seconds = limit_seconds;
   auto outcomes = parallel::processes{1}.run(
       1, [&](std::size_t) { return detail::run_netgen(*this, input.boundary, size); }, alone);
-  if (!outcomes.front().ok)
-    throw mesher_error("Netgen failed: " + outcomes.front().failure);
+  dovetail::detail::require_done(outcomes.front(), "Netgen");
   byte_reader answer(outcomes.front().result);
   if (const std::string failure = answer.text(); !failure.empty())
     throw sizing_error(failure);

@@ -60,6 +60,7 @@ struct meshed_pieces {
       release; ///< of `distributed_simplicial_mesh`, with a spool
   std::function<std::optional<piece_note>(local_id)> released;
   report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
+                  ///< "stops_by_clock" (of pieces that a time limit has left to another attempt),
                   ///< "peak_rss_bytes", and the sums over workers "mesher_seconds" and "improver_seconds"
 };
 

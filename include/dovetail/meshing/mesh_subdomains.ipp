@@ -161,7 +161,7 @@ private:
   byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
     const bool climbs = rung < ladder_.size();
     return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
-                         size_.near(place_of(input)), piece.reasons);
+                         size_.near(place_of(input)), piece.reasons, piece.timed_out);
   }
 
   void run_round(std::size_t rung) {
@@ -276,11 +276,6 @@ private:
     receipt.summary.summary.name = piece_name(piece.subdomain);
     result_.pieces[static_cast<std::size_t>(piece.subdomain)] = receipt.summary;
     shelf_->place(piece.subdomain, std::move(receipt));
-    if (piece.timed_out)
-      summary.warnings.push_back(
-          "subdomain " + std::to_string(piece.subdomain) +
-          " reached the wall-clock limit before it was meshed in another way; the mesh "
-          "may differ on another machine");
     return true;
   }
 
@@ -302,6 +297,7 @@ private:
       first_element += piece.counts.elements;
       summary.add("elements", static_cast<double>(piece.counts.elements));
       summary.add("inner_points", static_cast<double>(piece.counts.inner_points));
+      summary.add("stops_by_clock", stops_by_clock(piece.summary));
       collect_warnings(piece.summary, piece.summary.name);
       for (const report& part : piece.summary.children) {
         summary.add(part.name + "_seconds", part.seconds);

@@ -133,7 +133,10 @@ auto by_policy(const char* role, const std::string& name, const Work& work) {
   } catch (const sizing_error&) {
     throw;
   } catch (const std::exception& e) {
-    throw mesher_error(role + (name.empty() ? name : " '" + name + "'") + ": " + e.what());
+    const std::string what = role + (name.empty() ? name : " '" + name + "'") + ": " + e.what();
+    if (dynamic_cast<const time_limit_error*>(&e) != nullptr)
+      throw time_limit_error(what);
+    throw mesher_error(what);
   }
 }
 
@@ -165,13 +168,13 @@ report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, con
 }
 
 /// From the boundary of a subdomain to its finished bytes. `failed` are the reasons of the attempts before,
-/// kept in the summary. The piece stays as meshed when `improve` is null, for the last attempt, or holds
-/// nothing. Throws what the mesher, the improver and the checks throw, as `mesher_error` that names the
-/// policy.
+/// and `stopped_by_clock` whether a time limit was among them; the summary keeps both. The piece stays as
+/// meshed when `improve` is null, for the last attempt, or holds nothing. Throws what the mesher, the
+/// improver and the checks throw, as `mesher_error` that names the policy.
 template <int D>
 byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
                        const any_improver<D>* improve, const any_sizing& size,
-                       const std::vector<std::string>& failed) {
+                       const std::vector<std::string>& failed, bool stopped_by_clock) {
   const stopwatch clock;
   auto made =
       by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
@@ -186,6 +189,8 @@ byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const an
   if (!failed.empty())
     summary.summary.warnings.push_back((improve != nullptr ? "meshed after " : "left unimproved after ") +
                                        joined_reasons(failed));
+  if (stopped_by_clock)
+    summary.summary.set("stops_by_clock", 1);
   summary.counts.material = input.boundary.material;
   summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());
   summary.counts.inner_points =

@@ -21,7 +21,7 @@ struct task_outcome {
   byte_buffer result;     ///< what the task returned, when ok
   std::string failure;    ///< why it failed, when not ok: the exception's text, a signal, a time limit
   bool crashed = false;   ///< the worker died (signal or exit) rather than throwing
-  bool timed_out = false; ///< the wall-clock limit, the last resort, was reached
+  bool timed_out = false; ///< a wall-clock limit, the last resort, was reached: the task's, or within it
   double seconds = 0;     ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
 };

@@ -23,6 +23,9 @@ inline task_outcome run_task(const task_function& task, std::size_t index) {
   try {
     outcome.result = task(index);
     outcome.ok = true;
+  } catch (const time_limit_error& e) {
+    outcome.failure = e.what();
+    outcome.timed_out = true;
   } catch (const std::exception& e) {
     outcome.failure = e.what();
   } catch (...) {
@@ -30,6 +33,15 @@ inline task_outcome run_task(const task_function& task, std::size_t index) {
   }
   outcome.seconds = clock.seconds();
   return outcome;
+}
+
+/// Throws what has become of a child process in which a policy runs a library: `time_limit_error` or
+/// `mesher_error`, naming the policy.
+inline void require_done(const task_outcome& outcome, const std::string& policy) {
+  if (outcome.timed_out)
+    throw time_limit_error(policy + ": " + outcome.failure);
+  if (!outcome.ok)
+    throw mesher_error(policy + " failed: " + outcome.failure);
 }
 
 /// `options.order`, or 0, 1, 2, ...; throws `usage_error` when it is not a permutation of the tasks.

@@ -53,7 +53,8 @@ private:
 
 /// What a worker sends before the bytes of its result, or of its failure's text.
 struct result_header {
-  std::uint64_t ok;
+  std::uint32_t ok;
+  std::uint32_t timed_out;
   std::uint64_t size;
   double seconds;
   std::uint64_t peak_rss_bytes;
@@ -102,7 +103,7 @@ inline bool receive_all(int socket, void* data, std::size_t size) {
     const void* payload =
         outcome.ok ? static_cast<const void*>(outcome.result.data()) : outcome.failure.data();
     const std::size_t size = outcome.ok ? outcome.result.size() : outcome.failure.size();
-    const result_header header{outcome.ok, size, outcome.seconds, peak_rss_bytes(usage)};
+    const result_header header{outcome.ok, outcome.timed_out, size, outcome.seconds, peak_rss_bytes(usage)};
     if (!send_all(socket, &header, sizeof(header)) || !send_all(socket, payload, size))
       break;
   }
@@ -229,6 +230,7 @@ private:
   task_outcome completed() {
     task_outcome outcome;
     outcome.ok = header_.ok != 0;
+    outcome.timed_out = header_.timed_out != 0;
     outcome.seconds = header_.seconds;
     outcome.peak_rss_bytes = header_.peak_rss_bytes;
     if (outcome.ok)

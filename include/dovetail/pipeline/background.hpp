@@ -92,9 +92,11 @@ template <int D = 3>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
                           const std::type_identity_t<any_parameters<D>>& given);
 
-/// Makes a planned background mesh at the size `coarse`, its bounds, and the children of its summary.
+/// Makes a planned background mesh at the size `coarse`, its bounds, and the children of its summary; by
+/// these policies.
 template <int D>
-using background_maker = std::function<void(background_result<D>&, const any_sizing& coarse)>;
+using background_maker =
+    std::function<void(background_result<D>&, const any_sizing& coarse, const any_parameters<D>&)>;
 
 /// Plans the mesh and makes its background mesh, or finds it in the spool of the options. Throws what its
 /// steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.

@@ -8,6 +8,7 @@
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/kept_background.hpp"
@@ -170,8 +171,11 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_
 
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
-                                     const any_parameters<D>& given, const background_maker<D>& make) {
+                                     const any_parameters<D>& wanted, const background_maker<D>& make) {
   const stopwatch clock;
+  any_parameters<D> given = wanted;
+  const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
+  given.run_tasks = watch;
   const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
   require_policies(given.mesh_it, given.improve_it, given.run_tasks);
@@ -183,11 +187,12 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   background_result<D> result;
   result.summary.name = "background";
   result.plan = plan_background<D>(model, size, given);
-  make(result, coarse_size(size, result.plan.coarse_scale, model.bounds()));
+  make(result, coarse_size(size, result.plan.coarse_scale, model.bounds()), given);
   result.size = allowed_size<D>(size, result.bounds);
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
+  result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = clock.seconds();
   keep_background(options.store, model, size, result);
   return result;
@@ -195,9 +200,10 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
 
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
-                                     const any_parameters<D>& given) {
-  const generate_options& options = given.options;
-  const auto make = [&](background_result<D>& result, const any_sizing& coarse) {
+                                     const any_parameters<D>& wanted) {
+  const auto make = [&](background_result<D>& result, const any_sizing& coarse,
+                        const any_parameters<D>& given) {
+    const generate_options& options = given.options;
     options.on_progress("background surface", 0, 0);
     auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
                                              options.refinement_rounds);
@@ -217,7 +223,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
       result.summary.children.push_back(std::move(volume.summary));
     }
   };
-  return make_background<D>(model, given_size, given, background_maker<D>(make));
+  return make_background<D>(model, given_size, wanted, background_maker<D>(make));
 }
 
 #ifdef DOVETAIL_COMPILED

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
@@ -40,8 +41,11 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
 
 template <int D>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
-                                      const any_parameters<D>& given) {
+                                      const any_parameters<D>& wanted) {
   const stopwatch clock;
+  any_parameters<D> given = wanted;
+  const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
+  given.run_tasks = watch;
   const generate_options& options = given.options;
   generated<D> result;
   result.summary.name = "generate";
@@ -79,6 +83,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   result.summary.children = {std::move(background.summary), std::move(simplification_summary),
                              std::move(partition_summary),  std::move(skeleton.summary),
                              rounds.intersection(),         std::move(meshed.summary)};
+  result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = result.summary.children.front().seconds + clock.seconds();
   return result;
 }

@@ -18,13 +18,14 @@ namespace dovetail {
 
 DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole,
                                                         const any_geometry& model, const erased_sizing& size,
-                                                        const any_parameters<3>& given) {
+                                                        const any_parameters<3>& wanted) {
   if (const std::size_t solids = model.topology().solids.size(); solids != 1)
     throw geometry_error(
         "the model has " + std::to_string(solids) +
         " solids, and a mesher of whole domains makes the background mesh of one; use the native "
         "background mesher");
-  const auto make = [&](background_result<3>& result, const any_sizing& coarse) {
+  const auto make = [&](background_result<3>& result, const any_sizing& coarse,
+                        const any_parameters<3>& given) {
     // The domain is finer than the mesh of it, so that its points are near to the CAD surface.
     constexpr double finer = 0.4;
     given.options.on_progress("background surface", 0, 0);
@@ -48,7 +49,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
       result.mesh.volume = std::move(made.mesh);
     }
   };
-  return make_background<3>(model, size, given, background_maker<3>(make));
+  return make_background<3>(model, size, wanted, background_maker<3>(make));
 }
 
 } // namespace dovetail

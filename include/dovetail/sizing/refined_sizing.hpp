@@ -7,6 +7,7 @@
 #include "dovetail/sizing/size_balls.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,7 +19,8 @@ namespace dovetail {
 /// key and its bytes. A ball reaches to where, grown, it asks for what the field does at its center.
 class refined_sizing {
 public:
-  template <sizing_field H>
+  template <class H>
+    requires(!std::same_as<H, refined_sizing> && sizing_field<H>)
   refined_sizing(H plain) : plain_(std::move(plain)) {} // NOLINT: converts
 
   /// Adds the balls that ask for less than the field at their centers. O(n log n) in all balls.
