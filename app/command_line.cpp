@@ -3,7 +3,9 @@
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
+#include "named_policies.hpp"
 #include "output.hpp"
+#include "output_formats.hpp"
 #include "policies.hpp"
 #include "supervision.hpp"
 
@@ -19,13 +21,6 @@
 
 namespace dovetail::app {
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names)
-    text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 /// Command lines at the end of a command's help.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines) {
@@ -73,7 +68,8 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("-o,--out", options.out, "Folder for the mesh")->capture_default_str();
   command
       .add_option("--format", options.formats,
-                  "File formats, several allowed: vtu, msh, msh-partitioned, none (default: vtu)")
+                  "File formats, several allowed: " + joined(format_names(3)) +
+                      "; of --dimension 2: " + joined(format_names(2)) + " (default: the first)")
       ->delimiter(',');
   command.add_option("--pieces", options.pieces, "Number of VTU files (default: one per subdomain)");
   command.add_option("--report", options.report, "JSON file for figures about the run");

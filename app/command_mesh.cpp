@@ -3,6 +3,7 @@
 #include "finished_run.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
+#include "output_formats.hpp"
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"

@@ -2,6 +2,7 @@
 #include "failure.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
+#include "output_formats.hpp"
 #include "run_figures.hpp"
 #include "run_setup.hpp"
 #include "terminal_progress.hpp"

@@ -17,6 +17,14 @@ std::vector<std::string> names_of(const std::vector<Policy>& policies) {
   return names;
 }
 
+/// The names in one text, with commas between them.
+inline std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 /// The policy of that name, the first one for an empty name. Throws `command_line_error` listing the names.
 template <class Policy>
 Policy chosen(const std::vector<Policy>& policies, const std::string& name, const std::string& option) {
@@ -25,10 +33,7 @@ Policy chosen(const std::vector<Policy>& policies, const std::string& name, cons
   for (const auto& policy : policies)
     if (policy.name() == name)
       return policy;
-  std::string known;
-  for (const std::string& other : names_of(policies))
-    known += (known.empty() ? "" : ", ") + other;
-  throw command_line_error(option + ": there is no '" + name + "'; there are: " + known);
+  throw command_line_error(option + ": there is no '" + name + "'; there are: " + joined(names_of(policies)));
 }
 
 } // namespace dovetail::app

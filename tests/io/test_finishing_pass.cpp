@@ -21,7 +21,8 @@
 
 using namespace dovetail;
 
-static_assert(piecewise_mesh_writer<io::vtu_writer> && !piecewise_mesh_writer<io::msh_writer>);
+static_assert(piecewise_mesh_writer<io::vtu_writer> && piecewise_mesh_writer<io::vtu_writer, 2> &&
+              !piecewise_mesh_writer<io::msh_writer>);
 
 namespace {
 

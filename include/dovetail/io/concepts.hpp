@@ -12,10 +12,10 @@
 
 namespace dovetail {
 
-/// The role `mesh_writer`: a distributed mesh becomes files.
+/// The role `mesh_writer<W, D>`: a distributed mesh becomes files. D = 3 when it is not said.
 ///
-/// Valid expression for `const W& w`, `const distributed_mesh& mesh`, `const std::filesystem::path& folder`:
-/// `w(mesh, folder)` -> report.
+/// Valid expression for `const W& w`, `const distributed_simplicial_mesh<D>& mesh`,
+/// `const std::filesystem::path& folder`: `w(mesh, folder)` -> report.
 ///
 /// Semantics: writes the mesh into the folder (made when missing), with the global numbers of
 /// distributed_mesh.hpp. The mesh is streamed: besides the skeleton, one piece is in memory at a time;
@@ -27,18 +27,18 @@ namespace dovetail {
 /// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
 /// `mesh_error` when pieces and skeleton disagree.
 ///
-/// Models: io::vtu_writer, io::msh_writer.
-template <class W>
+/// Models: io::vtu_writer, io::msh_writer, both for D = 2 and 3.
+template <class W, int D = 3>
 concept mesh_writer = std::copy_constructible<W> &&
-    requires(const W& w, const distributed_mesh& mesh, const std::filesystem::path& folder) {
+    requires(const W& w, const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
   { w(mesh, folder) } -> std::same_as<report>;
 };
 
-/// The role `piecewise_mesh_writer`: a `mesh_writer` whose files hold whole pieces, so that several workers
-/// can write them.
+/// The role `piecewise_mesh_writer<W, D>`: a `mesh_writer` whose files hold whole pieces, so that several
+/// workers can write them.
 ///
-/// Valid expression for `const W& w`, `const distributed_mesh& mesh`, `const std::filesystem::path&
-/// unfinished`: `w.begin(mesh, unfinished)` -> io::piecewise_output<3>.
+/// Valid expression for `const W& w`, `const distributed_simplicial_mesh<D>& mesh`,
+/// `const std::filesystem::path& unfinished`: `w.begin(mesh, unfinished)` -> io::piecewise_output<D>.
 ///
 /// Semantics: prepares the files, which will be in the folder `unfinished` until all are complete. Nothing is
 /// loaded; each piece is given once to the file that takes it (`piecewise_output::open`), in any worker. The
@@ -50,10 +50,11 @@ concept mesh_writer = std::copy_constructible<W> &&
 /// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
 ///
 /// Models: io::vtu_writer.
-template <class W>
-concept piecewise_mesh_writer = mesh_writer<W> &&
-    requires(const W& w, const distributed_mesh& mesh, const std::filesystem::path& unfinished) {
-  { w.begin(mesh, unfinished) } -> std::same_as<io::piecewise_output<3>>;
+template <class W, int D = 3>
+concept piecewise_mesh_writer = mesh_writer<W, D> &&
+    requires(const W& w, const distributed_simplicial_mesh<D>& mesh,
+             const std::filesystem::path& unfinished) {
+  { w.begin(mesh, unfinished) } -> std::same_as<io::piecewise_output<D>>;
 };
 
 /// The role `mesh_reader`: a file becomes a mesh.
