@@ -1,8 +1,8 @@
 /// Writing and reading speed of the file formats: io [cells per axis (default 64)] [folder].
 /// The mesh is a grid cube of 6 cells^3 elements in 64 subdomains, held in memory, so that the figures are
 /// those of the formats. The pieces are loaded by copy, as from a spool file in the page cache.
-#include "dovetail/io/distributed_statistics.hpp"
 #include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
@@ -33,9 +33,6 @@ int main(int argc, char** argv) {
   const stopwatch hash_clock;
   const auto hash = io::mesh_hash(mesh);
   print("hash", elements, hash_clock.seconds(), 0);
-  const stopwatch statistics_clock;
-  io::measure_distributed(mesh);
-  print("statistics", elements, statistics_clock.seconds(), 0);
   const stopwatch validity_clock;
   const bool valid = io::check_distributed(mesh).valid();
   print(valid ? "validity" : "NOT VALID", elements, validity_clock.seconds(), 0);

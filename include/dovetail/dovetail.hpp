@@ -31,11 +31,11 @@
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
-#include "dovetail/skeleton/subdomain_surface.hpp"
 
 // The subdomains, meshed and improved in parallel.
 #include "dovetail/improver/native.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/meshing/subdomain_surface.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -44,7 +44,6 @@
 #include "dovetail/pipeline/generate.hpp"
 
 // Files.
-#include "dovetail/io/distributed_statistics.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"

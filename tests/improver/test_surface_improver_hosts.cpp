@@ -1,7 +1,7 @@
 /// @file
 /// Triangles on curved hosts: vertices stay on them, and nothing that is fixed moves.
 #include "dovetail/improver/native.hpp"
-#include "dovetail/improver/surface_model.hpp"
+#include "dovetail/improver/native_by.hpp"
 #include "surface_checks.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-#include "dovetail/io/distributed_statistics.hpp"
 #include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/io/mesh_hash.hpp"
 #include "io/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
@@ -154,30 +154,10 @@ TEST_CASE("pieces that cannot be indexed are refused with the subdomain's number
   const auto wrong_index = spoilt(6, [](mesh_piece& piece) { piece.mesh.elements[0][2] = 100000; });
   CHECK_THROWS_WITH_AS(io::check_distributed(wrong_index), doctest::Contains("subdomain 6"), mesh_error);
   const auto wrong_count = spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
-  CHECK_THROWS_WITH_AS(io::measure_distributed(wrong_count), doctest::Contains("subdomain 6"), mesh_error);
+  CHECK_THROWS_WITH_AS(io::mesh_hash(wrong_count), doctest::Contains("subdomain 6"), mesh_error);
   auto wrong_skeleton = cubes.distributed();
   wrong_skeleton.skeleton.subdomains[0][0] = 8;
   CHECK_THROWS_AS(io::check_distributed(wrong_skeleton), mesh_error);
-}
-
-TEST_CASE("statistics of the pieces are those of the whole") {
-  const auto statistics = io::measure_distributed(cubes.distributed());
-  const auto whole = cubes.whole();
-  const auto quality = measure_quality(whole);
-  CHECK(statistics.quality.min_wedge_deg == quality.min_wedge_deg);
-  CHECK(statistics.quality.max_wedge_deg == quality.max_wedge_deg);
-  CHECK(statistics.quality.min_wedges.bins == quality.min_wedges.bins);
-  CHECK(statistics.quality.min_face_deg == quality.min_face_deg);
-  CHECK(statistics.elements == 6 * 6 * 6 * 6);
-  CHECK(statistics.points == 7 * 7 * 7);
-  CHECK(statistics.largest_subdomain == 6 * 27);
-  CHECK(statistics.volume == doctest::Approx(1.0));
-  REQUIRE(statistics.volume_of_material.size() == 2);
-  CHECK(statistics.volume_of_material[1] == doctest::Approx(0.5));
-  REQUIRE(statistics.area_of_face.size() == 11);
-  CHECK(statistics.area_of_face[1] == doctest::Approx(1.0)); // the material interface
-  CHECK(statistics.area_of_face[4] == doctest::Approx(0.5));
-  CHECK(statistics.hash == io::mesh_hash(cubes.distributed()));
 }
 
 TEST_CASE("the hash does not depend on the order of elements and of their vertices") {

@@ -1,4 +1,4 @@
-#include "dovetail/skeleton/subdomain_surface.hpp"
+#include "dovetail/meshing/subdomain_surface.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,10 +4,10 @@
 
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/meshing/subdomain_surface.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/patches.hpp"
-#include "dovetail/skeleton/subdomain_surface.hpp"
 
 #include <algorithm>
 #include <memory>
