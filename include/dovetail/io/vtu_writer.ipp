@@ -6,7 +6,6 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
-#include "dovetail/io/line_output.hpp"
 #include "dovetail/io/patches.hpp"
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/io/skeleton_index.hpp"
@@ -272,27 +271,20 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
                          [file] { return file->close(); }};
   };
   std::vector<std::string> skeleton_files;
-  const auto add_other = [&](const std::string& name, auto write) {
+  const auto add_skeleton = [&](const std::string& name, detail::skeleton_part part) {
     skeleton_files.push_back(name);
-    output.others.push_back([path = unfinished / name, write, &mesh] {
+    output.others.push_back([path = unfinished / name, part, &mesh] {
       output_file file(path);
-      write(file, mesh);
+      detail::write_skeleton_vtp(file, mesh, part);
       file.commit();
     });
   };
-  if constexpr (D == 3) {
-    add_other("surface.vtp", [](output_file& file, const distributed_mesh& given) {
-      detail::write_skeleton_vtp(file, given, detail::skeleton_part::boundary);
-    });
-    if (subdomains > 1)
-      add_other("interfaces.vtp", [](output_file& file, const distributed_mesh& given) {
-        detail::write_skeleton_vtp(file, given, detail::skeleton_part::interfaces);
-      });
-  } else {
-    add_other("lines.vtp", [](output_file& file, const distributed_simplicial_mesh<2>& given) {
-      detail::write_lines_vtp(file, given);
-    });
-  }
+  if (D == 2)
+    add_skeleton("lines.vtp", detail::skeleton_part::all);
+  else
+    add_skeleton("surface.vtp", detail::skeleton_part::boundary);
+  if (D == 3 && subdomains > 1)
+    add_skeleton("interfaces.vtp", detail::skeleton_part::interfaces);
   output.finish = [&mesh, unfinished, shared, stem = stem, sources = output.names,
                    skeleton_files](const std::filesystem::path& folder) {
     output_file index(unfinished / (stem + ".pvtu"));
