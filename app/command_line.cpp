@@ -74,7 +74,7 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--pieces", options.pieces, "Number of VTU files (default: one per subdomain)");
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
-  command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk or the memory");
+  command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 

@@ -27,7 +27,8 @@ int run_guarded(const std::function<int()>& command);
 
 /// What a command that was stopped says, and whether another one can go on from what it leaves.
 inline std::string stopped_line(bool can_go_on) {
-  return can_go_on ? "stopped; the same command with --resume goes on from here" : "stopped";
+  return can_go_on ? "stopped; --resume goes on from what is kept, if that is of the same command"
+                   : "stopped";
 }
 
 /// Writes "dovetail: <text>" on one line of the error stream.

@@ -336,6 +336,16 @@ for name in $surface_meshers; do
   grep -q "a valid mesh of .* triangles" "$sandbox/stdout" || fault "not a valid mesh of triangles"
 done
 
+# A folder that happens to have our name for one is left as it is.
+what="a folder of somebody else, called unfinished"
+rm -rf "$sandbox/work" && mkdir -p "$sandbox/work/out/unfinished/0"
+for file in letter.txt 0/letter.txt 0/mesh_0000.vtu; do echo mine >"$sandbox/work/out/unfinished/$file"; done
+(cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --size 0.2 --subdomains 2) >"$sandbox/stdout" 2>"$sandbox/stderr"
+status=$?
+((status == 0)) || fault "exit code is $status"
+(cd "$sandbox/work/out/unfinished" && find . -type f | sort) >"$sandbox/listing"
+diff "$sandbox/listing" - <<<$'./0/letter.txt\n./letter.txt' || fault "other files are left than those of somebody else"
+
 # A file that may not grow any further is like a full disk.
 what="a limit to the size of files"
 rm -rf "$sandbox/work"

@@ -169,6 +169,8 @@ TEST_CASE(
   for (const auto& [kind, content] :
        {std::pair("lower case", replaced(step, "END-ISO-10303-21", "end-iso-10303-21")),
         std::pair("mixed case", replaced(replaced(step, "ISO-10303-21", "Iso-10303-21"), "ENDSEC", "EndSec")),
+        std::pair("mark of UTF-8", "\xef\xbb\xbf" + step),
+        std::pair("mark of UTF-8 and blank lines", "\xef\xbb\xbf\r\n\n" + step),
         std::pair("comments first", comments + step), std::pair("comments last", step + comments),
         std::pair("blank lines", "\n \n\r\n" + step + "\n\n"),
         std::pair("line ends of DOS", replaced(step, "\n", "\r\n")), std::pair("DRAW", draw),

@@ -33,8 +33,10 @@ enum class file_format { unknown, step, iges, brep, binary_brep };
 /// As much of a file as `format_of_content` should see: long comments may stand first.
 inline constexpr std::size_t head_size = std::size_t{64} << 10;
 
-/// What is left of a text behind white space and comments of STEP.
+/// What is left of a text behind the mark of UTF-8, white space and comments of STEP.
 inline std::string_view behind_comments(std::string_view text) {
+  if (text.starts_with(utf8_mark))
+    text.remove_prefix(utf8_mark.size());
   for (;;) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
       text.remove_prefix(1);
@@ -103,7 +105,7 @@ inline attributed_shape read_directly(const std::filesystem::path& path, length_
                                       const std::string& content) {
   try {
     if (format == file_format::step)
-      return read_step(path, unit);
+      return read_step(path, unit, content);
     if (format == file_format::iges) {
       require_terminated(path.string(), content);
       return read_iges(path, unit);

@@ -35,6 +35,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -193,13 +194,22 @@ attributed_shape transfer(Reader& reader, const std::string& source) {
   return result;
 }
 
-/// Reads a STEP file; throws `input_error`, or OCCT's own exceptions.
-inline attributed_shape read_step(const std::filesystem::path& path, length_unit unit) {
+/// What some editors put before a text. OCCT's reader of STEP refuses it.
+inline constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
+
+/// Reads a STEP file of the given content; throws `input_error`, or OCCT's own exceptions.
+inline attributed_shape read_step(const std::filesystem::path& path, length_unit unit,
+                                  const std::string& content) {
   STEPCAFControl_Reader reader; // registers the reader's parameters too
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(true);
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+  std::istringstream behind_mark;
+  if (content.starts_with(utf8_mark))
+    behind_mark.str(content.substr(utf8_mark.size()));
+  const bool is_marked = !behind_mark.str().empty();
+  if ((is_marked ? reader.ChangeReader().ReadStream(path.c_str(), behind_mark)
+                 : reader.ReadFile(path.c_str())) != IFSelect_RetDone)
     throw input_error(path.string() + ": the STEP file is truncated or damaged; export it again");
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);

@@ -70,31 +70,63 @@ private:
 };
 
 /// Where files are until all of a mesh are complete: the folder "unfinished" in theirs. It goes with its
-/// content at the end, unless it is kept.
+/// content at the end, unless it is kept. Of a folder that was there before only files of meshes go.
 class unfinished_folder {
 public:
   explicit unfinished_folder(const std::filesystem::path& folder)
-      : path_(std::filesystem::absolute(folder) / "unfinished") {
+      : path_(std::filesystem::absolute(folder) / "unfinished"), was_there_(std::filesystem::exists(path_)) {
     make_folder(path_);
   }
   unfinished_folder(const unfinished_folder&) = delete;
   unfinished_folder& operator=(const unfinished_folder&) = delete;
   ~unfinished_folder() {
-    if (!kept_)
+    std::error_code ignored;
+    if (kept_)
+      return;
+    if (was_there_)
       remove(path_.parent_path());
+    else
+      std::filesystem::remove_all(path_, ignored);
   }
 
   const std::filesystem::path& path() const { return path_; }
   void keep(bool kept) { kept_ = kept; }
 
-  /// Removes what a killed run has left in a folder.
+  /// Removes what a killed run has left in a folder: files of meshes, complete or not, in the numbered
+  /// folders of the formats. What is not ours stays, and the folder with it.
   static void remove(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder / "unfinished", ignored);
+    for (const auto& of_format : entries_of(folder / "unfinished")) {
+      const std::string name = of_format.filename().string();
+      std::error_code ignored;
+      if (name.find_first_not_of("0123456789") != std::string::npos ||
+          !std::filesystem::is_directory(std::filesystem::symlink_status(of_format, ignored)))
+        continue;
+      for (const auto& file : entries_of(of_format))
+        if (const auto ending = file.extension();
+            ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu")
+          std::filesystem::remove(file, ignored);
+      remove_if_empty(of_format);
+    }
+    remove_if_empty(folder / "unfinished");
   }
 
 private:
+  static std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> entries;
+    std::error_code failure;
+    for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure))
+      entries.push_back(entry->path());
+    return entries;
+  }
+  static void remove_if_empty(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(folder, ignored) && std::filesystem::is_empty(folder, ignored))
+      std::filesystem::remove(folder, ignored);
+  }
+
   std::filesystem::path path_;
+  bool was_there_;
   bool kept_ = false;
 };
 
