@@ -3,6 +3,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/unused_points.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -130,6 +131,8 @@ template <int D>
 io::loaded_mesh improvable_mesh<D>::put_back() && {
   io::loaded_mesh whole = std::move(rest_);
   whole.point_scalars.clear();
+  // An improver leaves gaps where it has removed points before others that it may not renumber.
+  drop_unused_points(mesh, static_cast<std::size_t>(frozen.points));
   if (!whole.node_ids.empty())
     fill_up(whole.node_ids, mesh.points.size());
   if constexpr (D == 3) {

@@ -11,8 +11,9 @@
 
 namespace dovetail::app {
 
-/// Takes the mesh of a file apart: what must stay is frozen, and points that stay come first. These are the
-/// points of the boundary, of interfaces of regions and subdomains, and, for D = 3, of triangles in the file.
+/// Takes the mesh of a file apart: what must stay is frozen, and, where the file numbers points or has
+/// triangles beside tetrahedra, points that stay come first. These are the points of the boundary, of
+/// interfaces of regions and, for D = 3, of subdomains and of triangles in the file.
 template <int D>
 class improvable_mesh {
 public:
@@ -22,7 +23,8 @@ public:
   frozen_entities<D> frozen;
 
   /// The mesh as it is now with the rest of the file: triangles, groups, names, subdomains; points that
-  /// stayed have their numbers, the others the least that are free. Without values of points.
+  /// stayed have their numbers, the others the least that are free. Without values of points, and without
+  /// points that no element uses.
   io::loaded_mesh put_back() &&;
 
 private:

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "dovetail/io/loaded_mesh.hpp"
-#include "dovetail/io/write_mesh.hpp"
+#include "dovetail/io/write_msh.hpp"
+#include "dovetail/io/write_vtu.hpp"
 
 #include <filesystem>
 #include <string>

@@ -55,7 +55,9 @@ generate_result generate_mesh_from(const background_result<3>& background, const
   meshing.seconds = 3;
   meshing.set("mesher_seconds", 4);
   meshing.set("improver_seconds", 2);
-  result.summary.children = {meshing};
+  report coarse{"background", 1, {}, {}, {}};
+  coarse.children = {{"meshing", 99, {}, {}, {}}}; // of the background mesh
+  result.summary.children = {coarse, meshing};
   result.summary.seconds = background.plan.subdomains;
   return result;
 }

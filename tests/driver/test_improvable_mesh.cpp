@@ -2,7 +2,8 @@
 
 #include "dovetail/improver/native.hpp"
 #include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/write_mesh.hpp"
+#include "dovetail/io/write_msh.hpp"
+#include "dovetail/io/write_vtu.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "io/scratch_folder.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -176,4 +178,37 @@ TEST_CASE("triangles keep their groups, their names, and the numbers on their bo
       }
   }
   CHECK(after.triangle_names == mesh.triangle_names);
+}
+
+TEST_CASE("triangles without numbers of points: what the improver removes leaves no gap") {
+  io::loaded_mesh mesh; // inner points first: the boundary's, which stay, come behind the gaps
+  constexpr int n = 30;
+  std::vector<local_id> place;
+  for (const bool inner : {true, false})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        if (((i % n != 0) && (j % n != 0)) == inner) {
+          // Rows that nearly meet in the middle: most of what is there goes.
+          const double x = i + (inner ? 0.49 * std::sin(7.0 * i + 3 * j) : 0.0);
+          mesh.mesh.points.push_back({x, j + (inner ? 0.49 * std::cos(5.0 * j + i) : 0.0), 0});
+          place.push_back(static_cast<local_id>(i * (n + 1) + j));
+        }
+  std::vector<local_id> number(place.size());
+  for (std::size_t v = 0; v < place.size(); ++v)
+    number[static_cast<std::size_t>(place[v])] = static_cast<local_id>(v);
+  const auto at = [&](int i, int j) { return number[static_cast<std::size_t>(i * (n + 1) + j)]; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const std::size_t before = mesh.mesh.points.size();
+  improvable_mesh<2> given(mesh);
+  improvement::native::finest()(given.mesh, given.frozen, {});
+  const io::loaded_mesh after = std::move(given).put_back();
+  std::set<local_id> used;
+  for (const auto& triangle : after.triangles)
+    used.insert(triangle.begin(), triangle.end());
+  CHECK(used.size() < before); // some were removed
+  CHECK(used.size() == after.mesh.points.size());
 }

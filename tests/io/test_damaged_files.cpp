@@ -3,7 +3,6 @@
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/io/write_mesh.hpp"
 #include "dovetail/io/zlib.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"

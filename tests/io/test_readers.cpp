@@ -5,7 +5,9 @@
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_reader.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/io/write_mesh.hpp"
+#include "dovetail/io/write_msh.hpp"
+#include "dovetail/io/write_surface.hpp"
+#include "dovetail/io/write_vtu.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 

@@ -3,7 +3,7 @@
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/io/write_mesh.hpp"
+#include "dovetail/io/write_vtu.hpp"
 #include "dovetail/io/zlib.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"

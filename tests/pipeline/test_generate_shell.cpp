@@ -61,11 +61,11 @@ TEST_CASE("the report has all stages in their order, each with what it did") {
   }
 }
 
-TEST_CASE("a part of a report is found by its name at any depth, the first in order") {
-  const report first{"leaf", 1, {}, {}, {}}, second{"leaf", 2, {}, {}, {}};
-  const report root{"root", 0, {}, {}, {{"a", 0, {}, {}, {first}}, second}};
-  CHECK(root.find("leaf").seconds == 1);
-  CHECK(root.find("root").children.size() == 2);
+TEST_CASE("a part of a report is found by its name, the nearest to the root") {
+  const report first{"leaf", 1, {}, {}, {}}, second{"leaf", 2, {}, {}, {}}, deep{"deep", 3, {}, {}, {}};
+  const report root{"root", 0, {}, {}, {{"a", 0, {}, {}, {first, deep}}, second}};
+  CHECK(root.find("leaf").seconds == 2);
+  CHECK(root.find("deep").seconds == 3);
   CHECK(root.find("nothing").name.empty());
 }
 

@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <concepts>
@@ -24,6 +25,9 @@
 #include <vector>
 
 namespace dovetail {
+
+static_assert(std::endian::native == std::endian::little,
+              "binary files are written as on little-endian machines");
 
 /// Waits until a folder's names are on the disk. What cannot be synchronised is left as it is.
 inline void sync_to_disk(const std::filesystem::path& folder) {

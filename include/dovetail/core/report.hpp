@@ -36,11 +36,12 @@ struct report {
         return value;
     return otherwise;
   }
-  /// The part of that name, of any depth, the first in order; an empty report when there is none.
+  /// The part of that name, one of the children before one of theirs; an empty report when there is none.
   const report& find(const std::string& part) const {
     static const report none{};
-    if (name == part)
-      return *this;
+    for (const report& child : children)
+      if (child.name == part)
+        return child;
     for (const report& child : children)
       if (const report& found = child.find(part); !found.name.empty())
         return found;

@@ -9,6 +9,7 @@
 #include "dovetail/geometry/discrete_soup.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/unused_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,25 +126,8 @@ private:
     for (auto& t : triangles())
       for (local_id& v : t)
         v = sets.find(v);
-    drop_unused_points();
-  }
-
-  void drop_unused_points() {
-    std::vector<local_id> renamed(points().size(), no_id);
-    for (const auto& t : triangles())
-      for (const local_id v : t)
-        renamed[static_cast<std::size_t>(v)] = 0;
-    std::vector<vec3> kept;
-    for (std::size_t i = 0; i < renamed.size(); ++i)
-      if (renamed[i] != no_id) {
-        renamed[i] = static_cast<local_id>(kept.size());
-        kept.push_back(points()[i]);
-      }
-    for (auto& t : triangles())
-      for (local_id& v : t)
-        v = renamed[static_cast<std::size_t>(v)];
-    result_.repairs.add("merged_points", static_cast<double>(points().size() - kept.size()));
-    points().swap(kept);
+    drop_unused_points(result_.mesh);
+    result_.repairs.add("merged_points", static_cast<double>(n - points().size()));
   }
 
   /// Drops triangles with equal corners and the second copy of a triangle listed twice in one orientation.

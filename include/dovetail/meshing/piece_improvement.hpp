@@ -5,6 +5,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/unused_points.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/remesh/chords.hpp"
@@ -72,28 +73,6 @@ inline report improve_piece(mesher_result<3>& made, const mesher_input<3>& input
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
   return improve(made.mesh, frozen, size);
-}
-
-/// Removes the points after the first `kept` that no element uses: an improver leaves gaps where it has
-/// removed points before ones that it may not renumber.
-inline void drop_unused_points(simplicial_mesh<2>& mesh, std::size_t kept) {
-  std::vector<local_id> number(mesh.points.size(), no_id);
-  for (const simplex<2>& t : mesh.elements)
-    for (const local_id v : t)
-      number[static_cast<std::size_t>(v)] = v;
-  std::size_t next = kept;
-  for (std::size_t v = kept; v < number.size(); ++v)
-    if (number[v] != no_id) {
-      mesh.points[next] = mesh.points[v];
-      number[v] = static_cast<local_id>(next++);
-    }
-  if (next == mesh.points.size())
-    return;
-  mesh.points.resize(next);
-  for (simplex<2>& t : mesh.elements)
-    for (local_id& v : t)
-      if (static_cast<std::size_t>(v) >= kept)
-        v = number[static_cast<std::size_t>(v)];
 }
 
 /// Inner sides between points of the lines that another region might have too: their ends and their face.
@@ -167,7 +146,7 @@ inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input
                                          [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
                                            return improve(mesh, kept, size, host);
                                          });
-  drop_unused_points(made.mesh, of_lines);
+  drop_unused_points(made.mesh, of_lines); // an improver leaves gaps before points that it may not renumber
   return result;
 }
 

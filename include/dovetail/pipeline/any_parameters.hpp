@@ -15,6 +15,23 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// Whether mesher and improver are of dimension D; where not, the compiler's error says so.
+template <int D, class Given>
+consteval bool policies_fit() {
+  using mesher_type = decltype(Given::mesh_it);
+  constexpr bool has_mesher = D == 2 || !std::same_as<mesher_type, no_mesher>;
+  constexpr bool fits = std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, D>;
+  constexpr bool improves = improver<decltype(Given::improve_it), D>;
+  static_assert(has_mesher, "generate<3> needs a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
+  static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
+  static_assert(improves, "generate<D> needs an improver of elements of dimension D");
+  return has_mesher && fits && improves;
+}
+
+} // namespace detail
+
 /// `parameters` convert to it. In D = 2 the mesher is the surface mesher, by regions, unless another one was
 /// chosen; in D = 3 one has to be. An improver must be one of D.
 template <int D>
@@ -35,8 +52,9 @@ struct any_parameters {
 
   template <class M, class P, class I, class E>
   any_parameters(const parameters<M, P, I, E>& given) // NOLINT: converts
-      : any_parameters(mesher_of(given), given.partition_it, improver_of(given.improve_it), given.run_tasks,
-                       given.options, given.simplify_by) {
+      : any_parameters(mesher_of(given), given.partition_it, given.improve_it, given.run_tasks, given.options,
+                       given.simplify_by) {
+    static_assert(detail::policies_fit<D, parameters<M, P, I, E>>());
     improve_background = given.improve_background;
     mesh_surface = given.mesh_surface;
   }
@@ -51,10 +69,6 @@ private:
     else
       return {};
   }
-  template <class I>
-  static any_improver<D> improver_of(const I& given) {
-    return given;
-  }
 };
 
 namespace detail {
@@ -63,26 +77,21 @@ template <class T>
 inline constexpr bool is_parameters = false;
 template <class M, class P, class I, class E>
 inline constexpr bool is_parameters<parameters<M, P, I, E>> = true;
+template <int D>
+inline constexpr bool is_parameters<any_parameters<D>> = true;
 
 /// Whether `generate<D>` can run on these; where not, the compiler's first error says what it needs.
 template <int D, class Given>
 consteval bool checked_parameters() {
-  if constexpr (is_parameters<Given>) {
-    using mesher_type = decltype(Given::mesh_it);
-    constexpr bool has_mesher = D == 2 || !std::same_as<mesher_type, no_mesher>;
-    constexpr bool fits = std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, D>;
-    constexpr bool improves = improver<decltype(Given::improve_it), D>;
-    static_assert(has_mesher, "generate<3> needs a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
-    static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
-    static_assert(improves, "generate<D> needs an improver of elements of dimension D");
-    return has_mesher && fits && improves;
-  } else {
-    constexpr bool is_erased = std::same_as<Given, any_parameters<D>>;
-    static_assert(is_erased,
-                  "generate takes parameters: options go into parameters<>{}.with_options(options), "
-                  "a mesher into .with_mesher(mesher)");
-    return is_erased;
-  }
+  static_assert(is_parameters<Given>,
+                "generate takes parameters: options go into parameters<>{}.with_options(options), "
+                "a mesher into .with_mesher(mesher)");
+  if constexpr (!is_parameters<Given>)
+    return false;
+  else if constexpr (std::same_as<Given, any_parameters<D>>)
+    return true;
+  else
+    return policies_fit<D, Given>();
 }
 
 } // namespace detail

@@ -9,6 +9,8 @@
 // near miss 5: a mesher in place of parameters
 // first error 5: a mesher into \.with_mesher
 #include "dovetail/pipeline/generate.hpp"
+// near miss 6: a mesher of tetrahedra for a background mesh of triangles
+// error 6: needs a mesher of elements of dimension D
 #include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -37,6 +39,8 @@ void call(const dovetail::plane_domain& model) {
   generate<3>(model, size, parameters<>{}.with_mesher(my_mesher{}).with_improver(improver_of_triangles{}));
 #elif NEAR_MISS == 5
   generate<3>(model, size, my_mesher{});
+#elif NEAR_MISS == 6
+  make_background<2>(model, size, parameters<>{}.with_mesher(my_mesher{}));
 #else
   generate<3>(model, size, parameters<>{}.with_mesher(my_mesher{}).with_options({.subdomains = 4}));
 #endif
