@@ -41,13 +41,25 @@ json quality_json(const quality_statistics& quality) {
             {"max_dihedral", quality.max_wedges.bins}}}};
 }
 
+json small_angles_json(const std::vector<small_angle>& angles) {
+  json listed = json::array();
+  for (const small_angle& each : angles)
+    listed.push_back({{"angle_deg", each.angle_deg},
+                      {"of", each.wedge ? "wedge" : "face"},
+                      {"cause", each.cause},
+                      {"at", {each.place.x, each.place.y, each.place.z}},
+                      {"cad", each.cad}});
+  return listed;
+}
+
 json interfaces_json(const interface_figures& interfaces) {
   return {{"min_face_angle_deg", interfaces.min_face_angle_deg},
           {"min_wedge_deg", interfaces.min_wedge_deg},
           {"faces", interfaces.faces},
           {"forced", interfaces.forced},
           {"refused", interfaces.refused},
-          {"remeshing", interfaces.remeshing}};
+          {"remeshing", interfaces.remeshing},
+          {"below_threshold", small_angles_json(interfaces.below)}};
 }
 
 json details_json(const report& details) {

@@ -37,7 +37,10 @@ run_figures example() {
   figures.quality.min_wedge_deg = 11.5;
   figures.quality.min_wedges.bins[11] = 6000;
   figures.interfaces.min_face_angle_deg = 30.5;
+  figures.interfaces.forced = 1;
   figures.interfaces.refused = 3;
+  figures.interfaces.remeshing = 2;
+  figures.interfaces.below = {{12.5, true, "forced", {1, 2, 3}, {"curve 7", "face 4 (wing)"}}};
   figures.coarse_interfaces.min_face_angle_deg = 31.5;
   figures.mesh_hash = 0x0123456789abcdef;
   report child;
@@ -71,7 +74,16 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   CHECK(document["quality"]["min_dihedral_deg"] == 11.5);
   CHECK(document["quality"]["bad_per_million"].get<double>() == doctest::Approx(2.0));
   CHECK(document["quality"]["histogram"]["min_dihedral"][11] == 6000);
+  CHECK(document["interfaces"]["forced"] == 1);
   CHECK(document["interfaces"]["refused"] == 3);
+  CHECK(document["interfaces"]["remeshing"] == 2);
+  const auto& below = document["interfaces"]["below_threshold"];
+  REQUIRE(below.size() == 1);
+  CHECK(below[0]["angle_deg"] == 12.5);
+  CHECK(below[0]["of"] == "wedge");
+  CHECK(below[0]["cause"] == "forced");
+  CHECK(below[0]["at"] == std::array{1.0, 2.0, 3.0});
+  CHECK(below[0]["cad"][1] == "face 4 (wing)");
   CHECK(document["interfaces"]["coarse"]["min_face_angle_deg"] == 31.5);
   CHECK(document["mesh_hash"] == "0123456789abcdef");
   CHECK(document["repeatable"] == true);
