@@ -55,12 +55,11 @@ struct by_regions {
 private:
   static patch_mesh mesh_whole(const any_surface_mesher& mesh_it, const surface_region& region,
                                const any_sizing& size) try {
-    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {.folds = 6});
+    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {});
     if (!made.crossings.empty() || !made.misplaced.empty())
       throw mesher_error("its boundary lines cross in the parameter plane");
     if (!made.folded.empty())
-      throw mesher_error(std::to_string(made.folded.size()) +
-                         " triangles stay folded over; repair the face or give a smaller size there");
+      throw mesher_error(folds_of(made));
     return made;
   } catch (const time_limit_error&) {
     throw;
