@@ -101,6 +101,10 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
   figures.quality = result.quality;
   figures.interfaces = figures_of(result.fine_angles, topology);
   figures.coarse_interfaces = figures_of(result.coarse_angles, topology);
+  for (const report* stage : {&stage_report(summary, "skeleton"), &stage_report(summary, "meshing")})
+    for (const report& part : stage->children)
+      if (part.name == "deviation")
+        figures.deviation = part;
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = summary.find("intersection");
   figures.merges = static_cast<std::int64_t>(intersection.get("merges") +

@@ -64,6 +64,7 @@ struct run_figures {
   stage_seconds seconds;
   quality_statistics quality;
   interface_figures interfaces, coarse_interfaces;
+  report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
   std::int64_t merges = 0;
   std::int64_t largest_merged = 1; ///< subdomains merged into one, at most
   std::int64_t failed_subdomains = 0;

@@ -62,6 +62,13 @@ json interfaces_json(const interface_figures& interfaces) {
           {"below_threshold", small_angles_json(interfaces.below)}};
 }
 
+json deviation_json(const report& deviation) {
+  json faces = json::array();
+  for (const report& face : deviation.children)
+    faces.push_back({{"face", face.name}, {"points", face.get("points")}, {"centres", face.get("centres")}});
+  return {{"points", deviation.get("points")}, {"centres", deviation.get("centres")}, {"faces", faces}};
+}
+
 json details_json(const report& details) {
   json counters = json::object();
   for (const auto& [key, value] : details.counters)
@@ -122,6 +129,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"seconds", seconds_json(figures.seconds)},
               {"quality", quality_json(figures.quality)},
               {"interfaces", interfaces},
+              {"deviation", deviation_json(figures.deviation)},
               {"merges", figures.merges},
               {"largest_merged", figures.largest_merged},
               {"failed_subdomains", figures.failed_subdomains},

@@ -91,6 +91,7 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   result.lines = {};
   append(result.summary.counters, remeshed.summary.counters);
   append(result.summary.warnings, remeshed.summary.warnings);
+  append(result.summary.children, remeshed.summary.children);
   return result;
 }
 

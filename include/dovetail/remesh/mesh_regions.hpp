@@ -92,6 +92,7 @@ struct meshed_regions {
 struct mesh_regions_options {
   region_attempts attempts = {};
   bool parameters = true; ///< false: the meshes come without `inner_uv`
+  bool deviation = false; ///< true: meshes on CAD faces have their `surface_deviation` in their summary
   double triangles_per_task = 4096;
   progress on_progress = {};
   std::string stage = "regions";

@@ -6,6 +6,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
@@ -79,8 +80,9 @@ private:
 
   void mesh_patches() {
     region_set set = patches();
-    meshed_ = mesh_regions(model_, set, mesher_, size_, run_, store_,
-                           {.parameters = false, .on_progress = on_progress_, .stage = "skeleton"});
+    meshed_ = mesh_regions(
+        model_, set, mesher_, size_, run_, store_,
+        {.parameters = false, .deviation = true, .on_progress = on_progress_, .stage = "skeleton"});
     if (!meshed_.failures.empty()) {
       const auto& [patch, reason] = *meshed_.failures.begin();
       throw mesher_error("remeshing of " + name_of(patch) + " failed: " + reason);
@@ -101,7 +103,11 @@ private:
     reserve(fine);
     append(fine.points, lines_.points); // boundaries are still made of them
     append(fine.point_hosts, lines_.hosts);
+    report deviation;
     meshed_.for_each(store_, [&](std::size_t p, const patch_mesh& mesh) {
+      if (is_region(p))
+        note_deviation(deviation, "face " + std::to_string(skeleton_.regions[p].cad_face),
+                       {mesh.summary.get("points"), mesh.summary.get("centres")});
       if (!mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty())
         result.patches.failures.push_back(failure_of(p, mesh));
       append_patch(p, mesh, result);
@@ -111,6 +117,7 @@ private:
       if (lines_.keys[l].on.dimension == 1)
         append_curve_edges(static_cast<local_id>(l), fine);
     result.patches.keys = std::move(meshed_.keys);
+    result.summary.children.push_back(std::move(deviation));
     return result;
   }
 
