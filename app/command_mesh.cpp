@@ -101,7 +101,7 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
   figures.quality = result.quality;
   figures.interfaces = figures_of(result.fine_angles, topology);
   figures.coarse_interfaces = figures_of(result.coarse_angles, topology);
-  for (const report* stage : {&stage_report(summary, "skeleton"), &stage_report(summary, "meshing")})
+  for (const report* stage : {&summary.find("skeleton"), &summary.find("meshing")})
     for (const report& part : stage->children)
       if (part.name == "deviation")
         figures.deviation = part;
