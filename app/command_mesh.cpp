@@ -14,6 +14,7 @@
 #include "dovetail/io/finishing_pass.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -50,7 +51,15 @@ private:
   bool interrupted_ = false;
 };
 
-interface_figures figures_of(const interface_angles& angles) {
+std::string name_of(const host& entity, const geometry_topology& topology) {
+  const auto id = static_cast<std::size_t>(entity.id);
+  const bool is_curve = entity.dimension == 1;
+  const std::string& name = is_curve ? topology.curves[id].name : topology.faces[id].name;
+  return (is_curve ? "curve " : "face ") + std::to_string(entity.id) +
+         (name.empty() ? "" : " (" + name + ")");
+}
+
+interface_figures figures_of(const interface_angles& angles, const geometry_topology& topology) {
   interface_figures figures;
   if (angles.interface_faces > 0) {
     figures.min_face_angle_deg = angles.face_angle.angle_deg;
@@ -61,6 +70,13 @@ interface_figures figures_of(const interface_angles& angles) {
   figures.forced = count(violation_cause::forced);
   figures.refused = count(violation_cause::refused);
   figures.remeshing = count(violation_cause::remeshing);
+  constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
+  for (const angle_violation& v : angles.violations) {
+    figures.below.push_back(
+        {v.angle_deg, v.is_wedge(), causes[static_cast<std::size_t>(v.cause)], v.place, {}});
+    for (const host& entity : v.cad)
+      figures.below.back().cad.push_back(name_of(entity, topology));
+  }
   return figures;
 }
 
@@ -77,13 +93,18 @@ void append_files(const report& from, std::vector<std::string>& to) {
 }
 
 template <int D>
-void add_pipeline_figures(const generated<D>& result, run_figures& figures) {
+void add_pipeline_figures(const generated<D>& result, const geometry_topology& topology,
+                          run_figures& figures) {
   const report& summary = result.summary;
   figures.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   figures.subdomains = static_cast<int>(result.mesh.counts.size());
   figures.quality = result.quality;
-  figures.interfaces = figures_of(result.fine_angles);
-  figures.coarse_interfaces = figures_of(result.coarse_angles);
+  figures.interfaces = figures_of(result.fine_angles, topology);
+  figures.coarse_interfaces = figures_of(result.coarse_angles, topology);
+  for (const report* stage : {&summary.find("skeleton"), &summary.find("meshing")})
+    for (const report& part : stage->children)
+      if (part.name == "deviation")
+        figures.deviation = part;
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = summary.find("intersection");
   figures.merges = static_cast<std::int64_t>(intersection.get("merges") +
@@ -215,7 +236,7 @@ private:
     figures_.background_mesher = policies_.background_mesher.name();
     figures_.surface_mesher = policies_.surface_mesher.name();
     figures_.workers = policies_.executor.workers();
-    add_pipeline_figures(result, figures_);
+    add_pipeline_figures(result, source.geometry.topology(), figures_);
     add_mesh_figures(result.mesh, figures_);
     figures_.details.name = "mesh";
     figures_.details.children = {source.summary, result.summary};

@@ -5,6 +5,7 @@
 #include "file_checksums.hpp"
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/quality.hpp"
 
 #include <cstdint>
@@ -28,14 +29,24 @@ struct stage_seconds {
   double total = 0;
 };
 
+/// An interface angle below the threshold.
+struct small_angle {
+  double angle_deg = 0;
+  bool wedge = false; ///< beside an interface, not of one of its faces
+  std::string cause;  ///< "forced", "refused" or "remeshing"
+  vec3 place;
+  std::vector<std::string> cad; ///< the entities that force it, or else the faces that it touches
+};
+
 /// The interface angles on one skeleton. Angles in degrees; 180 where there is no interface.
 struct interface_figures {
   double min_face_angle_deg = 180;
   double min_wedge_deg = 180;
   std::int64_t faces = 0;
-  std::int64_t forced = 0;    ///< below the threshold because of the CAD
-  std::int64_t refused = 0;   ///< below the threshold because of the bound on super-elements
-  std::int64_t remeshing = 0; ///< below the threshold since the final size: by curving or refining
+  std::int64_t forced = 0;        ///< below the threshold because of the CAD
+  std::int64_t refused = 0;       ///< below the threshold because of the bound on super-elements
+  std::int64_t remeshing = 0;     ///< below the threshold since the final size: by curving or refining
+  std::vector<small_angle> below; ///< all of these, by growing angle
 };
 
 struct run_figures {
@@ -53,6 +64,7 @@ struct run_figures {
   stage_seconds seconds;
   quality_statistics quality;
   interface_figures interfaces, coarse_interfaces;
+  report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
   std::int64_t merges = 0;
   std::int64_t largest_merged = 1; ///< subdomains merged into one, at most
   std::int64_t failed_subdomains = 0;

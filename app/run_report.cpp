@@ -41,13 +41,32 @@ json quality_json(const quality_statistics& quality) {
             {"max_dihedral", quality.max_wedges.bins}}}};
 }
 
+json small_angles_json(const std::vector<small_angle>& angles) {
+  json listed = json::array();
+  for (const small_angle& each : angles)
+    listed.push_back({{"angle_deg", each.angle_deg},
+                      {"of", each.wedge ? "wedge" : "face"},
+                      {"cause", each.cause},
+                      {"at", {each.place.x, each.place.y, each.place.z}},
+                      {"cad", each.cad}});
+  return listed;
+}
+
 json interfaces_json(const interface_figures& interfaces) {
   return {{"min_face_angle_deg", interfaces.min_face_angle_deg},
           {"min_wedge_deg", interfaces.min_wedge_deg},
           {"faces", interfaces.faces},
           {"forced", interfaces.forced},
           {"refused", interfaces.refused},
-          {"remeshing", interfaces.remeshing}};
+          {"remeshing", interfaces.remeshing},
+          {"below_threshold", small_angles_json(interfaces.below)}};
+}
+
+json deviation_json(const report& deviation) {
+  json faces = json::array();
+  for (const report& face : deviation.children)
+    faces.push_back({{"face", face.name}, {"points", face.get("points")}, {"centres", face.get("centres")}});
+  return {{"points", deviation.get("points")}, {"centres", deviation.get("centres")}, {"faces", faces}};
 }
 
 json details_json(const report& details) {
@@ -110,6 +129,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"seconds", seconds_json(figures.seconds)},
               {"quality", quality_json(figures.quality)},
               {"interfaces", interfaces},
+              {"deviation", deviation_json(figures.deviation)},
               {"merges", figures.merges},
               {"largest_merged", figures.largest_merged},
               {"failed_subdomains", figures.failed_subdomains},

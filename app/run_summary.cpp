@@ -122,6 +122,12 @@ void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
 }
 
+void add_deviation(table& rows, const report& deviation) {
+  rows.heading("Largest distance from the CAD (in units of the local size)");
+  rows.row("Of points", "%.2g", deviation.get("points"));
+  rows.row("Of centres of triangles", "%.2g", deviation.get("centres"));
+}
+
 void add_quality(table& rows, const quality_statistics& quality, int dimension) {
   if (dimension == 3)
     add_tetrahedron_quality(rows, quality);
@@ -137,6 +143,8 @@ std::string summary_text(const run_figures& figures) {
   add_timing(rows, figures);
   if (figures.subdomains > 1)
     add_interfaces(rows, figures);
+  if (!figures.deviation.children.empty())
+    add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);
   if (!figures.repeatable)
     rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");

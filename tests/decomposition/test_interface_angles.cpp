@@ -150,7 +150,7 @@ TEST_CASE("the place and the cause of a violation are named") {
         doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
-TEST_CASE("the summary has the counters of the driver's report and names the worst place") {
+TEST_CASE("the cause is the coarse side where it ought to have been removed, and remeshing where not") {
   fine_skeleton skeleton; // a flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface
   skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};
   skeleton.sides = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
@@ -161,14 +161,10 @@ TEST_CASE("the summary has the counters of the driver's report and names the wor
     origins[0] = known ? triangle_origin::refused : triangle_origin::kept;
     const auto angles =
         measure_interface_angles({skeleton.points, skeleton.sides, skeleton.subdomains, origins});
-    const report summary = summarize(angles, "interfaces");
-    CHECK(summary.get("faces") == 1);
-    CHECK(summary.get("min_face_angle_deg") == doctest::Approx(45));
-    CHECK(summary.get("min_wedge_deg") == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
-    CHECK(summary.get(known ? "refused" : "remeshing") == 3);
-    CHECK(summary.get(known ? "remeshing" : "refused") == 0);
-    REQUIRE(summary.warnings.size() == 1);
-    CHECK(summary.warnings[0].find("at edge (0, 1)") != std::string::npos);
+    CHECK(angles.min_wedge_deg() == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
+    CHECK(angles.count(known ? violation_cause::refused : violation_cause::remeshing) == 3);
+    REQUIRE(angles.violations.size() == 3);
+    CHECK(angles.violations[0].place == vec3{0.5, 0, 0});
   }
 }
 

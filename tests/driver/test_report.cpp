@@ -37,7 +37,12 @@ run_figures example() {
   figures.quality.min_wedge_deg = 11.5;
   figures.quality.min_wedges.bins[11] = 6000;
   figures.interfaces.min_face_angle_deg = 30.5;
+  figures.interfaces.forced = 1;
   figures.interfaces.refused = 3;
+  figures.interfaces.remeshing = 2;
+  figures.interfaces.below = {{12.5, true, "forced", {1, 2, 3}, {"curve 7", "face 4 (wing)"}}};
+  figures.deviation = {"deviation", 0, {{"points", 0.25}, {"centres", 0.125}}, {}, {}};
+  figures.deviation.children.push_back({"face 3", 0, {{"points", 0.25}, {"centres", 0.0625}}, {}, {}});
   figures.coarse_interfaces.min_face_angle_deg = 31.5;
   figures.mesh_hash = 0x0123456789abcdef;
   report child;
@@ -71,7 +76,21 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   CHECK(document["quality"]["min_dihedral_deg"] == 11.5);
   CHECK(document["quality"]["bad_per_million"].get<double>() == doctest::Approx(2.0));
   CHECK(document["quality"]["histogram"]["min_dihedral"][11] == 6000);
+  CHECK(document["interfaces"]["forced"] == 1);
   CHECK(document["interfaces"]["refused"] == 3);
+  CHECK(document["interfaces"]["remeshing"] == 2);
+  const auto& below = document["interfaces"]["below_threshold"];
+  REQUIRE(below.size() == 1);
+  CHECK(below[0]["angle_deg"] == 12.5);
+  CHECK(below[0]["of"] == "wedge");
+  CHECK(below[0]["cause"] == "forced");
+  CHECK(below[0]["at"] == std::array{1.0, 2.0, 3.0});
+  CHECK(below[0]["cad"][1] == "face 4 (wing)");
+  CHECK(document["deviation"]["points"] == 0.25);
+  CHECK(document["deviation"]["centres"] == 0.125);
+  REQUIRE(document["deviation"]["faces"].size() == 1);
+  CHECK(document["deviation"]["faces"][0]["face"] == "face 3");
+  CHECK(document["deviation"]["faces"][0]["centres"] == 0.0625);
   CHECK(document["interfaces"]["coarse"]["min_face_angle_deg"] == 31.5);
   CHECK(document["mesh_hash"] == "0123456789abcdef");
   CHECK(document["repeatable"] == true);
@@ -92,9 +111,10 @@ TEST_CASE("a report that cannot be written throws an error naming the file, and 
 
 TEST_CASE("the summary shows the figures under the paper's headings") {
   const std::string text = summary_text(example());
-  for (const char* expected : {"General data", "No. of tetrahedra", "3,000,000,000", "Timing (seconds)",
-                               "Domain decomposition", "Mesh generation", "Relative speed", "150 M",
-                               "Minimum dihedral angle", "11.50", "6,000", "Interfaces"})
+  for (const char* expected :
+       {"General data", "No. of tetrahedra", "3,000,000,000", "Timing (seconds)", "Domain decomposition",
+        "Mesh generation", "Relative speed", "150 M", "Minimum dihedral angle", "11.50", "6,000",
+        "Interfaces", "distance from the CAD", "0.25"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
 }
 

@@ -157,7 +157,7 @@ TEST_CASE("One of four subdomains may be merged, two may not; of many a fraction
 }
 
 TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {
-  decomposed_shell given(0.97, 16);
+  decomposed_shell given(0.975, 18);
   auto rounds = given.rounds(1);
   const auto result = rounds.realize_boundaries();
   const merge_account& account = rounds.merges();
@@ -184,7 +184,7 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
 }
 
 TEST_CASE("After merges a search near new patches finds what a search of everything does") {
-  decomposed_shell given(0.97, 16);
+  decomposed_shell given(0.975, 18);
   merge_account account(given.pieces.parts, 1);
   skeleton_store store(std::make_shared<entity_store>());
   std::vector<local_id>& part = given.pieces.part_of_element;

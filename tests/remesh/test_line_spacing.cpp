@@ -71,6 +71,18 @@ TEST_CASE("few segments become one, two or four when asked to") {
   CHECK(segments(7.4) == 7);
 }
 
+TEST_CASE("as many segments as are given, even or growing shorter, and the same when no bias is given") {
+  const auto size = [](vec3) { return 1.0; };
+  CHECK(remesh::line_spacing{.given_segments = 3}(straight, 0, 10, size).size() == 4);
+  const auto biased = remesh::line_spacing{.given_segments = 3, .bias = 0.4}(straight, 0, 9, size);
+  REQUIRE(biased.size() == 4);
+  CHECK(biased[1] == doctest::Approx(3 + 9 * 0.4 * 2 / 9));
+  CHECK(biased[1] - biased[0] > biased[2] - biased[1]);
+  CHECK(biased[2] - biased[1] > biased[3] - biased[2]);
+  CHECK(remesh::line_spacing{.given_segments = 10}(straight, 0, 10, size) ==
+        remesh::line_spacing{}(straight, 0, 10, size));
+}
+
 TEST_CASE("the result is a pure function and increasing, also on a line of length zero") {
   const auto size = [](vec3 p) { return 0.02 + 0.1 * std::abs(std::sin(7 * p.x)); };
   const auto once = remesh::line_spacing{}(circle, 0.3, 5, size),

@@ -148,6 +148,20 @@ TEST_CASE("an edge that joins two boundary points a second time within a region 
     CHECK(std::hypot(p.x, p.y) == doctest::Approx(1));
 }
 
+TEST_CASE("an edge that the mesher says it had to repeat is split") {
+  const surface_region region = cushion().regions[0];
+  const auto honest = [](const any_surface& s, const patch_boundary& b, const any_sizing& size) {
+    patch_mesh made = careless{}(s, b, size);
+    chord_finder(b).for_each(made.triangles,
+                             [&](std::size_t, const simplex<1>& chord) { made.repeated_edges = {chord}; });
+    return made;
+  };
+  const patch_mesh made =
+      mesh_region(any_surface_mesher(honest), contract::plane_at_run_time(), region, coarse, {});
+  CHECK(made.repeated_edges.empty());
+  CHECK(made.triangles.size() == 4);
+}
+
 TEST_CASE("folds: smaller sizes inside, and of the attempts the one with the fewest") {
   struct folding {
     std::shared_ptr<std::vector<double>> sizes = std::make_shared<std::vector<double>>();
@@ -168,7 +182,7 @@ TEST_CASE("folds: smaller sizes inside, and of the attempts the one with the few
   surface_region smaller = region;
   smaller.size_factor = 0.5;
   const folding other;
-  mesh_region(other, contract::plane_at_run_time(), smaller, coarse, {});
+  mesh_region(other, contract::plane_at_run_time(), smaller, coarse, {.folds = 0});
   CHECK(*other.sizes == std::vector<double>{5});
 }
 

@@ -88,7 +88,7 @@ private:
     const auto mesh_missing = [&](int chords) {
       meshed_ = mesh_regions(
           model_, faces_, parameters_.mesher, size_, run_tasks_, store_,
-          {.attempts = {.chords = chords}, .triangles_per_task = 512, .stage = "coarse surface"});
+          {.attempts = {.chords = chords, .folds = 0}, .triangles_per_task = 512, .stage = "coarse surface"});
       meshes_.assign(face_count(), {});
       meshed_.for_each(store_, [&](std::size_t f, patch_mesh mesh) { meshes_[f] = std::move(mesh); });
     };

@@ -21,7 +21,8 @@ struct corner_angles_input {
   std::function<vec3(local_id side, local_id vertex)> leaves = {};
 };
 
-/// Measures the interface angles of D = 2. Linear in the mesh.
+/// Measures the interface angles of D = 2. One between two fixed sides that themselves meet at less than the
+/// threshold is forced. Linear in the mesh.
 interface_angles measure_corner_angles(const corner_angles_input& input, double threshold_deg = 50);
 
 } // namespace dovetail

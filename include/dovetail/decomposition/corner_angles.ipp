@@ -52,12 +52,20 @@ private:
 
   /// Adds up the corners of one fan from line to line.
   void measure_between_lines(local_id vertex, std::span<const std::uint32_t> codes, bool is_closed) {
-    std::size_t start = 0; // behind a line: an open fan begins at one
-    while (is_closed && start < codes.size() && !is_line(passed(codes[start])[0]))
-      ++start;
+    const auto first_behind = [&](auto is) {
+      return static_cast<std::size_t>(
+          std::find_if(codes.begin(), codes.end(), [&](std::uint32_t code) { return is(passed(code)[0]); }) -
+          codes.begin());
+    };
+    // An open fan begins at a fixed side, and a closed one is begun there.
+    std::size_t start = is_closed ? first_behind([&](local_id side) { return is_fixed(side); }) : 0;
+    if (start == codes.size())
+      start = first_behind([&](local_id side) { return is_line(side); });
     if (start == codes.size())
       return;
     corner run;
+    double opening = 0; // since the last fixed side
+    std::size_t first_found = found_.violations.size();
     for (std::size_t k = 0; k < codes.size(); ++k) {
       const std::uint32_t code = codes[(start + k) % codes.size()];
       const wedge at = ridge_table<2>::decode(code);
@@ -65,11 +73,20 @@ private:
       if (run.from == no_id)
         run = {from, at.element, 0};
       const auto e = static_cast<std::size_t>(at.element);
-      run.angle += wedge_angles(
+      const double angle = wedge_angles(
           corners(span_of(in_.mesh.points), in_.mesh.elements[e]))[static_cast<std::size_t>(at.ridge)];
+      run.angle += angle;
+      opening += angle;
       if (is_line(to)) {
         measure(run, to, vertex);
         run = {};
+      }
+      if (is_fixed(to)) {
+        if (opening < threshold_)
+          for (std::size_t v = first_found; v < found_.violations.size(); ++v)
+            found_.violations[v].cause = violation_cause::forced;
+        opening = 0;
+        first_found = found_.violations.size();
       }
     }
   }
@@ -98,9 +115,13 @@ private:
     least_angle& minimum = is_fixed(from) || is_fixed(to) ? found_.surface_wedge : found_.interface_wedge;
     if (angle < minimum.angle_deg)
       minimum = here;
-    if (angle < threshold_)
-      found_.violations.push_back({angle, cause_of(from, to), here.sides, here.edge,
-                                   in_.part_of_element[static_cast<std::size_t>(run.element)]});
+    if (angle >= threshold_)
+      return;
+    const auto e = static_cast<std::size_t>(run.element);
+    found_.violations.push_back({angle, cause_of(from, to), here.sides, here.edge, in_.part_of_element[e],
+                                 in_.mesh.points[static_cast<std::size_t>(vertex)]});
+    if (!in_.mesh.tags.empty())
+      found_.violations.back().cad = {{2, in_.mesh.tags[e]}};
   }
 
   double angle_of(const corner& run, local_id to, local_id vertex) const {

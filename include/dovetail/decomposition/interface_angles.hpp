@@ -3,7 +3,6 @@
 /// coarse or on the fine skeleton; what is below the threshold is listed with its cause.
 #pragma once
 
-#include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 
@@ -25,7 +24,7 @@ namespace dovetail {
 
 /// Why an angle is below the threshold.
 enum class violation_cause : std::uint8_t {
-  forced,    ///< all its triangles are fixed by the CAD
+  forced,    ///< the CAD itself forces it (`find_forced`)
   refused,   ///< one of its triangles lies on a coarse side that the bound refused to remove
   remeshing, ///< neither: it came up after the coarse decomposition, by curving or refining
 };
@@ -52,6 +51,8 @@ struct angle_violation {
   std::array<local_id, 2> sides{no_id, no_id}; ///< the triangle itself, or the two that make the wedge
   std::array<local_id, 2> edge{no_id, no_id};  ///< a wedge's ridge; no_id for the angle of a face
   local_id subdomain = no_id;                  ///< the subdomain a wedge lies in
+  vec3 place;                                  ///< the middle of the triangle or ridge
+  std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
   bool is_wedge() const { return edge[0] != no_id; }
 };
@@ -94,9 +95,6 @@ std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>&
 /// Measures the interface angles. About linear in the number of triangles. Throws `usage_error` when the
 /// spans do not match.
 interface_angles measure_interface_angles(const interface_angles_input& input, double threshold_deg = 30);
-
-/// The angles as counters of a report, and one warning with the worst place of each cause.
-report summarize(const interface_angles& angles, const std::string& name);
 
 } // namespace dovetail
 

@@ -4,7 +4,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
@@ -68,8 +67,6 @@ private:
     return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
   }
   violation_cause cause_of(local_id a, local_id b) const {
-    if (is_cad(a) && is_cad(b))
-      return violation_cause::forced;
     return is_refused(a) || is_refused(b) ? violation_cause::refused : violation_cause::remeshing;
   }
   vec3 at(local_id v) const { return in_.points[static_cast<std::size_t>(v)]; }
@@ -80,12 +77,15 @@ private:
       if (is_cad(id))
         continue;
       ++found_.interface_faces;
-      const auto angles = wedge_angles(corners(in_.points, in_.triangles[t]));
+      const auto p = corners(in_.points, in_.triangles[t]);
+      const auto angles = wedge_angles(p);
       const double smallest = *std::min_element(angles.begin(), angles.end());
       if (smallest < found_.face_angle.angle_deg)
         found_.face_angle = {smallest, {id, no_id}, {no_id, no_id}};
+      const vec3 centroid = (p[0] + p[1] + p[2]) / 3.0;
       if (smallest < threshold_)
-        found_.violations.push_back({smallest, cause_of(id, id), {id, no_id}, {no_id, no_id}, no_id});
+        found_.violations.push_back(
+            {smallest, cause_of(id, id), {id, no_id}, {no_id, no_id}, no_id, centroid});
     }
   }
 
@@ -139,8 +139,12 @@ private:
     if (angle < minimum.angle_deg)
       minimum = {angle, {a.triangle, b.triangle}, edge};
     if (angle < threshold_)
-      found_.violations.push_back(
-          {angle, cause_of(a.triangle, b.triangle), {a.triangle, b.triangle}, edge, a.after});
+      found_.violations.push_back({angle,
+                                   cause_of(a.triangle, b.triangle),
+                                   {a.triangle, b.triangle},
+                                   edge,
+                                   a.after,
+                                   midpoint(at(edge[0]), at(edge[1]))});
   }
 
   const interface_angles_input& in_;
@@ -165,33 +169,6 @@ DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const subdomain_bo
 DOVETAIL_INLINE interface_angles measure_interface_angles(const interface_angles_input& input,
                                                           double threshold_deg) {
   return detail::interface_checker(input, threshold_deg).run();
-}
-
-DOVETAIL_INLINE report summarize(const interface_angles& angles, const std::string& name) {
-  report summary;
-  summary.name = name;
-  summary.set("faces", static_cast<double>(angles.interface_faces));
-  summary.set("min_face_angle_deg", angles.face_angle.angle_deg);
-  summary.set("min_wedge_deg", angles.min_wedge_deg());
-  summary.set("min_interface_wedge_deg", angles.interface_wedge.angle_deg);
-  summary.set("min_surface_wedge_deg", angles.surface_wedge.angle_deg);
-  constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
-  for (std::size_t c = 0; c < causes.size(); ++c) {
-    const auto cause = static_cast<violation_cause>(c);
-    summary.set(causes[c], static_cast<double>(angles.count(cause)));
-    const auto worst = std::find_if(angles.violations.begin(), angles.violations.end(),
-                                    [&](const angle_violation& v) { return v.cause == cause; });
-    if (worst == angles.violations.end())
-      continue;
-    summary.warnings.push_back(
-        std::to_string(angles.count(cause)) + " angles below the threshold (" + causes[c] +
-        "), the smallest " + std::to_string(worst->angle_deg) + " degrees " +
-        (worst->is_wedge() ? "between triangles " + std::to_string(worst->sides[0]) + " and " +
-                                 std::to_string(worst->sides[1]) + " at edge (" +
-                                 std::to_string(worst->edge[0]) + ", " + std::to_string(worst->edge[1]) + ")"
-                           : "in triangle " + std::to_string(worst->sides[0])));
-  }
-  return summary;
 }
 
 } // namespace dovetail

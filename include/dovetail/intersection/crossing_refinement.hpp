@@ -21,8 +21,10 @@ namespace dovetail {
     const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
     return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
   };
-  throw intersection_error("the surfaces of " + name(faces[0]) + " and " + name(faces[1]) +
-                           " cross, also when refined; repair the model there or give a smaller size");
+  throw intersection_error((faces[0] == faces[1]
+                                ? "the surface of " + name(faces[0]) + " crosses itself or stays folded over"
+                                : "the surfaces of " + name(faces[0]) + " and " + name(faces[1]) + " cross") +
+                           ", also when refined; repair the model there or give a smaller size");
 }
 
 /// Half of the triangles' edges around crossings: the sizes for another attempt.

@@ -19,6 +19,8 @@ struct skeleton_line {
   host on = {};                 ///< {1, curve}, {2, CAD face} or {3, no_id} for a line inside the domain
   std::array<double, 2> t = {}; ///< curve parameters of the two vertices, for a line on a curve
   std::array<vec2, 2> uv = {};  ///< face parameters of the two vertices, for a line on a CAD face
+  int segments = 0;             ///< that it falls into; 0: as the sizes ask
+  double bias = 0;              ///< of `segments`: as in `remesh::line_spacing`
 };
 
 /// Coarse triangles of one CAD face between the same two subdomains, connected across edges that are no

@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 
 #include <array>
 #include <concepts>
@@ -39,8 +40,12 @@ struct by_regions {
     mesher_result<2> result;
     simplicial_mesh<2>& mesh = result.mesh;
     mesh.points = input.boundary.points;
+    report deviation;
     for (const surface_region& region : input.regions) {
-      append_region(region, mesh_whole(mesh_it, region, size), mesh.points,
+      const patch_mesh made = mesh_whole(mesh_it, region, size);
+      note_deviation(deviation, "face " + std::to_string(region.face),
+                     measure_deviation(region.surface, region.boundary, made, size));
+      append_region(region, made, mesh.points,
                     [&](const simplex<2>& triangle, const std::array<vec2, 3>& uv) {
                       mesh.elements.push_back(triangle);
                       mesh.tags.push_back(region.face);
@@ -48,6 +53,7 @@ struct by_regions {
                     });
     }
     result.summary.set("regions", static_cast<double>(input.regions.size()));
+    result.summary.children.push_back(std::move(deviation));
     result.summary.seconds = clock.seconds();
     return result;
   }
@@ -55,12 +61,11 @@ struct by_regions {
 private:
   static patch_mesh mesh_whole(const any_surface_mesher& mesh_it, const surface_region& region,
                                const any_sizing& size) try {
-    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {.folds = 6});
+    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {});
     if (!made.crossings.empty() || !made.misplaced.empty())
       throw mesher_error("its boundary lines cross in the parameter plane");
     if (!made.folded.empty())
-      throw mesher_error(std::to_string(made.folded.size()) +
-                         " triangles stay folded over; repair the face or give a smaller size there");
+      throw mesher_error(folds_of(made));
     return made;
   } catch (const time_limit_error&) {
     throw;

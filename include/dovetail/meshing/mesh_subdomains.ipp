@@ -11,6 +11,7 @@
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -292,6 +293,7 @@ private:
     summary.name = "meshing";
     summary.set("failed", static_cast<double>(result_.failures.size()));
     global_id first_element = 0;
+    report deviation;
     for (const piece_summary& piece : result_.pieces) {
       result_.quality.merge(piece.quality, first_element);
       first_element += piece.counts.elements;
@@ -302,8 +304,13 @@ private:
       for (const report& part : piece.summary.children) {
         summary.add(part.name + "_seconds", part.seconds);
         collect_warnings(part, piece.summary.name);
+        for (const report& child : part.children)
+          if (child.name == "deviation")
+            merge_deviations(deviation, child);
       }
     }
+    if (!deviation.children.empty())
+      summary.children.push_back(std::move(deviation));
   }
 
   void collect_warnings(const report& from, const std::string& piece) {

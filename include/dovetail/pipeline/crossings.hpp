@@ -74,13 +74,24 @@ inline simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton,
   return whole;
 }
 
-/// Lines that cross in a region's parameter plane go, with the interfaces that end on them. Throws
-/// `mesher_error` where there are none that could go.
-inline std::vector<std::array<local_id, 2>>
-merges_of_failed_patches(const coarse_skeleton& coarse, const std::vector<patch_failure>& failures) {
+/// Lines that cross in a region's parameter plane go, with the interfaces that end on them, and so does an
+/// interface face that is folded over; where a region is, it is refined like one that crosses itself. Throws
+/// `mesher_error` where there is nothing that could go.
+inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
+                                                const std::vector<patch_failure>& failures) {
+  suppression_plan plan;
   std::set<std::array<local_id, 2>> pairs;
   for (const patch_failure& failure : failures) {
-    bool can_go = false;
+    if (!failure.folded.empty() && failure.region != no_id) {
+      const local_id face = coarse.regions[static_cast<std::size_t>(failure.region)].cad_face;
+      for (const auto& [a, b, c] : failure.folded)
+        plan.surface_crossings.push_back(
+            {{face, face}, (a + b + c) / 3.0, (distance(a, b) + distance(b, c) + distance(c, a)) / 3});
+      continue;
+    }
+    bool can_go = failure.face != no_id;
+    if (can_go)
+      pairs.insert(coarse.faces[static_cast<std::size_t>(failure.face)].subdomains);
     for (const local_id line : failure.removable_lines) {
       const auto& ends = coarse.lines[static_cast<std::size_t>(line)].vertices;
       for (const skeleton_face& face : coarse.faces)
@@ -92,9 +103,10 @@ merges_of_failed_patches(const coarse_skeleton& coarse, const std::vector<patch_
         }
     }
     if (!can_go)
-      throw mesher_error(failure.reason + "; give a smaller size there");
+      throw mesher_error(failure.reason);
   }
-  return {pairs.begin(), pairs.end()};
+  plan.merges.assign(pairs.begin(), pairs.end());
+  return plan;
 }
 
 } // namespace detail
@@ -105,7 +117,7 @@ inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_st
                                             const any_parameters<3>& given, report& intersection) {
   const remeshed_patches& patches = made.patches;
   if (!patches.failures.empty())
-    return {.merges = detail::merges_of_failed_patches(made.coarse, patches.failures)};
+    return detail::plan_for_failed_patches(made.coarse, patches.failures);
   const stopwatch clock;
   given.options.on_progress("intersection", 0, 0);
   std::vector<bool> planar(made.fine.sides.size(), false);

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/corner_angles.hpp"
+#include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
@@ -58,26 +59,34 @@ inline interface_angles coarse_interface_angles(const simplicial_background<3>& 
                                                 const side_table<3>& sides,
                                                 std::span<const side_state> side_states,
                                                 std::span<const local_id> subdomain_of_element,
-                                                const generate_options& options) {
+                                                const any_sizing& size, const generate_options& options) {
   const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
   const auto origins = triangle_origins(boundary, side_states);
-  return measure_interface_angles(
+  auto angles = measure_interface_angles(
       {span_of(mesh.volume.points), span_of(boundary.sides), span_of(boundary.subdomains), span_of(origins)},
       options.interface_angle_deg);
+  const auto on_curves = edges_on_curves(mesh.surface);
+  std::vector<local_id> curves;
+  for (const auto& edge : mesh.surface.curve_edges)
+    curves.push_back(edge.curve);
+  find_forced(angles, boundary.sides,
+              {mesh.volume.points, mesh.surface.mesh.elements, mesh.surface.mesh.tags, on_curves, curves},
+              size, options.interface_angle_deg);
+  return angles;
 }
 
 inline interface_angles coarse_interface_angles(const simplicial_background<2>& mesh,
                                                 const side_table<2>& sides,
                                                 std::span<const side_state> side_states,
                                                 std::span<const local_id> subdomain_of_element,
-                                                const generate_options& options) {
+                                                const any_sizing&, const generate_options& options) {
   return measure_corner_angles({mesh.surface.mesh, sides, side_states, subdomain_of_element},
                                options.surface_angle_deg);
 }
 
 inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
                                               const side_table<3>& sides,
-                                              std::span<const side_state> side_states,
+                                              std::span<const side_state> side_states, const any_sizing& size,
                                               const generate_options& options) {
   const auto& first = skeleton.patches.first_triangle;
   std::vector<triangle_origin> origins(skeleton.fine.sides.size(), triangle_origin::cad);
@@ -87,16 +96,20 @@ inline interface_angles fine_interface_angles(const realized<3>& skeleton, const
     std::fill(origins.begin() + first[patch], origins.begin() + first[patch + 1],
               side_states[side] == side_state::refused ? triangle_origin::refused : triangle_origin::kept);
   }
-  return measure_interface_angles({span_of(skeleton.fine.points), span_of(skeleton.fine.sides),
-                                   span_of(skeleton.fine.subdomains), span_of(origins)},
-                                  options.interface_angle_deg);
+  const fine_skeleton& fine = skeleton.fine;
+  auto angles = measure_interface_angles(
+      {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)},
+      options.interface_angle_deg);
+  find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
+              size, options.interface_angle_deg);
+  return angles;
 }
 
 /// Between the first edges of the lines at each vertex.
 inline interface_angles fine_interface_angles(const realized<2>& skeleton,
                                               const simplicial_background<2>& mesh,
                                               const side_table<2>& sides,
-                                              std::span<const side_state> side_states,
+                                              std::span<const side_state> side_states, const any_sizing&,
                                               const generate_options& options) {
   const auto leaves = [&](local_id side, local_id vertex) {
     const auto& ends = sides.vertices[static_cast<std::size_t>(side)];

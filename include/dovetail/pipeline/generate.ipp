@@ -66,8 +66,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   const stopwatch partition_clock;
   auto pieces = decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
                              detail::materials_of(coarse), given.partition_it, result.plan.subdomains);
-  result.coarse_angles =
-      detail::coarse_interface_angles(coarse, sides, simplified.side_states, pieces.part_of_element, options);
+  result.coarse_angles = detail::coarse_interface_angles(coarse, sides, simplified.side_states,
+                                                         pieces.part_of_element, background.size, options);
   pieces.summary.seconds = partition_clock.seconds();
   const auto side_states = std::move(simplified.side_states);
   simplified = {}; // its graph is as large as the background mesh
@@ -76,7 +76,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given);
   auto [skeleton, meshed] = rounds.mesh_pieces(weights);
   result.subdomain_of_element = skeleton.subdomain_of_element;
-  result.fine_angles = detail::fine_interface_angles(skeleton, coarse, sides, side_states, options);
+  result.fine_angles =
+      detail::fine_interface_angles(skeleton, coarse, sides, side_states, background.size, options);
   result.quality = meshed.quality;
   result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);

@@ -8,6 +8,7 @@
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
+#include "dovetail/skeleton/segment_matching.hpp"
 
 #include <algorithm>
 #include <span>
@@ -16,6 +17,17 @@
 namespace dovetail {
 
 namespace detail {
+
+/// Remeshes the lines of a skeleton.
+template <int D>
+void space_lines(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
+                 const refined_sizing& size, skeleton_store& made, const any_parameters<D>& given,
+                 realized<D>& result) {
+  result.lines = number_lines(result.coarse,
+                              remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
+                                           made.lines, given.options.on_progress),
+                              coarse_points, surface.vertex_hosts);
+}
 
 /// The surface step of both dimensions: the skeleton of the pieces of a surface, and of the interface faces
 /// that end on it, with its lines remeshed.
@@ -28,10 +40,7 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
   const std::size_t made_before = made.lines.made();
   realized<D> result;
   result.coarse = extract_skeleton(surface, pieces, std::move(faces));
-  result.lines = number_lines(result.coarse,
-                              remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
-                                           made.lines, given.options.on_progress),
-                              coarse_points, surface.vertex_hosts);
+  space_lines(model, surface, coarse_points, size, made, given, result);
   report& summary = result.summary;
   summary.name = "skeleton";
   summary.set("lines", static_cast<double>(result.coarse.lines.size()));
@@ -62,14 +71,27 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   auto result = realize_lines<3>(model, mesh.surface, mesh.volume.points,
                                  induced_subdomains(mesh, sides, subdomain_of_element),
                                  interface_faces(mesh, sides, subdomain_of_element), size, made, given);
-  auto remeshed =
-      remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size,
-                      given.mesh_surface, given.run_tasks, made.patches, given.options.on_progress);
+  const auto fill = [&] {
+    return remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size,
+                           given.mesh_surface, given.run_tasks, made.patches, given.options.on_progress);
+  };
+  auto remeshed = fill();
+  const stopwatch matching_clock;
+  const std::size_t matched = match_segments(model, mesh.volume.points, result.coarse, result.lines, remeshed,
+                                             size, given.options.interface_angle_deg);
+  result.summary.set("matched_lines", static_cast<double>(matched));
+  result.summary.set("matching_seconds", matching_clock.seconds());
+  if (matched > 0) {
+    remeshed = {};
+    space_lines<3>(model, mesh.surface, mesh.volume.points, size, made, given, result);
+    remeshed = fill();
+  }
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
   result.lines = {};
   append(result.summary.counters, remeshed.summary.counters);
   append(result.summary.warnings, remeshed.summary.warnings);
+  append(result.summary.children, remeshed.summary.children);
   return result;
 }
 

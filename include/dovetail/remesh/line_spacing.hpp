@@ -22,7 +22,9 @@ struct line_spacing {
   /// Few segments become one, two or four, mostly two. A triangle between three lines of as many segments
   /// each falls into triangles of its own shape, while one between lines of one and two has a corner halved.
   bool even_when_few = false;
-  int deepest = 16; ///< halvings of the range while integrating
+  int given_segments = 0; ///< exactly so many; 0: as the sizes ask
+  double bias = 0;        ///< in (-1, 1): by so much the first segments are longer, and the last shorter
+  int deepest = 16;       ///< halvings of the range while integrating
 
   /// Parameters t[0] = first < ... < t[n] = last, first < last. Neighbours are about one target length apart:
   /// n = max(minimum_segments, round(integral of |C'| / h)), see `even_when_few`. `curve(t)` gives a
@@ -94,14 +96,17 @@ private:
     for (const leaf& l : leaves)
       total += l.segments;
     const auto count = static_cast<std::size_t>(
-        std::max(static_cast<double>(minimum_segments), std::min(rounded(total), 1e8)));
+        given_segments > 0 ? given_segments
+                           : std::max(static_cast<double>(minimum_segments), std::min(rounded(total), 1e8)));
     std::vector<double> t{first};
     t.reserve(count + 1);
     double before = 0;
     std::size_t next = 1;
     for (const leaf& l : leaves) {
       while (next < count) {
-        const double wanted = total * static_cast<double>(next) / static_cast<double>(count);
+        const double even = static_cast<double>(next) / static_cast<double>(count);
+        const double wanted =
+            total * static_cast<double>(next) / static_cast<double>(count) + total * bias * even * (1 - even);
         if (wanted > before + l.segments)
           break;
         const double part = l.segments > 0 ? (wanted - before) / l.segments : 0.5;

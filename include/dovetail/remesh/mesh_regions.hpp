@@ -30,7 +30,7 @@ namespace dovetail {
 /// How often a region is tried before its faults are handed back.
 struct region_attempts {
   int chords = 6; ///< times again without inner edges that must not be
-  int folds = 0;  ///< times again with sizes inside 0.8 times those before, while triangles are folded over
+  int folds = 6;  ///< times again with sizes inside 0.8 times those before, while triangles are folded over
 };
 
 /// Meshes one region on its surface, and again as long as `attempts` allow; of attempts with folds the one
@@ -40,6 +40,12 @@ struct region_attempts {
 /// one of two, and what the mesher throws.
 patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surface,
                        const surface_region& region, const any_sizing& size, const region_attempts& attempts);
+
+/// What is wrong with a region that is folded over still.
+inline std::string folds_of(const patch_mesh& made) {
+  return std::to_string(made.folded.size()) +
+         " triangles stay folded over; repair the face or give a smaller size there";
+}
 
 /// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
 /// meshes, so each is built when it is needed and not held.
@@ -86,6 +92,7 @@ struct meshed_regions {
 struct mesh_regions_options {
   region_attempts attempts = {};
   bool parameters = true; ///< false: the meshes come without `inner_uv`
+  bool deviation = false; ///< true: meshes on CAD faces have their `surface_deviation` in their summary
   double triangles_per_task = 4096;
   progress on_progress = {};
   std::string stage = "regions";

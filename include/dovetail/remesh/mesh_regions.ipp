@@ -8,6 +8,7 @@
 #include "dovetail/mesh/chain_sum.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/unwanted_chords.hpp"
 
 #include <algorithm>
@@ -164,11 +165,17 @@ private:
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
     const surface_region region = set_.region(r);
-    patch_mesh made = mesh_region(mesher_, set_.surface_of(model, r), region,
-                                  size_.near(roomy_box_around(region.boundary.points)), options_.attempts);
+    const any_surface surface = set_.surface_of(model, r);
+    const any_sizing size = size_.near(roomy_box_around(region.boundary.points));
+    patch_mesh made = mesh_region(mesher_, surface, region, size, options_.attempts);
+    made.summary = {};
+    if (options_.deviation && region.face != no_id) {
+      const surface_deviation off = measure_deviation(surface, region.boundary, made, size);
+      made.summary.set("points", off.points);
+      made.summary.set("centres", off.centres);
+    }
     if (!options_.parameters)
       made.inner_uv.clear();
-    made.summary = {};
     return made;
   }
 

@@ -43,6 +43,7 @@ public:
       : surface_(surface), boundary_(boundary), made_(made), unwanted_(boundary.forbidden_edges),
         frozen_(static_cast<local_id>(boundary.labels.size())) {
     append(unwanted_, passages_of(boundary, made).repeated());
+    append(unwanted_, made.repeated_edges);
     for_each_edge_before(frozen_, made.triangles, [&](const simplex<1>& edge) {
       if (const local_id label = boundary.labels[at(edge[0])]; label == boundary.labels[at(edge[1])])
         unwanted_.push_back({label, label});

@@ -185,6 +185,13 @@ struct interface_face_patch {
   skeleton_patch patch;
 };
 
+/// The lines of an interface face: of each side of its key order, from corner i + 1 to corner i + 2.
+inline std::array<local_id, 3> lines_of(const skeleton_face& face, const std::vector<skeleton_line>& lines) {
+  const simplex<2> key = key_order(face);
+  return {find_line(lines, key[1], key[2]), find_line(lines, key[2], key[0]),
+          find_line(lines, key[0], key[1])};
+}
+
 /// Builds the patch of an interface face.
 inline interface_face_patch interface_patch(const skeleton_face& face, std::span<const vec3> coarse_points,
                                             const numbered_lines& lines) {
@@ -192,12 +199,10 @@ inline interface_face_patch interface_patch(const skeleton_face& face, std::span
   std::array<vec3, 3> corners;
   std::array<std::vector<vec3>, 3> sides;
   std::array<std::vector<local_id>, 3> labels;
-  std::array<local_id, 3> line_of_side;
+  const std::array<local_id, 3> line_of_side = lines_of(face, lines.keys);
   for (std::size_t i = 0; i < 3; ++i) {
-    const local_id from = key[(i + 1) % 3], to = key[(i + 2) % 3];
     corners[i] = coarse_points[static_cast<std::size_t>(key[i])];
-    line_of_side[i] = find_line(lines.keys, from, to);
-    labels[i] = lines.along(line_of_side[i], from);
+    labels[i] = lines.along(line_of_side[i], key[(i + 1) % 3]);
     for (const local_id number : labels[i])
       sides[i].push_back(lines.points[static_cast<std::size_t>(number)]);
   }
@@ -211,12 +216,9 @@ inline interface_face_patch interface_patch(const skeleton_face& face, std::span
 
 /// Whether an interface face has an edge on the CAD surface and so leaves its coarse plane when remeshed.
 inline bool is_curved(const skeleton_face& face, const std::vector<skeleton_line>& lines) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const local_id line = find_line(lines, face.vertices[i], face.vertices[(i + 1) % 3]);
-    if (lines[static_cast<std::size_t>(line)].on.dimension < 3)
-      return true;
-  }
-  return false;
+  const std::array<local_id, 3> sides = lines_of(face, lines);
+  return std::any_of(sides.begin(), sides.end(),
+                     [&](local_id line) { return lines[static_cast<std::size_t>(line)].on.dimension < 3; });
 }
 
 } // namespace dovetail

@@ -72,8 +72,8 @@ inline fine_line space_on_curve(const any_geometry& model, const skeleton_line& 
                                 const any_sizing& size) {
   const auto curve = [&](double t) { return model.curve_frame(line.on.id, t); };
   const bool backwards = line.t[0] > line.t[1];
-  auto t =
-      remesh::line_spacing{}(curve, std::min(line.t[0], line.t[1]), std::max(line.t[0], line.t[1]), size);
+  auto t = remesh::line_spacing{.given_segments = line.segments, .bias = backwards ? -line.bias : line.bias}(
+      curve, std::min(line.t[0], line.t[1]), std::max(line.t[0], line.t[1]), size);
   if (backwards)
     std::reverse(t.begin(), t.end());
   fine_line fine;
@@ -87,7 +87,8 @@ inline fine_line space_on_curve(const any_geometry& model, const skeleton_line& 
 inline fine_line space_on_face(const any_geometry& model, const skeleton_line& line, vec3 first, vec3 last,
                                const any_sizing& size) {
   const face_line on_face(model, line, first, last);
-  const auto s = remesh::line_spacing{.even_when_few = true}(on_face, 0.0, 1.0, size);
+  const auto s = remesh::line_spacing{
+      .even_when_few = true, .given_segments = line.segments, .bias = line.bias}(on_face, 0.0, 1.0, size);
   fine_line fine;
   for (std::size_t i = 1; i + 1 < s.size(); ++i) {
     fine.uv.push_back(on_face.uv(s[i]));
@@ -96,9 +97,10 @@ inline fine_line space_on_face(const any_geometry& model, const skeleton_line& l
   return fine;
 }
 
-inline fine_line space_straight(vec3 first, vec3 last, const any_sizing& size) {
+inline fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last, const any_sizing& size) {
   const auto straight = [&](double s) { return curve_frame{first + s * (last - first), last - first}; };
-  const auto s = remesh::line_spacing{.even_when_few = true}(straight, 0.0, 1.0, size);
+  const auto s = remesh::line_spacing{
+      .even_when_few = true, .given_segments = line.segments, .bias = line.bias}(straight, 0.0, 1.0, size);
   fine_line fine;
   for (std::size_t i = 1; i + 1 < s.size(); ++i)
     fine.points.push_back(straight(s[i]).point);
@@ -116,7 +118,7 @@ inline fine_line remesh_line(const any_geometry& model, const skeleton_line& lin
     return detail::space_on_curve(model, line, size);
   if (line.on.dimension == 2)
     return detail::space_on_face(model, line, first, last, size);
-  return detail::space_straight(first, last, size);
+  return detail::space_straight(line, first, last, size);
 }
 
 /// The box in which a line looks for refined sizes.
@@ -130,7 +132,7 @@ inline box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_poi
 inline content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points,
                           const refined_sizing& size) {
   key_maker make(size.key_near(place_of(line, coarse_points)));
-  make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id});
+  make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id})(std::int64_t{line.segments})(line.bias);
   for (std::size_t end = 0; end < 2; ++end) {
     const vec3 p = coarse_points[static_cast<std::size_t>(line.vertices[end])];
     make(p.x)(p.y)(p.z)(line.t[end])(line.uv[end].x)(line.uv[end].y);

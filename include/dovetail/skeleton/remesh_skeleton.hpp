@@ -17,11 +17,12 @@
 namespace dovetail {
 
 /// A region or face that could not be remeshed, and lines on CAD faces at the fault that a merge would
-/// remove.
+/// remove; or one that stays folded over.
 struct patch_failure {
-  local_id region = no_id;               ///< or no_id
-  local_id face = no_id;                 ///< or no_id
-  std::vector<local_id> removable_lines; ///< lines at the fault that do not lie on CAD curves
+  local_id region = no_id;                      ///< or no_id
+  local_id face = no_id;                        ///< or no_id
+  std::vector<local_id> removable_lines;        ///< lines at the fault that do not lie on CAD curves
+  std::vector<std::array<vec3, 3>> folded = {}; ///< triangles that turn away from the surface
   std::string reason;
 };
 

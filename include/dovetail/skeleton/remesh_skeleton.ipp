@@ -6,6 +6,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
@@ -79,8 +80,9 @@ private:
 
   void mesh_patches() {
     region_set set = patches();
-    meshed_ = mesh_regions(model_, set, mesher_, size_, run_, store_,
-                           {.parameters = false, .on_progress = on_progress_, .stage = "skeleton"});
+    meshed_ = mesh_regions(
+        model_, set, mesher_, size_, run_, store_,
+        {.parameters = false, .deviation = true, .on_progress = on_progress_, .stage = "skeleton"});
     if (!meshed_.failures.empty()) {
       const auto& [patch, reason] = *meshed_.failures.begin();
       throw mesher_error("remeshing of " + name_of(patch) + " failed: " + reason);
@@ -101,24 +103,21 @@ private:
     reserve(fine);
     append(fine.points, lines_.points); // boundaries are still made of them
     append(fine.point_hosts, lines_.hosts);
-    double folded = 0;
+    report deviation;
     meshed_.for_each(store_, [&](std::size_t p, const patch_mesh& mesh) {
-      if (!mesh.crossings.empty() || !mesh.misplaced.empty())
+      if (is_region(p))
+        note_deviation(deviation, "face " + std::to_string(skeleton_.regions[p].cad_face),
+                       {mesh.summary.get("points"), mesh.summary.get("centres")});
+      if (!mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty())
         result.patches.failures.push_back(failure_of(p, mesh));
-      if (!mesh.folded.empty()) {
-        folded += static_cast<double>(mesh.folded.size());
-        if (is_region(p))
-          result.summary.warnings.push_back(name_of(p) + ": " + std::to_string(mesh.folded.size()) +
-                                            " triangles turn away from the surface");
-      }
       append_patch(p, mesh, result);
     });
     result.patches.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
-    result.summary.set("folded_triangles", folded);
     for (std::size_t l = 0; l < lines_.keys.size(); ++l)
       if (lines_.keys[l].on.dimension == 1)
         append_curve_edges(static_cast<local_id>(l), fine);
     result.patches.keys = std::move(meshed_.keys);
+    result.summary.children.push_back(std::move(deviation));
     return result;
   }
 
@@ -150,7 +149,21 @@ private:
     for (const local_id line : lines)
       if (line != no_id && lines_.keys[at(line)].on.dimension > 1)
         failure.removable_lines.push_back(line);
-    failure.reason = name_of(p) + ": its boundary lines cross in the parameter plane";
+    if (mesh.folded.empty()) {
+      failure.reason =
+          name_of(p) + ": its boundary lines cross in the parameter plane; give a smaller size there";
+      return failure;
+    }
+    failure.reason = name_of(p) + ": " + folds_of(mesh);
+    const std::vector<vec3> frozen = patch(p).boundary.points;
+    for (const local_id t : mesh.folded) {
+      std::array<vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t v = at(mesh.triangles[at(t)][k]);
+        corners[k] = v < frozen.size() ? frozen[v] : mesh.inner_points[v - frozen.size()];
+      }
+      failure.folded.push_back(corners);
+    }
     return failure;
   }
 

@@ -1,0 +1,231 @@
+/// @file
+/// What `forced_angles.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/decomposition/forced_angles.hpp"
+#include "dovetail/mesh/quality.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// The CAD around the places of some violations.
+class forcing_entities {
+public:
+  forcing_entities(const interface_angles& angles, std::span<const simplex<2>> triangles, const cad_mesh& cad,
+                   const any_sizing& size, double threshold_deg)
+      : triangles_(triangles), cad_(cad), size_(size), threshold_(threshold_deg) {
+    mark_places(angles);
+    collect_curves();
+    collect_edges();
+    find_sharp_edges();
+  }
+
+  void judge(angle_violation& violation) const {
+    std::vector<host> forcing;
+    if (violation.is_wedge()) {
+      add_sharp_edges(violation.edge[0], forcing);
+      add_sharp_edges(violation.edge[1], forcing);
+    } else {
+      const auto [corner, side] = corner_of(violation);
+      add_sharp_edges(corner, forcing);
+      add_curves(corner, forcing);
+      add_short_entity(side, forcing);
+    }
+    if (!forcing.empty())
+      violation.cause = violation_cause::forced;
+    violation.cad = forcing.empty() ? around(violation) : std::move(forcing);
+    sort_unique(violation.cad);
+  }
+
+private:
+  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+  vec3 point(local_id v) const { return cad_.points[at(v)]; }
+  bool is_near(local_id v) const { return near_[at(v)] != 0; }
+
+  /// A CAD triangle at an edge.
+  struct edge_of_triangle {
+    simplex<1> edge; ///< in growing order
+    std::size_t triangle = 0;
+  };
+  /// A curve's edge at a place.
+  struct edge_of_curve {
+    simplex<1> edge;
+    local_id curve = no_id;
+  };
+  /// An edge at which two faces meet at a small angle.
+  struct sharp_edge {
+    simplex<1> edge;
+    std::array<host, 3> entities; ///< the curve and the two faces
+  };
+
+  void mark_places(const interface_angles& angles) {
+    near_.assign(cad_.points.size(), 0);
+    for (const angle_violation& v : angles.violations)
+      if (v.is_wedge())
+        for (const local_id end : v.edge)
+          near_[at(end)] = 1;
+      else
+        for (const local_id corner : triangles_[at(v.sides[0])])
+          near_[at(corner)] = 1;
+  }
+
+  void collect_curves() {
+    for (std::size_t e = 0; e < cad_.curve_edges.size(); ++e) {
+      const auto& [a, b] = cad_.curve_edges[e];
+      const std::size_t curve = at(cad_.curves[e]);
+      length_of_curve_.resize(std::max(length_of_curve_.size(), curve + 1), 0);
+      length_of_curve_[curve] += distance(point(a), point(b));
+      if (is_near(a) || is_near(b))
+        curve_edges_.push_back({sorted_vertices(simplex<1>{a, b}), cad_.curves[e]});
+    }
+    sort_all(curve_edges_, [](const edge_of_curve& a, const edge_of_curve& b) { return a.edge < b.edge; });
+  }
+
+  void collect_edges() {
+    for (std::size_t t = 0; t < cad_.triangles.size(); ++t)
+      if (cad_.faces[t] != no_id)
+        for (std::size_t i = 0; i < 3; ++i)
+          if (const auto edge = sorted_vertices(pick(cad_.triangles[t], numbering::sides<2>[i]));
+              is_near(edge[0]) || is_near(edge[1]))
+            edges_.push_back({edge, t});
+    sort_all(edges_, [](const edge_of_triangle& a, const edge_of_triangle& b) {
+      return std::tie(a.edge, a.triangle) < std::tie(b.edge, b.triangle);
+    });
+  }
+
+  template <class Item>
+  static std::span<const Item> items_at(const std::vector<Item>& items, const simplex<1>& edge) {
+    const auto [first, last] = std::equal_range(items.begin(), items.end(), Item{edge, {}},
+                                                [](const Item& a, const Item& b) { return a.edge < b.edge; });
+    return {first, last};
+  }
+  local_id curve_at(const simplex<1>& edge) const {
+    const auto found = items_at(curve_edges_, edge);
+    return found.empty() ? no_id : found.front().curve;
+  }
+
+  void find_sharp_edges() {
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+      for (std::size_t j = i + 1; j < edges_.size() && edges_[j].edge == edges_[i].edge; ++j)
+        if (const local_id curve = curve_at(edges_[i].edge);
+            curve != no_id && opening(edges_[i], edges_[j]) < threshold_)
+          sharp_.push_back({edges_[i].edge,
+                            {host{1, curve}, host{2, cad_.faces[edges_[i].triangle]},
+                             host{2, cad_.faces[edges_[j].triangle]}}});
+  }
+
+  /// The angle between two triangles at their edge; 360 where the domain is not between them.
+  double opening(const edge_of_triangle& a, const edge_of_triangle& b) const {
+    const vec3 origin = point(a.edge[0]), axis = normalized(point(a.edge[1]) - origin);
+    const auto leaves = [&](const edge_of_triangle& of) {
+      const simplex<2>& t = cad_.triangles[of.triangle];
+      const local_id apex = t[0] + t[1] + t[2] - of.edge[0] - of.edge[1];
+      const vec3 d = point(apex) - origin;
+      return d - dot(d, axis) * axis;
+    };
+    const auto normal = [&](const edge_of_triangle& of) {
+      const auto p = corners(cad_.points, cad_.triangles[of.triangle]);
+      return cross(p[1] - p[0], p[2] - p[0]);
+    };
+    const vec3 to_a = leaves(a), to_b = leaves(b);
+    if (dot(normal(a), to_b) > 0 && dot(normal(b), to_a) > 0) // as seen from outside
+      return 360;
+    return degrees_per_radian * angle_between(to_a, to_b);
+  }
+
+  void add_sharp_edges(local_id vertex, std::vector<host>& forcing) const {
+    for (const sharp_edge& sharp : sharp_)
+      if (sharp.edge[0] == vertex || sharp.edge[1] == vertex)
+        append(forcing, sharp.entities);
+  }
+
+  /// Two curves with a small angle between them at their common end.
+  void add_curves(local_id vertex, std::vector<host>& forcing) const {
+    std::vector<edge_of_curve> here;
+    for (const edge_of_curve& e : curve_edges_)
+      if (e.edge[0] == vertex || e.edge[1] == vertex)
+        here.push_back(e);
+    const auto direction = [&](const edge_of_curve& e) {
+      return point(e.edge[0] == vertex ? e.edge[1] : e.edge[0]) - point(vertex);
+    };
+    for (std::size_t i = 0; i < here.size(); ++i)
+      for (std::size_t j = i + 1; j < here.size(); ++j)
+        if (here[i].edge != here[j].edge &&
+            degrees_per_radian * angle_between(direction(here[i]), direction(here[j])) < threshold_)
+          append(forcing, std::array{host{1, here[i].curve}, host{1, here[j].curve}});
+  }
+
+  /// The curve that the side is, or the face that it crosses from curve to curve, if that is too short.
+  void add_short_entity(const simplex<1>& side, std::vector<host>& forcing) const {
+    const vec3 middle = midpoint(point(side[0]), point(side[1]));
+    const double least = 2 * std::sin(0.5 * threshold_ / degrees_per_radian) * size_(middle);
+    if (const local_id curve = curve_at(side); curve != no_id) {
+      if (length_of_curve_[at(curve)] < least)
+        forcing.push_back({1, curve});
+      return;
+    }
+    const auto on_curve = [&](local_id vertex) {
+      return std::any_of(curve_edges_.begin(), curve_edges_.end(),
+                         [&](const edge_of_curve& e) { return e.edge[0] == vertex || e.edge[1] == vertex; });
+    };
+    if (distance(point(side[0]), point(side[1])) < least && on_curve(side[0]) && on_curve(side[1]))
+      for (const edge_of_triangle& e : items_at(edges_, side))
+        forcing.push_back({2, cad_.faces[e.triangle]});
+  }
+
+  /// The corner with a triangle's smallest angle, and the side opposite to it.
+  std::pair<local_id, simplex<1>> corner_of(const angle_violation& violation) const {
+    const simplex<2>& t = triangles_[at(violation.sides[0])];
+    const auto angles = wedge_angles(corners(cad_.points, t));
+    const auto least =
+        static_cast<std::size_t>(std::min_element(angles.begin(), angles.end()) - angles.begin());
+    return {t[least], sorted_vertices(simplex<1>{t[(least + 1) % 3], t[(least + 2) % 3]})};
+  }
+
+  /// The faces that the violation touches with an edge.
+  std::vector<host> around(const angle_violation& violation) const {
+    std::vector<host> faces;
+    const auto add = [&](simplex<1> edge) {
+      for (const edge_of_triangle& e : items_at(edges_, sorted_vertices(edge)))
+        faces.push_back({2, cad_.faces[e.triangle]});
+    };
+    if (violation.is_wedge())
+      add(violation.edge);
+    else
+      for (std::size_t i = 0; i < 3; ++i)
+        add(pick(triangles_[at(violation.sides[0])], numbering::sides<2>[i]));
+    return faces;
+  }
+
+  std::span<const simplex<2>> triangles_;
+  const cad_mesh& cad_;
+  const any_sizing& size_;
+  double threshold_;
+  std::vector<std::uint8_t> near_;      ///< per point: whether a violation is there
+  std::vector<edge_of_triangle> edges_; ///< at places, by growing edge
+  std::vector<edge_of_curve> curve_edges_;
+  std::vector<double> length_of_curve_;
+  std::vector<sharp_edge> sharp_;
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE void find_forced(interface_angles& angles, std::span<const simplex<2>> triangles,
+                                 const cad_mesh& cad, const any_sizing& size, double threshold_deg) {
+  if (angles.violations.empty())
+    return;
+  const detail::forcing_entities entities(angles, triangles, cad, size, threshold_deg);
+  for (angle_violation& violation : angles.violations)
+    entities.judge(violation);
+}
+
+} // namespace dovetail

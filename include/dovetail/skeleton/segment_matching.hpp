@@ -1,0 +1,30 @@
+/// @file
+/// Numbers of segments that suit each other. Lines of nearly the same length whose numbers of segments come
+/// out differently by rounding leave an interface face with a small angle at a corner that no triangulation
+/// of the face can mend; other numbers of segments for its lines can.
+#pragma once
+
+#include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/skeleton/fine_lines.hpp"
+#include "dovetail/skeleton/remesh_skeleton.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace dovetail {
+
+/// Gives lines other numbers of segments, or uneven ones (`skeleton_line::segments`, `bias`), where that
+/// lifts the smallest angle of an interface face towards `threshold_deg` and costs the faces beside it less.
+/// `made` is the skeleton with its present `lines`; nothing changes when some of its patches failed. Faces
+/// are tried with the native mesher, in their order, so that the result is a function of the skeleton, the
+/// model and the sizes. Returns the number of lines with such segments. Costs up to some hundred meshes of
+/// each face with a smaller angle.
+std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
+                           coarse_skeleton& skeleton, const numbered_lines& lines,
+                           const remeshed_skeleton& made, const refined_sizing& size, double threshold_deg);
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/skeleton/segment_matching.ipp"
+#endif

@@ -1,0 +1,67 @@
+#include "dovetail/intersection/crossing_refinement.hpp"
+#include "dovetail/pipeline/crossings.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dovetail;
+
+namespace {
+
+/// A region of CAD face 9 and one interface face, between subdomains 1 and 2, that ends on it.
+coarse_skeleton skeleton() {
+  coarse_skeleton coarse;
+  coarse.lines = {{{0, 1}, {2, 9}, {}, {}}, {{0, 2}, {3, no_id}, {}, {}}, {{1, 2}, {3, no_id}, {}, {}}};
+  coarse.regions = {{9, {1, no_id}, {0}, {}}};
+  coarse.faces = {{{0, 1, 2}, {1, 2}}};
+  return coarse;
+}
+
+patch_failure folded_triangle() {
+  patch_failure failure;
+  failure.folded = {{vec3{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}};
+  failure.reason = "a region of face 9: 1 triangles stay folded over";
+  return failure;
+}
+
+} // namespace
+
+TEST_CASE("where a region is folded over its sizes are made smaller, and nothing is merged") {
+  patch_failure failure = folded_triangle();
+  failure.region = 0;
+  const suppression_plan plan = detail::plan_for_failed_patches(skeleton(), {failure});
+  CHECK(plan.merges.empty());
+  REQUIRE(plan.surface_crossings.size() == 1);
+  CHECK(plan.surface_crossings[0].cad_faces == std::array<local_id, 2>{9, 9});
+  CHECK(plan.surface_crossings[0].center == vec3{1, 1, 0});
+  CHECK(plan.surface_crossings[0].size == doctest::Approx((6 + std::sqrt(18.0)) / 3));
+}
+
+TEST_CASE("an interface face that is folded over goes, with its subdomains merged") {
+  patch_failure failure = folded_triangle();
+  failure.face = 0;
+  const suppression_plan plan = detail::plan_for_failed_patches(skeleton(), {failure});
+  CHECK(plan.surface_crossings.empty());
+  CHECK(plan.merges == std::vector<std::array<local_id, 2>>{{1, 2}});
+}
+
+TEST_CASE("lines that cross go with the interfaces on them; without any the face is named") {
+  patch_failure failure;
+  failure.region = 0;
+  failure.reason = "a region of face 9: its boundary lines cross in the parameter plane";
+  CHECK_THROWS_WITH_AS(detail::plan_for_failed_patches(skeleton(), {failure}), failure.reason.c_str(),
+                       mesher_error);
+  failure.removable_lines = {0};
+  CHECK(detail::plan_for_failed_patches(skeleton(), {failure}).merges ==
+        std::vector<std::array<local_id, 2>>{{1, 2}});
+}
+
+TEST_CASE("a face that stays folded over, also when refined, is named") {
+  geometry_topology topology;
+  topology.faces.resize(2);
+  topology.faces[1].name = "blend";
+  CHECK_THROWS_WITH_AS(
+      throw_crossing_faces(topology, {1, 1}),
+      "the surface of face 1 'blend' crosses itself or stays folded over, also when refined; "
+      "repair the model there or give a smaller size",
+      intersection_error);
+}
