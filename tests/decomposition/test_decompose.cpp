@@ -184,6 +184,12 @@ TEST_CASE("stray components join the neighbour of largest interface, and every p
   CHECK(join_stray_components(graph, part, 2) == 2);
   CHECK(part ==
         std::vector<local_id>{0, 0, 0, 1, 1}); // 0 joins 1 over the edge of weight 5, both then go to 2
+  // Between two neighbours that are as near, the first.
+  const csr_graph between =
+      make_csr_graph({5, 5, 1, 5}, std::vector<weighted_edge>{{0, 1, 1}, {1, 2, 1}, {2, 3, 1}});
+  part = {0, 1, 0, 2};
+  CHECK(join_stray_components(between, part, 3) == 1);
+  CHECK(part == std::vector<local_id>{0, 1, 1, 2});
 }
 
 TEST_CASE("scattered partitions become connected parts; defects that are left are listed exactly") {
@@ -267,6 +273,8 @@ TEST_CASE("parts are given out in proportion to weight") {
   const std::vector<double> weights{10, 30, 60};
   const std::vector<local_id> nodes{100, 100, 100};
   CHECK(apportion_parts(weights, nodes, 10) == std::vector<int>{1, 3, 6});
+  CHECK(apportion_parts(std::vector<double>{60, 25, 25}, nodes, 6) ==
+        std::vector<int>{3, 2, 1}); // ties: the first
   CHECK(apportion_parts(weights, nodes, 2) == std::vector<int>{1, 1, 1});
   CHECK(apportion_parts(weights, std::vector<local_id>{1, 2, 2}, 10) == std::vector<int>{1, 2, 2});
 }

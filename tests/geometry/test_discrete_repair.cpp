@@ -118,6 +118,7 @@ TEST_CASE("nested shells are voids and solids in turn, separate ones are solids"
 TEST_CASE("open, crowded, one-sided and crossing surfaces are refused with a place") {
   auto open = box_soup({0, 0, 0}, {1, 1, 1}, 4);
   open.triangles.erase(open.triangles.begin() + 5);
+  open.patches.resize(open.triangles.size());
   CHECK(has(refusal(open), "part.stl: the surface is open: 3 edges"));
 
   triangle_soup crowded;

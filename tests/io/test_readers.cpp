@@ -161,6 +161,15 @@ TEST_CASE("a mesh in memory reads back from every format that it can be written 
   }
 }
 
+TEST_CASE("the hash of a mesh sees orientation and coordinates, and not how corners are turned") {
+  const auto hash = [](const simplex<3>& element, double z = 1) {
+    return io::mesh_hash(simplicial_mesh<3>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, z}}, {element}, {}});
+  };
+  CHECK(hash({1, 2, 0, 3}) == hash({0, 1, 2, 3}));
+  CHECK(hash({1, 0, 2, 3}) != hash({0, 1, 2, 3}));
+  CHECK(hash({0, 1, 2, 3}, 2) != hash({0, 1, 2, 3}));
+}
+
 TEST_CASE("surfaces are written as VTU and MSH too") {
   const testing::scratch_folder folder("surface");
   const simplicial_mesh<2> surface{

@@ -115,7 +115,8 @@ TEST_CASE("the tree gives what a loop over the sources gives") {
 
 TEST_CASE("a slope limit makes the growth exponential, then straight, and keeps the bounds true") {
   const double slope = 0.25;
-  for (const double outer : {0.5001, 1.5, 40.0}) {
+  // Straight at once, further out, and never.
+  for (const double outer : {0.5001, 1.5, 4.5, 40.0}) {
     const source_field free(2.0, {point_source({0, 0, 0}, 0.5, outer, 0.1)});
     const source_field limited(2.0, {point_source({0, 0, 0}, 0.5, outer, 0.1)}, slope);
     std::vector<double> radii;
