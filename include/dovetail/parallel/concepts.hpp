@@ -56,7 +56,7 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 ///
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
-/// Models: serial, threads, processes, any_executor.
+/// Models: serial, threads, processes, clock_watch, any_executor.
 template <class E>
 concept executor = std::copy_constructible<E> &&
     requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {
