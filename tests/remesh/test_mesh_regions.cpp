@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -279,4 +280,19 @@ TEST_CASE("regions are joined by their labels, along the face") {
     });
   CHECK(points.size() == 5);
   CHECK(area == doctest::Approx(0));
+}
+
+TEST_CASE("a region that bulges far out of its boundary is refined where it is, at its tip") {
+  const auto finger = [](vec2 uv) {
+    const double x = uv.x - 0.5, y = uv.y - 0.5;
+    return surface_frame{{uv.x, uv.y, 40 * std::exp(-20 * (x * x + y * y))}, {1, 0, 0}, {0, 1, 0}};
+  };
+  const any_surface surface{finger, [](vec3 p, vec2) { return vec2{p.x, p.y}; }};
+  const patch_boundary boundary = cushion().regions.front().boundary;
+  refined_sizing size(coarse);
+  const std::vector<size_ball> tip{{{0.5, 0.5, 40}, 0.1, 0.1}};
+  size.refine(tip);
+  CHECK(size.key_near(place_of(boundary, surface)) != content_key{});
+  CHECK(size.near(place_of(boundary, surface))(tip.front().center) == doctest::Approx(0.1));
+  CHECK(size.key_near(place_of(boundary, contract::plane_at_run_time())) == content_key{});
 }

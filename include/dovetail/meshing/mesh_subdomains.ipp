@@ -159,10 +159,12 @@ public:
 private:
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
   std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
+  box3 place(const piece_input<D>& input) const { return size_.is_refined() ? place_of(input) : box3{}; }
+
   byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
     const bool climbs = rung < ladder_.size();
     return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
-                         size_.near(place_of(input)), piece.reasons, piece.timed_out);
+                         size_.near(place(input)), piece.reasons, piece.timed_out);
   }
 
   void run_round(std::size_t rung) {
@@ -199,7 +201,7 @@ private:
     try {
       piece_input<D> input = source_(piece.subdomain);
       entity_store& store = shelf_->store();
-      piece_receipt receipt{.key = key_of(input, size_.key_near(place_of(input)))};
+      piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
       auto finished = store.find(receipt.key);
       if (!finished)
         finished = shelf_->find_released(receipt.key);

@@ -42,11 +42,15 @@ struct piece_summary {
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
 };
 
-/// The box in which a piece looks for refined sizes.
-template <int D>
-box3 place_of(const piece_input<D>& input) {
-  const auto& points = input.boundary.boundary.points;
-  return D == 3 ? box_around(points) : roomy_box_around(points);
+/// The box in which a piece looks for refined sizes: that of its closed boundary, or of its regions.
+inline box3 place_of(const piece_input<3>& input) {
+  return box_around(input.boundary.boundary.points);
+}
+inline box3 place_of(const piece_input<2>& input) {
+  box3 box = roomy_box_around(input.boundary.boundary.points);
+  for (const surface_region& region : input.boundary.regions)
+    box = united(box, place_of(region.boundary, region.surface));
+  return box;
 }
 
 /// The key of a piece: its boundary as the mesher gets it, and the key of the sizes near it. The numbers of

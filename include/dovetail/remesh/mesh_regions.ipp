@@ -113,6 +113,10 @@ public:
   }
 
 private:
+  box3 place(const any_geometry& model, std::size_t r, const patch_boundary& boundary) const {
+    return size_.is_refined() ? place_of(boundary, set_.surface_of(model, r)) : box3{};
+  }
+
   /// Labels are numbers of the present set; what counts of them is which points have the same one (poles),
   /// and which edges are forbidden.
   content_key key_of(std::size_t r, const surface_region& region) const {
@@ -126,7 +130,7 @@ private:
       if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
           at_x != first_with_label.end() && at_y != first_with_label.end())
         forbidden.push_back({at_x->second, at_y->second});
-    key_maker make(size_.key_near(roomy_box_around(b.points)));
+    key_maker make(size_.key_near(place(model_, r, b)));
     make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
         std::int64_t{options_.parameters});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
@@ -166,7 +170,7 @@ private:
   patch_mesh make(const any_geometry& model, std::size_t r) const {
     const surface_region region = set_.region(r);
     const any_surface surface = set_.surface_of(model, r);
-    const any_sizing size = size_.near(roomy_box_around(region.boundary.points));
+    const any_sizing size = size_.near(place(model, r, region.boundary));
     patch_mesh made = mesh_region(mesher_, surface, region, size, options_.attempts);
     made.summary = {};
     if (options_.deviation && region.face != no_id) {

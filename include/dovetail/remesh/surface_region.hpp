@@ -4,6 +4,7 @@
 
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -23,6 +24,23 @@ struct surface_region {
   std::function<bool(local_id, local_id)> forbids = {};
   double size_factor = 1; ///< of the sizes inside: below 1 for a region that was folded over
 };
+
+/// The box that a region lies in, about: around its boundary and a grid of points of the surface between,
+/// since a surface may bulge far out of its boundary; with room for what is between these.
+inline box3 place_of(const patch_boundary& boundary, const any_surface& surface) {
+  constexpr int steps = 6;
+  std::vector<vec3> points = boundary.points;
+  vec2 lower = boundary.uv.front(), upper = lower;
+  for (const vec2 uv : boundary.uv) {
+    lower = {std::min(lower.x, uv.x), std::min(lower.y, uv.y)};
+    upper = {std::max(upper.x, uv.x), std::max(upper.y, uv.y)};
+  }
+  const vec2 step = (1.0 / steps) * (upper - lower);
+  for (int i = 1; i < steps; ++i)
+    for (int j = 1; j < steps; ++j)
+      points.push_back(surface.frame({lower.x + i * step.x, lower.y + j * step.y}).point);
+  return roomy_box_around(points);
+}
 
 /// Finds the first region of a face.
 class region_of_face {

@@ -23,6 +23,8 @@ public:
     requires(!std::same_as<H, refined_sizing> && sizing_field<H>)
   refined_sizing(H plain) : plain_(std::move(plain)) {} // NOLINT: converts
 
+  /// Whether there are balls: else all of it is the same everywhere, and no box need be known.
+  bool is_refined() const { return !balls_.empty(); }
   /// Adds the balls that ask for less than the field at their centers. O(n log n) in all balls.
   void refine(std::span<const size_ball> more) {
     for (const size_ball& ball : more)
