@@ -3,7 +3,8 @@
 
 Reads OUT/*.pvtu and OUT/surface.vtp and prints one JSON object. Exit status 0 when the mesh is valid:
 positive volumes, every interior face shared by exactly two elements (by GlobalNodeIds), one coordinate per
-global id, a closed boundary that is the surface file's, triangle by triangle.
+global id, a closed boundary that is the surface file's, triangle by triangle. Of triangles (--dimension 2):
+areas, coordinates, none twice, and those of one CAD face beside each other turned alike.
 """
 
 import argparse
@@ -98,11 +99,12 @@ def shells(triangles):
         label = lower
 
 
-def check_volume(data, result, errors):
+def check_elements(data, corners, errors):
+    """Ids, points and elements by local numbers; what elements of any dimension have in common."""
     ids, points = global_points(data)
-    elements = connectivity(data.GetCells(), 4)
-    if not np.all(vtk_to_numpy(data.GetCellTypesArray()) == 10):
-        errors.append("cells that are not tetrahedra")
+    elements = connectivity(data.GetCells(), corners)
+    if not np.all(vtk_to_numpy(data.GetCellTypesArray()) == {3: 5, 4: 10}[corners]):
+        errors.append("cells of more than one kind")
     order = np.argsort(ids, kind="stable")
     same = np.diff(ids[order]) == 0
     moved = same & np.any(points[order][1:] != points[order][:-1], axis=1)
@@ -112,7 +114,27 @@ def check_volume(data, result, errors):
     used[elements] = True
     if not used.all():
         errors.append(f"{int((~used).sum())} points are in no element")
+    if len(count_rows(np.sort(ids[elements], axis=1))[0]) != len(elements):
+        errors.append("elements that occur twice")
+    return ids, points, elements
 
+
+def check_triangles(data, result, errors):
+    ids, points, elements = check_elements(data, 3, errors)
+    p = points[elements]
+    areas = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
+    if np.any(areas <= 0):
+        errors.append(f"{int((areas <= 0).sum())} elements without area")
+    named, cad = ids[elements], vtk_to_numpy(data.GetCellData().GetArray("region"))
+    passages = np.concatenate([np.column_stack([cad, named[:, a], named[:, b]]) for a, b in ((0, 1), (1, 2), (2, 0))])
+    turned = int((count_rows(passages)[1] > 1).sum())
+    if turned:
+        errors.append(f"{turned} edges that two triangles of a face pass in the same direction")
+    result.update(elements=len(elements), vertices=len(np.unique(ids)), area=float(areas.sum()))
+
+
+def check_volume(data, result, errors):
+    ids, points, elements = check_elements(data, 4, errors)
     corners = points[elements]
     volumes = np.einsum("ij,ij->i", np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]),
                         corners[:, 3] - corners[:, 0]) / 6
@@ -123,8 +145,6 @@ def check_volume(data, result, errors):
     smallest = angles.min(axis=1)
 
     named = ids[elements]
-    if len(count_rows(np.sort(named, axis=1))[0]) != len(named):
-        errors.append("elements that occur twice")
     faces = np.concatenate([named[:, s] for s in ([1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1])])
     distinct, uses = count_rows(np.sort(faces, axis=1))
     if np.any(uses > 2):
@@ -184,8 +204,12 @@ def main():
     if len(found) != 1:
         raise SystemExit(json.dumps({"valid": False, "errors": [f"{len(found)} .pvtu files in {folder}"]}))
     result, errors = {"file": found[0]}, []
-    boundary = check_volume(read(vtkXMLPUnstructuredGridReader(), found[0]), result, errors)
-    check_surface(read(vtkXMLPolyDataReader(), os.path.join(folder, "surface.vtp")), boundary, result, errors)
+    data = read(vtkXMLPUnstructuredGridReader(), found[0])
+    if np.all(vtk_to_numpy(data.GetCellTypesArray()) == 5):
+        check_triangles(data, result, errors)
+    else:
+        boundary = check_volume(data, result, errors)
+        check_surface(read(vtkXMLPolyDataReader(), os.path.join(folder, "surface.vtp")), boundary, result, errors)
     print(json.dumps({"valid": not errors, "errors": errors, **result}, indent=1))
     return 1 if errors else 0
 
