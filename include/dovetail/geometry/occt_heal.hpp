@@ -7,6 +7,7 @@
 #include "dovetail/geometry/occt_open_shells.hpp"
 #include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_repair.hpp"
+#include "dovetail/geometry/occt_spheres.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
 #include <BRepClass3d_SolidClassifier.hxx>
@@ -139,6 +140,7 @@ inline brep healed_brep(attributed_shape input, report& made, wanted what = want
   } else {
     make_solids_or_shells(input, made);
   }
+  turn_spheres(input, made);
   keep_oriented_solids(input, what);
 
   brep data = brep_builder(input.shape, input.names).build();
@@ -151,8 +153,7 @@ inline brep healed_brep(attributed_shape input, report& made, wanted what = want
                            (count > 1 ? " (and " + std::to_string(count - 1) + " more faults)" : "") +
                            "; repair the model in the CAD system");
   }
-  if (data.solids.size() > 1)
-    imprint_touching_solids(input, data, made);
+  imprint_touching_bodies(input, data, made);
   return data;
 }
 

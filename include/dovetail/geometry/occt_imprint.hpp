@@ -1,6 +1,6 @@
 /// @file
-/// Solids that touch without sharing topology: their contact faces are made common, so that the mesh
-/// conforms.
+/// Solids, and faces beside them, that touch without sharing topology: their contacts are made common, so
+/// that the mesh conforms.
 #pragma once
 
 #include "dovetail/core/report.hpp"
@@ -19,32 +19,49 @@
 
 namespace dovetail::occt {
 
-inline std::string solid_text(const brep& data, std::size_t s) {
-  const std::string& name = data.topology.solids[s].name;
-  return "solid " + std::to_string(s) + (name.empty() ? "" : " (" + name + ")");
+/// What may touch each other: the solids and, beside them, the faces that are in none.
+inline std::vector<TopoDS_Shape> bodies_of(const brep& data) {
+  std::vector<TopoDS_Shape> bodies(data.solids.begin(), data.solids.end());
+  for (std::size_t f = 0; f < data.faces.size(); ++f)
+    if (data.topology.faces[f].solids[0] == no_id)
+      bodies.push_back(data.faces[f]);
+  return bodies;
 }
 
-/// The pairs of solids whose bounding boxes meet.
-inline std::vector<std::array<std::size_t, 2>> close_pairs(const brep& data) {
-  std::vector<Bnd_Box> boxes(data.solids.size());
-  for (std::size_t s = 0; s < boxes.size(); ++s)
-    BRepBndLib::Add(data.solids[s], boxes[s], false);
+inline std::string body_text(const brep& data, std::size_t b) {
+  const bool solid = b < data.solids.size();
+  const auto& faces = data.topology.faces;
+  std::size_t f = 0; // of the face, when it is one
+  for (std::size_t left = solid ? 0 : b - data.solids.size() + 1; left > 0; ++f)
+    left -= faces[f].solids[0] == no_id ? 1 : 0;
+  const std::size_t id = solid ? b : f - 1;
+  const std::string& name = solid ? data.topology.solids[id].name : faces[id].name;
+  return (solid ? "solid " : "face ") + std::to_string(id) + (name.empty() ? "" : " (" + name + ")");
+}
+
+/// The pairs of bodies whose bounding boxes meet. Pairs of faces are left out: where these touch they were
+/// joined along their edges.
+inline std::vector<std::array<std::size_t, 2>> close_pairs(const brep& data,
+                                                           const std::vector<TopoDS_Shape>& bodies) {
+  std::vector<Bnd_Box> boxes(bodies.size());
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    BRepBndLib::Add(bodies[b], boxes[b], false);
   std::vector<std::array<std::size_t, 2>> pairs;
-  for (std::size_t s = 0; s < boxes.size(); ++s)
-    for (std::size_t other = s + 1; other < boxes.size(); ++other)
-      if (!boxes[s].IsOut(boxes[other]))
-        pairs.push_back({s, other});
+  for (std::size_t b = 0; b < data.solids.size(); ++b)
+    for (std::size_t other = b + 1; other < boxes.size(); ++other)
+      if (!boxes[b].IsOut(boxes[other]))
+        pairs.push_back({b, other});
   return pairs;
 }
 
-/// The general fuse of solids at a fuzzy tolerance: every solid keeps its extent, contacts become shared
-/// faces, overlaps become solids of their own. Empty when OCCT fails; else its faults tell whether it is
-/// sound.
-inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Solid>& solids,
+/// The general fuse of bodies at a fuzzy tolerance: every body keeps its extent, contacts become shared
+/// faces, overlaps of solids become solids of their own. Empty when OCCT fails; else its faults tell whether
+/// it is sound.
+inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Shape>& bodies,
                                         double fuzzy) {
   BOPAlgo_Builder fuse;
-  for (const auto& solid : solids)
-    fuse.AddArgument(solid);
+  for (const TopoDS_Shape& body : bodies)
+    fuse.AddArgument(body);
   fuse.SetNonDestructive(true);
   fuse.SetFuzzyValue(fuzzy);
   fuse.Perform();
@@ -62,40 +79,45 @@ inline std::optional<brep> general_fuse(attributed_shape& input, const std::vect
   return brep_builder(input.shape, input.names).build();
 }
 
-/// The first pair of solids that cannot be fused even without the others.
-inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input, const brep& data,
+/// The first pair of bodies that cannot be fused even without the others.
+inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input,
+                                                  const std::vector<TopoDS_Shape>& bodies,
                                                   const std::vector<std::array<std::size_t, 2>>& pairs) {
   for (const auto& pair : pairs) {
     attributed_shape trial = input;
-    const auto fused = general_fuse(trial, {data.solids[pair[0]], data.solids[pair[1]]}, 0);
+    const auto fused = general_fuse(trial, {bodies[pair[0]], bodies[pair[1]]}, 0);
     if (!fused || !fused->faults.empty())
       return pair;
   }
   return pairs.front();
 }
 
-/// Numbers of vertices, curves, faces and faces between two solids.
-inline std::array<std::size_t, 4> entity_counts(const brep& data) {
+/// Numbers of vertices, curves, faces, faces between two solids, and faces in none.
+inline std::array<std::size_t, 5> entity_counts(const brep& data) {
   const auto& faces = data.topology.faces;
-  const auto common =
-      std::count_if(faces.begin(), faces.end(), [](const auto& face) { return face.solids[1] != no_id; });
-  return {data.topology.vertices.size(), data.edges.size(), faces.size(), static_cast<std::size_t>(common)};
+  std::size_t common = 0, free = 0;
+  for (const auto& face : faces) {
+    common += face.solids[1] != no_id ? 1 : 0;
+    free += face.solids[0] == no_id ? 1 : 0;
+  }
+  return {data.topology.vertices.size(), data.edges.size(), faces.size(), common, free};
 }
 
-/// Replaces `data` by the general fuse of its solids when any two of them touch or overlap. Throws
-/// `geometry_error` when their common faces cannot be made.
-inline void imprint_touching_solids(attributed_shape& input, brep& data, report& made) {
-  const auto pairs = close_pairs(data);
+/// Replaces `data` by the general fuse of its solids and free faces when a solid touches or overlaps
+/// anything. Throws `geometry_error` when their common boundary cannot be made.
+inline void imprint_touching_bodies(attributed_shape& input, brep& data, report& made) {
+  const auto bodies = bodies_of(data);
+  const auto pairs = close_pairs(data, bodies);
   if (pairs.empty())
     return;
   const double size = size_of(input.shape);
   for (const double fuzzy : {0.0, 1e-6 * size}) {
     attributed_shape trial = input;
-    std::optional<brep> fused = general_fuse(trial, data.solids, fuzzy);
+    std::optional<brep> fused = general_fuse(trial, bodies, fuzzy);
     if (!fused || !fused->faults.empty())
       continue;
     if (entity_counts(*fused) == entity_counts(data))
-      return; // the solids do not touch, or share their contacts already
+      return; // the bodies do not touch, or share their contacts already
     if (fused->solids.size() > data.solids.size())
       made.warnings.push_back("solids overlap; each overlap became a solid of its own, " +
                               std::to_string(fused->solids.size()) + " solids from " +
@@ -104,8 +126,8 @@ inline void imprint_touching_solids(attributed_shape& input, brep& data, report&
     input = std::move(trial);
     return;
   }
-  const auto pair = pair_that_fails(input, data, pairs);
-  throw geometry_error(input.source + ": " + solid_text(data, pair[0]) + " and " + solid_text(data, pair[1]) +
+  const auto pair = pair_that_fails(input, bodies, pairs);
+  throw geometry_error(input.source + ": " + body_text(data, pair[0]) + " and " + body_text(data, pair[1]) +
                        " touch or overlap and no common boundary could be made; separate them or let them "
                        "share faces in the CAD system");
 }

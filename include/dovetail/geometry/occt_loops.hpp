@@ -173,7 +173,8 @@ private:
           whole_periods(loop[i + 1].curve.start(surface_) - loop[i].curve.end(surface_)));
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const vec2 end = loop[i].curve.end(surface_);
-      if (!is_closable(loop[i].edge, end, loop[(i + 1) % loop.size()].curve.start(surface_))) {
+      const loop_edge& next = loop[(i + 1) % loop.size()];
+      if (!is_closable(loop[i].edge, next.edge, end, next.curve.start(surface_))) {
         result_.faults.push_back("has a boundary loop that does not close in its parameter plane near " +
                                  to_text(surface_.point(end)));
         return false;
@@ -184,13 +185,13 @@ private:
 
   /// A gap is harmless when it is within a few tolerances in space and, so that no pole's edge is
   /// missing, clearly less than the face's width in the plane.
-  bool is_closable(const TopoDS_Edge& edge, vec2 a, vec2 b) const {
+  bool is_closable(const TopoDS_Edge& edge, const TopoDS_Edge& next, vec2 a, vec2 b) const {
     const double g = gap(a, b);
     if (g <= same_parameter)
       return true;
     const TopoDS_Vertex vertex = TopExp::LastVertex(edge, true);
-    const double tolerance =
-        std::max(vertex.IsNull() ? 0.0 : BRep_Tool::Tolerance(vertex), BRep_Tool::Tolerance(edge));
+    const double tolerance = std::max({vertex.IsNull() ? 0.0 : BRep_Tool::Tolerance(vertex),
+                                       BRep_Tool::Tolerance(edge), BRep_Tool::Tolerance(next)});
     return g <= 0.4 && distance(surface_.point(a), surface_.point(b)) <= 4 * tolerance + 1e-9;
   }
 
