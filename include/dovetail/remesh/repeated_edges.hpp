@@ -1,8 +1,9 @@
 /// @file
 /// Keeps a patch a manifold in 3-space: two inner edges never join the same two vertices.
 ///
-/// Inner edges whose ends both lie on the boundary ("chords") are the only ones that can coincide: with each
-/// other across a seam, with a boundary segment, or with a chord of another patch.
+/// Inner edges whose ends both lie on the boundary ("chords") coincide with each other across a seam, with a
+/// boundary segment, or with a chord of another patch. The rare ones with one end inside, across a seam, are
+/// left to `unwanted_chord_splitter`.
 #pragma once
 
 #include "dovetail/mesh/surface_smoothing.hpp"

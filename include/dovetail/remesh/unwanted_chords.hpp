@@ -34,7 +34,7 @@ inline line_passages passages_of(const patch_boundary& boundary, const patch_mes
 }
 
 /// Splits inner edges in the middle: those that join forbidden labels, two labels a second time, or a label
-/// to itself.
+/// to itself; and those that join a label to an inner point a second time, from the other side of a seam.
 class unwanted_chord_splitter {
 public:
   using label_pair = chord_finder::label_pair;
@@ -51,10 +51,11 @@ public:
     for (label_pair& pair : unwanted_)
       pair = sorted_vertices(pair);
     sort_unique(unwanted_);
+    find_repeated_spokes();
   }
 
   void run() {
-    if (unwanted_.empty())
+    if (unwanted_.empty() && spokes_.empty())
       return;
     name_segments();
     for (std::size_t t = 0; t < made_.triangles.size(); ++t) // their number grows
@@ -80,9 +81,38 @@ private:
     sort_all(segments_);
   }
 
+  /// Edges of one label and an inner point that triangles pass twice in one direction; not at poles, where
+  /// several edges in the parameter plane are one.
+  void find_repeated_spokes() {
+    std::vector<local_id> labels = boundary_.labels;
+    sort_all(labels);
+    if (std::adjacent_find(labels.begin(), labels.end()) == labels.end())
+      return;
+    std::vector<local_id> poles;
+    for (const auto& [a, b] : boundary_.segments)
+      if (boundary_.labels[at(a)] == boundary_.labels[at(b)])
+        poles.push_back(boundary_.labels[at(a)]);
+    sort_all(poles);
+    std::vector<std::array<local_id, 3>> passages; // the label, the inner point, 1 for a way outwards
+    for (const simplex<2>& triangle : made_.triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const local_id a = triangle[k], b = triangle[(k + 1) % 3];
+        if ((a < frozen_) != (b < frozen_))
+          passages.push_back({boundary_.labels[at(std::min(a, b))], std::max(a, b), a < b ? 1 : 0});
+      }
+    sort_all(passages);
+    for (std::size_t i = 1; i < passages.size(); ++i)
+      if (passages[i] == passages[i - 1] && !std::binary_search(poles.begin(), poles.end(), passages[i][0]))
+        spokes_.push_back({passages[i][0], passages[i][1]});
+    sort_unique(spokes_);
+  }
+
   bool is_unwanted(local_id a, local_id b) const {
-    if (a >= frozen_ || b >= frozen_)
+    if (a >= frozen_ && b >= frozen_)
       return false;
+    if (a >= frozen_ || b >= frozen_)
+      return std::binary_search(spokes_.begin(), spokes_.end(),
+                                label_pair{boundary_.labels[at(std::min(a, b))], std::max(a, b)});
     const auto pair = sorted_vertices(label_pair{boundary_.labels[at(a)], boundary_.labels[at(b)]});
     return std::binary_search(unwanted_.begin(), unwanted_.end(), pair) &&
            !std::binary_search(segments_.begin(), segments_.end(), sorted_vertices(simplex<1>{a, b}));
@@ -103,16 +133,19 @@ private:
     const auto next = frozen_ + static_cast<local_id>(made_.inner_uv.size());
     const auto [found, is_new] = middles_.try_emplace(sorted_vertices(std::array{a, b}), next);
     if (is_new) {
-      made_.inner_uv.push_back(0.5 * (boundary_.uv[at(a)] + boundary_.uv[at(b)]));
+      made_.inner_uv.push_back(0.5 * (uv(a) + uv(b)));
       made_.inner_points.push_back(surface_.frame(made_.inner_uv.back()).point);
     }
     return found->second;
   }
 
+  vec2 uv(local_id v) const { return v < frozen_ ? boundary_.uv[at(v)] : made_.inner_uv[at(v - frozen_)]; }
+
   const any_surface& surface_;
   const patch_boundary& boundary_;
   patch_mesh& made_;
-  std::vector<label_pair> unwanted_;
+  std::vector<label_pair> unwanted_; ///< by labels
+  std::vector<label_pair> spokes_;   ///< a label and an inner point
   local_id frozen_;
   std::vector<simplex<1>> segments_;
   std::map<std::array<local_id, 2>, local_id> middles_;
