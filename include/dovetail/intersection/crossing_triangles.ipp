@@ -85,10 +85,13 @@ public:
       return;
     }
     auto parts = octants(whole);
-    std::size_t distributed = 0;
+    // Long triangles are in many parts. Where splitting saves less than a quarter of the pairs they only are
+    // copied; so all cells together never take longer than testing each pair of the whole once.
+    const auto pairs_of = [](const cell& c) { return static_cast<double>(c.items.size() * c.items.size()); };
+    double pairs = 0;
     for (const cell& part : parts)
-      distributed += part.items.size();
-    if (distributed >= 4 * whole.items.size()) { // triangles as large as the cell: splitting only copies them
+      pairs += pairs_of(part);
+    if (pairs > 0.75 * pairs_of(whole)) {
       test_pairs(whole, found);
       return;
     }
@@ -121,12 +124,15 @@ private:
   void test_pairs(const cell& leaf, std::vector<triangle_pair>& found) {
     boxes_.clear();
     for (const local_id item : leaf.items)
-      boxes_.push_back(box(item));
-    for (std::size_t a = 0; a < leaf.items.size(); ++a)
-      for (std::size_t b = a + 1; b < leaf.items.size(); ++b)
-        if (boxes_[a].overlaps(boxes_[b]) && is_tested_in(leaf.box, boxes_[a], boxes_[b]) &&
-            cross(leaf.items[a], leaf.items[b]))
-          found.push_back({leaf.items[a], leaf.items[b]});
+      boxes_.emplace_back(box(item), item);
+    sort_all(boxes_, [](const auto& a, const auto& b) { return a.first.lower.x < b.first.lower.x; });
+    for (auto a = boxes_.begin(); a != boxes_.end(); ++a)
+      for (auto b = a + 1; b != boxes_.end() && b->first.lower.x <= a->first.upper.x; ++b)
+        if (a->first.overlaps(b->first) && is_tested_in(leaf.box, a->first, b->first)) {
+          const auto [i, j] = std::minmax(a->second, b->second);
+          if (cross(i, j))
+            found.push_back({i, j});
+        }
   }
 
   static bool is_tested_in(const box3& cell, const box3& a, const box3& b) {
@@ -149,7 +155,7 @@ private:
   const std::function<bool(local_id, local_id)>& excluded_;
   crossing_parameters parameters_;
   single_sheet is_sheet_{points_, triangles_};
-  std::vector<box3> boxes_;
+  std::vector<std::pair<box3, local_id>> boxes_; ///< of a cell's triangles
 };
 
 } // namespace detail

@@ -48,8 +48,10 @@ private:
     how.growth = size_growth;
     front(state, how).run(flips);
     smoother smooth(state);
+    const std::size_t most_points = 2 * state.point.size() + 1000;
     for (int cycle = 0; cycle < cycles; ++cycle) {
-      const std::size_t changes = collapse_short_edges(state, flips) + split_long_edges(state, flips);
+      const std::size_t changes =
+          collapse_short_edges(state, flips) + split_long_edges(state, flips, most_points);
       flip_all(state, flips);
       if (cycle > 0 && changes > 0)
         smooth.wake_all();
@@ -94,11 +96,13 @@ private:
     return removed;
   }
 
+  /// On a face that turns much within one size, such as a tube that is thinner, this and the collapses can
+  /// work against each other; so there is an end to the points.
   template <class State>
-  std::size_t split_long_edges(State& state, flip_queue& flips) const {
+  std::size_t split_long_edges(State& state, flip_queue& flips, std::size_t most_points) const {
     std::size_t added = 0;
     const auto corners = static_cast<local_id>(state.table.vertex.size());
-    for (local_id c = 0; c < corners; ++c) {
+    for (local_id c = 0; c < corners && state.point.size() < most_points; ++c) {
       if (!state.table.alive(c / 3) || !state.table.free_side(c) || state.table.twin[state.at(c)] < c)
         continue;
       if (state.relative_length(state.table.tail(c), state.table.head(c)) <= long_edge)
