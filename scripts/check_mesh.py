@@ -179,7 +179,7 @@ def check_surface(data, boundary, result, errors):
     result["shells"] = shells(boundary)
     result["euler_characteristic"] = int(euler)
 
-    p = points[local]
+    p = points[local] - points.mean(axis=0)
     normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     areas = np.linalg.norm(normals, axis=1) / 2
     enclosed = np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2])).sum() / 6

@@ -2,6 +2,7 @@
 /// Merges subdomains: where their interfaces cross the surface, or where a mesher fails.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
@@ -44,6 +45,11 @@ inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::v
     s = number[static_cast<std::size_t>(s)];
   sizes = std::move(merged_sizes);
 }
+
+/// More subdomains would have to be merged than may be: whoever can makes fewer.
+class too_many_merges : public intersection_error {
+  using intersection_error::intersection_error;
+};
 
 /// What a run has merged so far, in all its rounds and attempts, and how much it may.
 class merge_account {

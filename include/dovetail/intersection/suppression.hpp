@@ -11,24 +11,28 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace dovetail {
 
-/// A crossing of two triangles that both lie on CAD faces.
+/// A crossing of two triangles, or of two edges of lines.
 struct surface_crossing {
-  std::array<local_id, 2> cad_faces;
+  std::array<local_id, 2> cad_faces; ///< no_id for an interface face
   vec3 center;
-  double size; ///< mean edge length of the two triangles
+  double size; ///< mean edge length of the two triangles, or length of the edges
 };
 
 /// How the crossings found are to be removed.
 struct suppression_plan {
   std::vector<std::array<local_id, 2>> merges = {}; ///< pairs of subdomains, smaller first, sorted, each once
-  std::vector<surface_crossing> surface_crossings = {};
+  std::vector<surface_crossing> surface_crossings = {};   ///< of two CAD faces
+  std::vector<surface_crossing> interface_crossings = {}; ///< what the merges are for
+  std::string lines_at_fault = {}; ///< why, when the merges are for lines that cross in a parameter plane
+  bool merges_suffice = true;      ///< false where lines are at fault that no merge removes
   std::size_t crossings = 0;
 
-  bool empty() const { return merges.empty() && surface_crossings.empty(); }
+  bool empty() const { return merges.empty() && surface_crossings.empty() && lines_at_fault.empty(); }
 };
 
 namespace detail {

@@ -98,12 +98,11 @@ DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
   for (const auto& [first, second] : pairs) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const bool inner_i = skeleton.side_hosts[i] == no_id, inner_j = skeleton.side_hosts[j] == no_id;
-    if (!inner_i && !inner_j)
-      plan.surface_crossings.push_back(
-          detail::describe_crossing(skeleton.points, skeleton.sides, skeleton.side_hosts, i, j));
-    else if (inner_i && inner_j)
+    (inner_i || inner_j ? plan.interface_crossings : plan.surface_crossings)
+        .push_back(detail::describe_crossing(skeleton.points, skeleton.sides, skeleton.side_hosts, i, j));
+    if (inner_i && inner_j)
       merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
-    else
+    else if (inner_i || inner_j)
       merges.insert(skeleton.subdomains[inner_i ? i : j]);
   }
   plan.merges.assign(merges.begin(), merges.end());

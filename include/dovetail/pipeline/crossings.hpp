@@ -74,9 +74,9 @@ inline simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton,
   return whole;
 }
 
-/// Lines that cross in a region's parameter plane go, with the interfaces that end on them, and so does an
-/// interface face that is folded over; where a region is, it is refined like one that crosses itself. Throws
-/// `mesher_error` where there is nothing that could go.
+/// Lines that cross in a region's parameter plane are made finer; if that does not help they go, with the
+/// interfaces that end on them, and so does an interface face that is folded over; where a region is, it is
+/// refined like one that crosses itself.
 inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
                                                 const std::vector<patch_failure>& failures) {
   suppression_plan plan;
@@ -102,8 +102,11 @@ inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
           can_go = true;
         }
     }
-    if (!can_go)
-      throw mesher_error(failure.reason);
+    for (const size_ball& edge : failure.edges)
+      plan.interface_crossings.push_back({{no_id, no_id}, edge.center, edge.size});
+    if (can_go ? plan.lines_at_fault.empty() && !failure.edges.empty() : plan.merges_suffice)
+      plan.lines_at_fault = failure.reason;
+    plan.merges_suffice = plan.merges_suffice && can_go;
   }
   plan.merges.assign(pairs.begin(), pairs.end());
   return plan;

@@ -37,11 +37,10 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
   return mesh;
 }
 
-} // namespace detail
-
+/// What follows the background mesh, which is taken when all went well.
 template <int D>
-generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
-                                      const any_parameters<D>& wanted) {
+generated<D> generate_once(const any_geometry& model, background_result<D>& background,
+                           const any_parameters<D>& wanted) {
   const stopwatch clock;
   any_parameters<D> given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
@@ -49,9 +48,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   const generate_options& options = given.options;
   generated<D> result;
   result.summary.name = "generate";
-  result.background = std::move(background.mesh);
   result.plan = background.plan;
-  const simplicial_background<D>& coarse = result.background;
+  const simplicial_background<D>& coarse = background.mesh;
 
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
@@ -75,6 +73,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   report partition_summary = std::move(pieces.summary);
   decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given);
   auto [skeleton, meshed] = rounds.mesh_pieces(weights);
+  if (D == 2 && result.plan.subdomains > 1 && !meshed.failures.empty()) // whole faces have no lines inside
+    throw too_many_merges("no attempt could mesh " + std::to_string(meshed.failures.size()) +
+                          " of them, the first since " + joined_reasons(meshed.failures.front().reasons));
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_angles =
       detail::fine_interface_angles(skeleton, coarse, sides, side_states, background.size, options);
@@ -86,7 +87,29 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
                              rounds.intersection(),         std::move(meshed.summary)};
   result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = result.summary.children.front().seconds + clock.seconds();
+  result.background = std::move(background.mesh);
   return result;
+}
+
+} // namespace detail
+
+template <int D>
+generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
+                                      const any_parameters<D>& given) {
+  std::vector<std::string> told;
+  for (int& subdomains = background.plan.subdomains;;) {
+    try {
+      auto result = detail::generate_once<D>(model, background, given);
+      append(result.summary.warnings, told);
+      return result;
+    } catch (const too_many_merges& refused) {
+      if (subdomains <= 1)
+        throw;
+      told.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
+                     std::to_string(subdomains / 2) + " were asked for: " + refused.what());
+      subdomains /= 2;
+    }
+  }
 }
 
 #ifdef DOVETAIL_COMPILED

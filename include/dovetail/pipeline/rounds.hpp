@@ -12,6 +12,7 @@
 #include "dovetail/pipeline/crossings.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -41,8 +42,8 @@ public:
   const report& intersection() const { return intersection_; }
 
   /// Remeshes the boundaries until no patch fails and none crosses another. Throws `intersection_error` when
-  /// too many subdomains would have to be merged in all or two CAD faces cross, `mesher_error` when a patch
-  /// cannot be remeshed.
+  /// two CAD faces cross, `too_many_merges` when too many subdomains would have to be merged in all,
+  /// `mesher_error` when a patch cannot be remeshed.
   realized<D> realize_boundaries() {
     for (;;) {
       auto made = realize<D>(model_, mesh_, sides_, subdomain_of_element_,
@@ -78,17 +79,32 @@ private:
   bool suppress(const suppression_plan& plan) {
     if (plan.empty())
       return true;
-    if (plan.merges.empty()) {
+    if (!plan.surface_crossings.empty() && plan.merges.empty()) {
       if (refinements_ == given_.options.refinement_rounds)
         throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
-      size_.refine(balls_around(plan.surface_crossings));
-      ++refinements_;
+      refine(plan.surface_crossings);
+    } else if (!plan.lines_at_fault.empty() && may_refine_instead(plan)) {
+      refine(plan.interface_crossings);
+    } else if (!plan.merges_suffice) {
+      throw mesher_error(plan.lines_at_fault);
     } else if (const std::string refused = merges_.merge(subdomain_of_element_, plan.merges);
                !refused.empty()) {
-      throw intersection_error(refused + ": their interfaces cross the surface; give a smaller size or fewer "
-                                         "subdomains");
+      if (!may_refine_instead(plan))
+        throw too_many_merges(refused + ": their interfaces cross the surface");
+      refine(plan.interface_crossings);
     }
     return false;
+  }
+
+  /// Smaller triangles are nearer to the surface, and so farther from the interfaces inside. More rounds of
+  /// them are not worth it where merging helps as well.
+  bool may_refine_instead(const suppression_plan& plan) const {
+    return !plan.interface_crossings.empty() && refinements_ < std::min(given_.options.refinement_rounds, 2);
+  }
+
+  void refine(std::span<const surface_crossing> crossings) {
+    size_.refine(balls_around(crossings));
+    ++refinements_;
   }
 
   /// Merges what no attempt could mesh; whether that changed anything.

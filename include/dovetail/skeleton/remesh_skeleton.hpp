@@ -7,6 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
 #include <memory>
@@ -23,6 +24,7 @@ struct patch_failure {
   local_id face = no_id;                        ///< or no_id
   std::vector<local_id> removable_lines;        ///< lines at the fault that do not lie on CAD curves
   std::vector<std::array<vec3, 3>> folded = {}; ///< triangles that turn away from the surface
+  std::vector<size_ball> edges = {};            ///< at the fault: their middles and lengths
   std::string reason;
 };
 

@@ -139,13 +139,17 @@ private:
     patch_failure failure;
     (is_region(p) ? failure.region : failure.face) =
         static_cast<local_id>(is_region(p) ? p : p - skeleton_.regions.size());
-    const std::vector<local_id> line_of_segment = patch(p).line_of_segment;
-    std::set<local_id> lines;
-    for (const auto& [a, b] : mesh.crossings)
-      for (const local_id segment : {a, b})
-        lines.insert(line_of_segment[at(segment)]);
-    for (const local_id segment : mesh.misplaced)
-      lines.insert(line_of_segment[at(segment)]);
+    const skeleton_patch made = patch(p);
+    const patch_boundary& boundary = made.boundary;
+    std::set<local_id> segments(mesh.misplaced.begin(), mesh.misplaced.end()), lines;
+    for (const auto& pair : mesh.crossings)
+      segments.insert(pair.begin(), pair.end());
+    for (const local_id s : segments) {
+      const auto [a, b] = boundary.segments[at(s)];
+      const vec3 from = boundary.points[at(a)], to = boundary.points[at(b)];
+      failure.edges.push_back({midpoint(from, to), 0, distance(from, to)});
+      lines.insert(made.line_of_segment[at(s)]);
+    }
     for (const local_id line : lines)
       if (line != no_id && lines_.keys[at(line)].on.dimension > 1)
         failure.removable_lines.push_back(line);
