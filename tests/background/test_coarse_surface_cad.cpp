@@ -57,6 +57,16 @@ void check_file(const std::string& name) {
 
 } // namespace
 
+TEST_CASE("tubes far thinner than the size have no edge of four triangles") {
+  for (const TopoDS_Shape& shape :
+       {BRepPrimAPI_MakeTorus(10, 9.9).Shape(), BRepPrimAPI_MakeCone(1, 0, 50).Shape()}) {
+    const auto read = occt_shape_from(shape);
+    const auto result = mesh(read.model, read.model.bounds().diagonal() / 8);
+    CHECK(open_edges(result.surface, read.model.topology()) == 0);
+    CHECK(crowded_edges(result.surface) == 0);
+  }
+}
+
 TEST_CASE("boxes, balls, rings and cones of the CAD kernel are closed and have their volume") {
   check_primitive(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), 0.5, 6, 1e-12);
   check_primitive(BRepPrimAPI_MakeSphere(2).Shape(), 0.3, 4 * pi / 3 * 8, 0.02);

@@ -4,15 +4,22 @@
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"
 
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepPrimAPI_MakeWedge.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
+#include <gp_Pln.hxx>
 
 #include <numbers>
 
@@ -212,4 +219,42 @@ TEST_CASE("projection to a periodic face stays near the seed") {
     CHECK(model.project_to_face(f, p, {2 * pi - 0.02, 1}).x == doctest::Approx(2 * pi - 0.01));
     CHECK(model.project_to_face(f, p, {-0.02, 1}).x == doctest::Approx(-0.01));
   }
+}
+
+TEST_CASE("a sheet that lies on a face of a solid becomes a part of that face") {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(10, 10, 10).Shape());
+  builder.Add(both, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(5, 5, 10), gp::DZ()), -2, 2, -2, 2).Face());
+  const auto faces = occt_shape_from(both, "box", occt::wanted::faces).model.topology().faces;
+  CHECK(faces.size() == 7);
+  for (const auto& face : faces)
+    CHECK(face.solids[0] != no_id);
+}
+
+TEST_CASE("a sphere with an inaccurate edge near its pole gets its poles elsewhere, any other one does not") {
+  const auto quarter = [](double tolerance) {
+    const TopoDS_Shape shape =
+        BRepAlgoAPI_Common(BRepPrimAPI_MakeSphere(2.0).Shape(),
+                           BRepPrimAPI_MakeBox(gp_Pnt(0, 0, -5), gp_Pnt(5, 5, 5)).Shape())
+            .Shape();
+    for (TopExp_Explorer edges(shape, TopAbs_EDGE); edges.More(); edges.Next())
+      if (!BRep_Tool::Degenerated(TopoDS::Edge(edges.Current())))
+        BRep_Builder().UpdateEdge(TopoDS::Edge(edges.Current()), tolerance);
+    return occt_shape_from(shape);
+  };
+  const auto poles = [](const occt_model& model) {
+    const auto& curves = model.topology().curves;
+    return std::count_if(curves.begin(), curves.end(), [](const auto& curve) { return curve.degenerate; });
+  };
+  const auto accurate = quarter(1e-6), inaccurate = quarter(0.05);
+  CHECK(poles(accurate.model) == 2);
+  CHECK(poles(inaccurate.model) == 0);
+  CHECK(accurate.report.warnings.empty());
+  REQUIRE_FALSE(inaccurate.report.warnings.empty());
+  CHECK(testing::joined(testing::faults_of(inaccurate.model)) == "");
+  CHECK(occt_solid_volumes(inaccurate.model).front() == doctest::Approx(8.0 / 3.0 * pi).epsilon(1e-6));
+  const surface_mesh surface = occt_triangulation(inaccurate.model);
+  CHECK(testing::open_edges(inaccurate.model.topology(), surface) == 0);
 }

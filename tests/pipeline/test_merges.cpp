@@ -15,8 +15,12 @@
 #include "dovetail/sizing/uniform.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
+#include <gp_Pln.hxx>
 
 #include <algorithm>
 #include <array>
@@ -181,6 +185,35 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
 
   CHECK_THROWS_WITH_AS(given.rounds(0.05).realize_boundaries(),
                        doctest::Contains("subdomains would have to be merged"), intersection_error);
+}
+
+TEST_CASE("Where too many subdomains would have to be merged fewer are made, and a warning says so") {
+  const auto result =
+      generate<3>(shell(0.97), uniform_size(0.2),
+                  parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 16}));
+  CHECK(result.failures.empty());
+  CHECK(result.plan.subdomains < 16);
+  CHECK(result.mesh.counts.size() <= static_cast<std::size_t>(result.plan.subdomains));
+  REQUIRE_FALSE(result.summary.warnings.empty());
+  CHECK(contains(result.summary.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
+  CHECK(contains(result.summary.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
+}
+
+TEST_CASE("Sheets that lie upon each other end in an error after work in proportion to the model") {
+  TopoDS_Compound both;
+  BRep_Builder().MakeCompound(both);
+  for (const double shift : {0.0, 0.3})
+    BRep_Builder().Add(
+        both, BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(shift, shift, 0), gp::DZ()), -1, 1, -1, 1).Face());
+  const any_geometry model(occt_shape_from(both, "sheets", occt::wanted::faces).model);
+  long asked = 0;
+  const auto size = [&asked](vec3) {
+    ++asked;
+    return 0.2;
+  };
+  CHECK_THROWS_WITH_AS(plan_background<2>(model, erased_sizing(size), parameters<>{}),
+                       doctest::Contains("the surfaces of face 0 and face 1 cross"), intersection_error);
+  CHECK(asked < 200000);
 }
 
 TEST_CASE("After merges a search near new patches finds what a search of everything does") {

@@ -32,7 +32,7 @@ inline bool is_of_parameters(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return BRep_Tool::Degenerated(edge) || passages > 1;
 }
 
-/// The sphere of a face with a pole and an edge less accurate than a thousandth of the radius.
+/// The sphere of a face with a pole and an edge less accurate than a hundredth of the radius.
 inline std::optional<gp_Sphere> inaccurate_sphere(const TopoDS_Face& face) {
   const face_surface surface(face);
   if (surface.adaptor().GetType() != GeomAbs_Sphere)
@@ -43,7 +43,7 @@ inline std::optional<gp_Sphere> inaccurate_sphere(const TopoDS_Face& face) {
     const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
     pole = pole || BRep_Tool::Degenerated(edge);
     inaccurate =
-        inaccurate || (!is_of_parameters(edge, face) && BRep_Tool::Tolerance(edge) > 1e-3 * sphere.Radius());
+        inaccurate || (!is_of_parameters(edge, face) && BRep_Tool::Tolerance(edge) > 1e-2 * sphere.Radius());
   }
   return pole && inaccurate ? std::optional(sphere) : std::nullopt;
 }

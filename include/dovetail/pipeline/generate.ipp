@@ -73,9 +73,6 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   report partition_summary = std::move(pieces.summary);
   decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given);
   auto [skeleton, meshed] = rounds.mesh_pieces(weights);
-  if (D == 2 && result.plan.subdomains > 1 && !meshed.failures.empty()) // whole faces have no lines inside
-    throw too_many_merges("no attempt could mesh " + std::to_string(meshed.failures.size()) +
-                          " of them, the first since " + joined_reasons(meshed.failures.front().reasons));
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_angles =
       detail::fine_interface_angles(skeleton, coarse, sides, side_states, background.size, options);
