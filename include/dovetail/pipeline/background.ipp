@@ -87,16 +87,20 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
                           const any_surface_mesher& mesher, int refinement_rounds) {
   background::coarse_surface_parameters parameters;
   parameters.mesher = mesher;
-  double most_pairs = 0; // sheets that lie upon each other cross at more and more triangles
+  // Sheets that lie upon each other, or pass through each other, cross at more and more triangles.
+  double most_pairs = 0, most_late = 0;
   for (int round = 0;; ++round) {
     auto result = background::coarse_surface(model, size, parameters, run);
     const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
     result.summary.set("refinement_rounds", round);
     if (pairs.empty())
       return result;
-    if (round == 0)
+    const auto count = static_cast<double>(pairs.size());
+    if (round == 0) {
       most_pairs = 10.0 * static_cast<double>(result.surface.mesh.elements.size()) + 1000;
-    if (round == refinement_rounds || static_cast<double>(pairs.size()) > most_pairs) {
+      most_late = 2 * count + 1000;
+    }
+    if (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)) {
       const auto& tags = result.surface.mesh.tags;
       throw_crossing_faces(model.topology(), {tags[static_cast<std::size_t>(pairs.front().first)],
                                               tags[static_cast<std::size_t>(pairs.front().second)]});
