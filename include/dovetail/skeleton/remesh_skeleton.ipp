@@ -159,7 +159,7 @@ private:
       return failure;
     }
     failure.reason = name_of(p) + ": " + folds_of(mesh);
-    const std::vector<vec3> frozen = patch(p).boundary.points;
+    const std::vector<vec3>& frozen = boundary.points;
     for (const local_id t : mesh.folded) {
       std::array<vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
