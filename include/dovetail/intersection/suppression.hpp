@@ -29,6 +29,7 @@ struct suppression_plan {
   std::vector<surface_crossing> surface_crossings = {};   ///< of two CAD faces
   std::vector<surface_crossing> interface_crossings = {}; ///< what the merges are for
   std::string lines_at_fault = {}; ///< why, when the merges are for lines that cross in a parameter plane
+  std::string folds = {};          ///< why, when regions are folded over; in `surface_crossings`
   bool merges_suffice = true;      ///< false where lines are at fault that no merge removes
   std::size_t crossings = 0;
 

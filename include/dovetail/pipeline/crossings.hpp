@@ -87,6 +87,7 @@ inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
       for (const auto& [a, b, c] : failure.folded)
         plan.surface_crossings.push_back(
             {{face, face}, (a + b + c) / 3.0, (distance(a, b) + distance(b, c) + distance(c, a)) / 3});
+      plan.folds = failure.reason;
       continue;
     }
     bool can_go = failure.face != no_id;

@@ -82,6 +82,8 @@ private:
     if (!plan.surface_crossings.empty() && plan.merges.empty()) {
       if (refinements_ == given_.options.refinement_rounds)
         throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
+      if (!plan.folds.empty() && refinements_ >= 2 && merges_.subdomains() > 1) // whole faces may not fold
+        throw too_many_merges(plan.folds);
       refine(plan.surface_crossings);
     } else if (!plan.lines_at_fault.empty() && may_refine_instead(plan)) {
       refine(plan.interface_crossings);
