@@ -198,7 +198,7 @@ private:
       if (!faults.valid())
         throw mesh_error("the mesh does not conform: " + faults.text());
       const auto at = static_cast<std::size_t>(p);
-      done.quality.merge(mesh_.quality.empty() ? measure_quality(piece.mesh) : mesh_.quality[at],
+      done.quality.merge(at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh),
                          numbers_.first_element[at]);
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {

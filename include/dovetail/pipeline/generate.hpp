@@ -1,6 +1,6 @@
 /// @file
 /// The whole pipeline, for D = 2 and D = 3: from a CAD model and a sizing field to a distributed mesh (paper,
-/// figures 3 and 8). What the dimensions do not share is in `dimension_steps.hpp`.
+/// figures 3 and 8). What the dimensions do not share are overloads beside this file.
 #pragma once
 
 #include "dovetail/core/report.hpp"

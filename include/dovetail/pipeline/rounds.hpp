@@ -22,7 +22,7 @@
 namespace dovetail {
 
 /// Lines, patches and pieces are kept from round to round, so that one makes again only what the one before
-/// has changed.
+/// has changed. Model, mesh and sides must outlive this.
 template <int D>
 class decomposition_rounds {
 public:
@@ -36,6 +36,9 @@ public:
         pieces_(std::make_shared<entity_store>(given.options.store)) {
     intersection_.name = "intersection";
   }
+
+  decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const side_table<D>&, decomposition,
+                       const any_sizing&, const any_parameters<D>&) = delete;
 
   const merge_account& merges() const { return merges_; }
   /// What was found and done so far.
@@ -130,7 +133,7 @@ private:
   const any_geometry& model_;
   const simplicial_background<D>& mesh_;
   const side_table<D>& sides_;
-  const any_parameters<D>& given_;
+  any_parameters<D> given_;
   std::vector<local_id> subdomain_of_element_;
   merge_account merges_;
   refined_sizing size_; ///< the field given, smaller where something crossed
