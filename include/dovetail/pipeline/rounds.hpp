@@ -89,14 +89,14 @@ private:
         throw too_many_merges(plan.folds);
       refine(plan.surface_crossings);
     } else if (!plan.lines_at_fault.empty() && may_refine_instead(plan)) {
-      refine(plan.interface_crossings);
+      refine(one_of_each_place(plan.interface_crossings));
     } else if (!plan.merges_suffice) {
       throw mesher_error(plan.lines_at_fault);
     } else if (const std::string refused = merges_.merge(subdomain_of_element_, plan.merges);
                !refused.empty()) {
       if (!may_refine_instead(plan))
         throw too_many_merges(refused + ": their interfaces cross the surface");
-      refine(plan.interface_crossings);
+      refine(one_of_each_place(plan.interface_crossings));
     }
     return false;
   }
@@ -105,6 +105,17 @@ private:
   /// them are not worth it where merging helps as well.
   bool may_refine_instead(const suppression_plan& plan) const {
     return !plan.interface_crossings.empty() && refinements_ < std::min(given_.options.refinement_rounds, 2);
+  }
+
+  /// Many triangles cross at one place: one ball does there.
+  static std::vector<surface_crossing> one_of_each_place(std::span<const surface_crossing> crossings) {
+    std::vector<surface_crossing> places;
+    for (const surface_crossing& crossing : crossings)
+      if (std::none_of(places.begin(), places.end(), [&](const surface_crossing& place) {
+            return place.size <= 1.2 * crossing.size && distance(place.center, crossing.center) < place.size;
+          }))
+        places.push_back(crossing);
+    return places;
   }
 
   void refine(std::span<const surface_crossing> crossings) {
