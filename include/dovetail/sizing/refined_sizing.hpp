@@ -40,7 +40,9 @@ public:
 
   /// The field for an entity.
   any_sizing near(const box3& entity) const { return within_bounds(plain_, balls_near(entity), growth); }
-  /// The key of that field, given that the plain one is always the same. O(log n + balls near).
+  /// The field with all balls: for what looks at many places and keeps nothing under a key.
+  any_sizing everywhere() const { return within_bounds(plain_, balls_, growth); }
+  /// The key of the field near an entity, given that the plain one is always the same. O(log n + balls near).
   content_key key_near(const box3& entity) const {
     const std::vector<size_ball> balls = balls_near(entity);
     return balls.empty() ? content_key{} : key_maker{}(balls).key();

@@ -27,7 +27,8 @@ public:
   segment_matcher(const any_geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& skeleton,
                   std::vector<fine_line> lines, const refined_sizing& size, double threshold_deg)
       : model_(model), coarse_points_(coarse_points), skeleton_(skeleton), lines_(std::move(lines)),
-        size_(size), threshold_(threshold_deg), deficits_(skeleton.faces.size(), unknown),
+        size_(size), everywhere_(size.everywhere()), threshold_(threshold_deg),
+        deficits_(skeleton.faces.size(), unknown),
         faces_of_line_(sorted_into_rows<local_id>(skeleton.lines.size(), [&](const auto& put) {
           for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
             for (const local_id line : lines_of(skeleton.faces[f], skeleton.lines))
@@ -215,8 +216,7 @@ private:
     }
     const remesh::triangle_surface surface(corners, points);
     const patch_boundary boundary = remesh::triangle_boundary(surface, points, labels);
-    const patch_mesh made =
-        remesh::patch_remesher{}(surface, boundary, size_.near(roomy_box_around(boundary.points)));
+    const patch_mesh made = remesh::patch_remesher{}(surface, boundary, everywhere_);
     if (!made.ok())
       return threshold_;
     const auto frozen = static_cast<local_id>(boundary.points.size());
@@ -234,6 +234,7 @@ private:
   coarse_skeleton& skeleton_;
   std::vector<fine_line> lines_;
   const refined_sizing& size_;
+  any_sizing everywhere_; ///< for trials
   double threshold_;
   std::vector<double> deficits_; ///< per face, as its lines are
   compressed_rows<local_id> faces_of_line_;
