@@ -69,7 +69,7 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command
       .add_option("--format", options.formats,
                   "File formats, several allowed: " + joined(format_names(3)) +
-                      "; of --dimension 2: " + joined(format_names(2)) + " (default: the first)")
+                      "; for triangles: " + joined(format_names(2)) + " (default: the first)")
       ->delimiter(',');
   command.add_option("--pieces", options.pieces, "Number of VTU files (default: one per subdomain)");
   command.add_option("--report", options.report, "JSON file for figures about the run");

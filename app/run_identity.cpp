@@ -7,10 +7,17 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 namespace dovetail::app {
 namespace {
+
+std::string all_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
 
 /// The field itself, at points of a lattice of irrational steps: whatever file or option it comes from.
 std::string values_of_field(const any_sizing& size, const box3& box) {
@@ -44,7 +51,7 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
     identity.emplace_back("meshes of the sizing", source.sizing_meshes);
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
-  identity.emplace_back("coarsening", options.coarsening ? std::to_string(*options.coarsening) : "default");
+  identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
   identity.emplace_back("dimension", std::to_string(options.dimension));
   identity.emplace_back("mesher", options.dimension == 3 ? make_mesher<3>(options.mesher).name()
                                                          : make_mesher<2>(options.mesher).name());

@@ -6,6 +6,7 @@
 
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -257,4 +258,18 @@ TEST_CASE("a sphere with an inaccurate edge near its pole gets its poles elsewhe
   CHECK(occt_solid_volumes(inaccurate.model).front() == doctest::Approx(8.0 / 3.0 * pi).epsilon(1e-6));
   const surface_mesh surface = occt_triangulation(inaccurate.model);
   CHECK(testing::open_edges(inaccurate.model.topology(), surface) == 0);
+}
+
+TEST_CASE("a sphere that is larger than a hemisphere stays, however inaccurate its edges are") {
+  const auto knob = [](double tolerance) {
+    const TopoDS_Shape shape =
+        BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(1.0).Shape(), BRepPrimAPI_MakeCylinder(0.3, 3.0).Shape())
+            .Shape();
+    for (TopExp_Explorer edges(shape, TopAbs_EDGE); edges.More(); edges.Next())
+      if (!BRep_Tool::Degenerated(TopoDS::Edge(edges.Current())))
+        BRep_Builder().UpdateEdge(TopoDS::Edge(edges.Current()), tolerance);
+    return occt_solid_volumes(occt_shape_from(shape).model).front();
+  };
+  CHECK(knob(1e-6) > 4.0 / 3.0 * pi);
+  CHECK(knob(0.03) == doctest::Approx(knob(1e-6)).epsilon(1e-6));
 }

@@ -103,13 +103,10 @@ inline std::array<std::size_t, 5> entity_counts(const brep& data) {
   return {data.topology.vertices.size(), data.edges.size(), faces.size(), common, free};
 }
 
-/// Replaces `data` by the general fuse of its solids and free faces when a solid touches or overlaps
-/// anything. Throws `geometry_error` when their common boundary cannot be made.
-inline void imprint_touching_bodies(attributed_shape& input, brep& data, report& made) {
-  const auto bodies = bodies_of(data);
-  const auto pairs = close_pairs(data, bodies);
-  if (pairs.empty())
-    return;
+/// Replaces `data` by the general fuse of some of its bodies when a solid touches or overlaps anything; false
+/// when their common boundary cannot be made.
+inline bool imprinted(const std::vector<TopoDS_Shape>& bodies, attributed_shape& input, brep& data,
+                      report& made) {
   const double size = size_of(input.shape);
   for (const double fuzzy : {0.0, 1e-6 * size}) {
     attributed_shape trial = input;
@@ -117,16 +114,31 @@ inline void imprint_touching_bodies(attributed_shape& input, brep& data, report&
     if (!fused || !fused->faults.empty())
       continue;
     if (entity_counts(*fused) == entity_counts(data))
-      return; // the bodies do not touch, or share their contacts already
+      return true; // the bodies do not touch, or share their contacts already
     if (fused->solids.size() > data.solids.size())
-      made.warnings.push_back("solids overlap; each overlap became a solid of its own, " +
-                              std::to_string(fused->solids.size()) + " solids from " +
-                              std::to_string(data.solids.size()));
+      made.warnings.push_back(
+          std::string(bodies.size() > data.solids.size() ? "solids overlap, or are cut by faces beside them"
+                                                         : "solids overlap") +
+          "; each overlap or part became a solid of its own, " + std::to_string(fused->solids.size()) +
+          " solids from " + std::to_string(data.solids.size()));
     data = *std::move(fused);
     input = std::move(trial);
-    return;
+    return true;
   }
-  const auto pair = pair_that_fails(input, bodies, pairs);
+  return false;
+}
+
+/// Makes the contacts of solids, with each other and with faces beside them, common; those with faces only
+/// where that succeeds. Throws `geometry_error` when the common boundary of solids cannot be made.
+inline void imprint_touching_bodies(attributed_shape& input, brep& data, report& made) {
+  const auto bodies = bodies_of(data);
+  if (close_pairs(data, bodies).empty() || imprinted(bodies, input, data, made))
+    return;
+  const std::vector<TopoDS_Shape> solids(data.solids.begin(), data.solids.end());
+  const auto pairs = close_pairs(data, solids);
+  if (pairs.empty() || (bodies.size() > solids.size() && imprinted(solids, input, data, made)))
+    return;
+  const auto pair = pair_that_fails(input, solids, pairs);
   throw geometry_error(input.source + ": " + body_text(data, pair[0]) + " and " + body_text(data, pair[1]) +
                        " touch or overlap and no common boundary could be made; separate them or let them "
                        "share faces in the CAD system");

@@ -7,7 +7,9 @@
 #include "dovetail/geometry/occt_surface.hpp"
 #include "dovetail/geometry/occt_topology.hpp"
 
+#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <ShapeBuild_ReShape.hxx>
@@ -95,7 +97,15 @@ inline std::optional<gp_Ax3> turned_position(const gp_Ax3& given, const std::vec
   return turned;
 }
 
-/// The face on the turned sphere, without poles and seams; null when that is not possible.
+inline double area_of(const TopoDS_Face& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  return properties.Mass();
+}
+
+/// The face on the turned sphere, without poles and seams; null when that is not possible. Beyond a
+/// hemisphere the middle of the boundary lies outside of the face, and the boundary would enclose what is not
+/// the face: its area tells.
 inline TopoDS_Face turned_face(const TopoDS_Face& given, const gp_Sphere& sphere) {
   const TopoDS_Face face = TopoDS::Face(given.Oriented(TopAbs_FORWARD));
   const auto directions = directions_of_boundary(face, to_vec3(sphere.Location()));
@@ -124,6 +134,9 @@ inline TopoDS_Face turned_face(const TopoDS_Face& given, const gp_Sphere& sphere
       return {};
     builder.Add(turned, wire);
   }
+  constexpr double largest_change = 0.1; // of an area whose edges are not accurate
+  if (const double area = area_of(turned); !(std::abs(area - area_of(face)) <= largest_change * area))
+    return {};
   return TopoDS::Face(turned.Oriented(given.Orientation()));
 }
 
@@ -147,7 +160,7 @@ inline void turn_spheres(attributed_shape& input, report& made) {
   inherit_attributes(input.names, before, [&](const TopoDS_Shape& old) { return context->Apply(old); });
   made.warnings.push_back(
       std::to_string(turned) +
-      " faces on spheres have inaccurate edges near a pole; their poles were turned away");
+      " faces on spheres, with inaccurate edges near a pole, had their poles turned away");
 }
 
 } // namespace dovetail::occt

@@ -51,7 +51,7 @@ class too_many_merges : public intersection_error {
   using intersection_error::intersection_error;
 };
 
-/// What a run has merged so far, in all its rounds and attempts, and how much it may.
+/// What has been merged of a decomposition, in all rounds and after failures of pieces, and how much may be.
 class merge_account {
 public:
   /// `largest_fraction` of the subdomains may be merged into others; two of eight and one of fewer always

@@ -41,7 +41,7 @@ struct generate_options {
   double interface_angle_deg = 30;
   double surface_angle_deg = 50;
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
-  /// More subdomains merged than this, in the whole run, is a failure; 2 of 8, or 1 of fewer, always may be.
+  /// More subdomains merged than this, in all rounds, is a failure; 2 of 8, or 1 of fewer, always may be.
   double largest_merged_fraction = 0.05;
   int refinement_rounds = 6; ///< rounds of local refinement where two CAD regions cross
   /// Wall clock per task: an attempt at a subdomain, a batch of lines or of regions; the last resort. What it

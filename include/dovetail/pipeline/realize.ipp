@@ -68,6 +68,7 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
                                       const std::vector<local_id>& subdomain_of_element,
                                       const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<3>& given) {
+  const std::size_t lines_before = made.lines.made(), patches_before = made.patches.made();
   auto result = realize_lines<3>(model, mesh.surface, mesh.volume.points,
                                  induced_subdomains(mesh, sides, subdomain_of_element),
                                  interface_faces(mesh, sides, subdomain_of_element), size, made, given);
@@ -81,10 +82,20 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
                                              size, given.options.interface_angle_deg);
   result.summary.set("matched_lines", static_cast<double>(matched));
   result.summary.set("matching_seconds", matching_clock.seconds());
-  if (matched > 0) {
+  const auto fill_again = [&] {
     remeshed = {};
     space_lines<3>(model, mesh.surface, mesh.volume.points, size, made, given, result);
     remeshed = fill();
+  };
+  if (matched > 0) {
+    const std::size_t failures = remeshed.patches.failures.size();
+    fill_again();
+    if (remeshed.patches.failures.size() > failures) { // better small angles than patches that fail
+      for (skeleton_line& line : result.coarse.lines)
+        line.segments = 0, line.bias = 0;
+      fill_again();
+      result.summary.set("matched_lines", 0);
+    }
   }
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
@@ -92,6 +103,8 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   append(result.summary.counters, remeshed.summary.counters);
   append(result.summary.warnings, remeshed.summary.warnings);
   append(result.summary.children, remeshed.summary.children);
+  result.summary.set("lines_made", static_cast<double>(made.lines.made() - lines_before));
+  result.summary.set("patches_made", static_cast<double>(made.patches.made() - patches_before));
   return result;
 }
 

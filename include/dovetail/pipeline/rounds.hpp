@@ -85,7 +85,7 @@ private:
     if (!plan.surface_crossings.empty() && plan.merges.empty()) {
       if (refinements_ == given_.options.refinement_rounds)
         throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
-      if (!plan.folds.empty() && refinements_ >= 2 && merges_.subdomains() > 1) // whole faces may not fold
+      if (!plan.folds.empty() && refinements_ >= 2 && can_be_fewer()) // whole faces may not fold
         throw too_many_merges(plan.folds);
       refine(plan.surface_crossings);
     } else if (!plan.lines_at_fault.empty() && may_refine_instead(plan)) {
@@ -99,6 +99,12 @@ private:
       refine(one_of_each_place(plan.interface_crossings));
     }
     return false;
+  }
+
+  /// Each solid is a subdomain at least.
+  bool can_be_fewer() const {
+    return static_cast<std::size_t>(merges_.subdomains()) >
+           std::max<std::size_t>(1, model_.topology().solids.size());
   }
 
   /// Smaller triangles are nearer to the surface, and so farther from the interfaces inside. More rounds of

@@ -17,7 +17,7 @@ namespace dovetail {
 /// lifts the smallest angle of an interface face towards `threshold_deg` and costs the faces beside it less.
 /// `made` is the skeleton with its present `lines`; nothing changes when some of its patches failed. Faces
 /// are tried with the native mesher, in their order, so that the result is a function of the skeleton, the
-/// model and the sizes. Returns the number of lines with such segments. Costs up to some hundred meshes of
+/// model and the sizes. Returns the number of lines with such segments. Costs up to some thousand meshes of
 /// each face with a smaller angle.
 std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
                            coarse_skeleton& skeleton, const numbered_lines& lines,
