@@ -98,6 +98,9 @@ struct face_figures {
 
   /// Of faces smaller than an element no more can be asked than of an element.
   double error() const { return std::abs(area - cad_area) / (cad_area + longest_edge * longest_edge); }
+  /// A circle of eight edges, as coarse as one on the boundary gets, encloses a tenth less. A tube thinner
+  /// than the size may have three around: a sixth less.
+  double largest_error() const { return cad_area > 25 * longest_edge * longest_edge ? 0.1 : 0.2; }
 };
 
 std::vector<face_figures> compare_faces(const occt_model& model, const surface_of_mesh& mesh) {
@@ -146,7 +149,7 @@ void check_surface(const occt_model& model, const surface_of_mesh& mesh) {
   for (std::size_t f = 0; f < figures.size(); ++f) {
     total += figures[f].area;
     cad_total += figures[f].cad_area;
-    const double off = figures[f].error();
+    const double off = figures[f].error() / figures[f].largest_error();
     if (off > worst) {
       worst = off;
       worst_face = f;
@@ -157,7 +160,7 @@ void check_surface(const occt_model& model, const surface_of_mesh& mesh) {
   CAPTURE(figures[worst_face].area);
   CAPTURE(figures[worst_face].cad_area);
   CHECK(total == doctest::Approx(cad_total).epsilon(0.01));
-  CHECK(worst < 0.1); // a circle of eight edges, as coarse as one gets, encloses a tenth less
+  CHECK(worst < 1);
   CHECK(farthest < 1e-3 * diagonal);
   CHECK(euler_characteristic(mesh) == euler_characteristic(model));
 }
