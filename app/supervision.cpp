@@ -138,12 +138,15 @@ int run_supervised(const std::function<int()>& command, const std::function<bool
   watch watched(child, signals);
   const int status = watched.until_end();
   int code = WEXITSTATUS(status);
-  if (!WIFEXITED(status)) {
-    while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) { // its workers die with it
+  const bool was_killed = !WIFEXITED(status);
+  if (was_killed || code == exit_stopped) { // its workers die with it, also in the middle of a file
+    while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
     }
     const bool can_go_on = cleaned_up(clean_up);
-    complain(watched.ended() ? stopped_line(can_go_on) : line_of(WTERMSIG(status)));
-    code = watched.ended() ? exit_stopped : exit_failure;
+    if (was_killed) {
+      complain(watched.ended() ? stopped_line(can_go_on) : line_of(WTERMSIG(status)));
+      code = watched.ended() ? exit_stopped : exit_failure;
+    }
   }
   sigprocmask(SIG_SETMASK, &before, nullptr);
   return code;
