@@ -33,8 +33,8 @@ struct command_outputs {
   bool resumable = false; ///< what it keeps in the folder is there for another run to go on from
 };
 
-/// What a command that is ended at once may leave of the files and folders that it writes to. Made before the
-/// command starts.
+/// What a command that is stopped or ended may leave of the files and folders that it writes to. Made before
+/// the command starts.
 class unfinished_output {
 public:
   explicit unfinished_output(command_outputs outputs);

@@ -13,9 +13,9 @@ namespace dovetail::app {
 /// in `stop_signals`) asks the child to stop at the next safe point; a second one, or a second without one,
 /// ends it and its workers at once
 /// (`exit_stopped`). A child that a signal ends, a crash inside a library for example, is one line on the
-/// error stream and `exit_failure`. Where a child did not end by itself, `clean_up` is called when all its
-/// processes are gone; it returns whether another run can go on from what is left. Call it from a process
-/// without threads.
+/// error stream and `exit_failure`. Where a child was stopped or did not end by itself, `clean_up` is called
+/// when all its processes are gone, since a worker may leave part of a file; it returns whether another run
+/// can go on from what is left. Call it from a process without threads.
 int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up);
 
 /// While it lives, a crash of the process under supervision is told as "<what> crashed; <advice>", and so

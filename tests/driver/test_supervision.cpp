@@ -160,7 +160,7 @@ TEST_CASE("a request to stop is passed on, and who does not listen is ended afte
     return 130;
   });
   CHECK(polite.code == exit_stopped);
-  CHECK(polite.cleaned == 0);
+  CHECK(polite.cleaned == 1); // its workers may leave parts of files
   const ending deaf = end_of([] {
     ::kill(::getppid(), SIGINT);
     work(30);
