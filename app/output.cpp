@@ -35,16 +35,6 @@ void remove_empty(const std::vector<std::filesystem::path>& folders) {
       return;
 }
 
-/// What is directly in a folder; nothing when it cannot be read.
-std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> entries;
-  std::error_code failure;
-  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
-       entry.increment(failure))
-    entries.push_back(entry->path());
-  return entries;
-}
-
 /// The folders for unfinished files: one per format.
 std::vector<std::filesystem::path> unfinished_folders(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> folders;
@@ -69,11 +59,6 @@ void remove_part_of(const std::filesystem::path& file) {
 /// Names that are written directly in the folder of a command. Whatever else is there is not ours.
 constexpr const char* written_names[] = {"mesh.msh",    "mesh_partitioned.msh", "finished_run.txt",
                                          "compare.csv", "compare.html",         "written_by_dovetail"};
-
-/// Of what is no folder, or is not empty, nothing happens.
-void remove_empty_folder(const std::filesystem::path& folder) {
-  ::rmdir(folder.c_str());
-}
 
 void remove_parts_of_failed(const std::filesystem::path& folder) {
   std::error_code ignored;

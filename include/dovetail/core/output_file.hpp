@@ -203,6 +203,21 @@ private:
   std::list<output_file> files_;
 };
 
+/// What is directly in a folder; nothing when it cannot be read.
+inline std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> entries;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure))
+    entries.push_back(entry->path());
+  return entries;
+}
+
+/// Of what is no folder, or is not empty, nothing happens.
+inline void remove_empty_folder(const std::filesystem::path& folder) {
+  ::rmdir(folder.c_str());
+}
+
 /// Creates the folder and its parents where they are missing; throws `io_error` naming it.
 inline void make_folder(const std::filesystem::path& folder) {
   std::error_code failure;

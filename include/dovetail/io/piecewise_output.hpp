@@ -105,26 +105,12 @@ public:
         if (const auto ending = file.extension();
             ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu")
           std::filesystem::remove(file, ignored);
-      remove_if_empty(of_format);
+      remove_empty_folder(of_format);
     }
-    remove_if_empty(folder / "unfinished");
+    remove_empty_folder(folder / "unfinished");
   }
 
 private:
-  static std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> entries;
-    std::error_code failure;
-    for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
-         entry.increment(failure))
-      entries.push_back(entry->path());
-    return entries;
-  }
-  static void remove_if_empty(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(folder, ignored) && std::filesystem::is_empty(folder, ignored))
-      std::filesystem::remove(folder, ignored);
-  }
-
   std::filesystem::path path_;
   bool was_there_;
   bool kept_ = false;

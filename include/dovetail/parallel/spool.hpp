@@ -129,16 +129,12 @@ private:
 
   /// Blobs, whole ones and those of writers that were killed; other files are not ours.
   static void remove_blobs(const std::filesystem::path& folder) {
-    std::error_code failed;
-    std::vector<std::filesystem::path> ours;
-    for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-      const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    for (const auto& path : entries_of(folder)) {
+      const std::string name = path.filename().string();
       if (name.ends_with(blob_suffix) || name.ends_with(std::string(blob_suffix) + ".part"))
-        ours.push_back(entry->path());
+        std::filesystem::remove(path, ignored);
     }
-    for (const auto& path : ours)
-      std::filesystem::remove(path, failed);
   }
 
   std::uint64_t checksum(std::string_view name, const byte_buffer& blob) const {
