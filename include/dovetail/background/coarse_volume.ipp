@@ -121,19 +121,6 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
   return piece;
 }
 
-/// Adds a piece's own points and its elements to the mesh, which starts with the surface's points.
-inline void append_piece(simplicial_mesh<3>& mesh, const mesh_piece& piece) {
-  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
-  const auto first_own = static_cast<local_id>(mesh.points.size());
-  append(mesh.points, span_of(piece.mesh.points).subspan(static_cast<std::size_t>(shared)));
-  for (simplex<3> element : piece.mesh.elements) {
-    for (local_id& v : element)
-      v = v < shared ? piece.skeleton_points[static_cast<std::size_t>(v)] : first_own + v - shared;
-    mesh.elements.push_back(element);
-    mesh.tags.push_back(piece.material);
-  }
-}
-
 [[noreturn]] inline void throw_failed(const std::vector<piece_failure>& failures,
                                       const geometry_topology& topology) {
   const piece_failure& first = failures.front();
@@ -186,7 +173,7 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   coarse_volume_result result;
   result.mesh.points = surface.mesh.points;
   for (std::size_t p = 0; p < made.pieces.size(); ++p)
-    detail::append_piece(result.mesh, made.load(static_cast<local_id>(p)));
+    append_piece(result.mesh, made.load(static_cast<local_id>(p)));
   result.mesh.tags = label_elements(result.mesh, span_of(boundary.triangles), span_of(boundary.solids));
   result.quality = made.quality;
   result.summary.name = "coarse volume";

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -53,6 +54,24 @@ struct simplicial_piece {
 };
 
 using mesh_piece = simplicial_piece<3>;
+
+/// Adds a piece's own points and its elements, with the piece's tags or else its material, to a mesh that
+/// starts with the points of the skeleton. O(size of the piece).
+template <int D>
+void append_piece(simplicial_mesh<D>& mesh, const simplicial_piece<D>& piece) {
+  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
+  const auto first_own = static_cast<local_id>(mesh.points.size());
+  append(mesh.points, span_of(piece.mesh.points).subspan(piece.skeleton_points.size()));
+  for (simplex<D> element : piece.mesh.elements) {
+    for (local_id& v : element)
+      v = v < shared ? piece.skeleton_points[static_cast<std::size_t>(v)] : first_own + v - shared;
+    mesh.elements.push_back(element);
+  }
+  if (piece.mesh.tags.empty())
+    mesh.tags.resize(mesh.elements.size(), piece.material);
+  else
+    append(mesh.tags, piece.mesh.tags);
+}
 
 /// Known of a piece without loading it.
 struct piece_counts {

@@ -56,21 +56,8 @@ inline simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton,
   whole.elements.reserve(elements);
   whole.tags.reserve(elements);
   append(whole.points, skeleton.points);
-  for (std::size_t s = 0; s < meshed.pieces.size(); ++s) {
-    const simplicial_piece<2> piece = meshed.load(static_cast<local_id>(s));
-    const std::size_t shared = piece.skeleton_points.size();
-    const std::size_t first = whole.points.size();
-    whole.points.insert(whole.points.end(), piece.mesh.points.begin() + static_cast<std::ptrdiff_t>(shared),
-                        piece.mesh.points.end());
-    for (simplex<2> triangle : piece.mesh.elements) {
-      for (local_id& v : triangle)
-        v = static_cast<std::size_t>(v) < shared
-                ? piece.skeleton_points[static_cast<std::size_t>(v)]
-                : static_cast<local_id>(first + static_cast<std::size_t>(v) - shared);
-      whole.elements.push_back(triangle);
-    }
-    append(whole.tags, piece.mesh.tags);
-  }
+  for (std::size_t s = 0; s < meshed.pieces.size(); ++s)
+    append_piece(whole, meshed.load(static_cast<local_id>(s)));
   return whole;
 }
 
