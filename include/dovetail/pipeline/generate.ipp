@@ -73,7 +73,7 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   auto [skeleton, meshed] = rounds.mesh_pieces(weights);
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_angles =
-      detail::fine_interface_angles(skeleton, coarse, sides, side_states, background.size, options);
+      detail::fine_interface_angles(skeleton, coarse, sides, side_states, rounds.size(), options);
   result.quality = meshed.quality;
   result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);

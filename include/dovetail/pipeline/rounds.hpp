@@ -41,6 +41,8 @@ public:
                        const any_sizing&, const any_parameters<D>&) = delete;
 
   const merge_account& merges() const { return merges_; }
+  /// The field given, smaller where something crossed.
+  any_sizing size() const { return size_.everywhere(); }
   /// What was found and done so far.
   const report& intersection() const { return intersection_; }
 
@@ -83,10 +85,11 @@ private:
     if (plan.empty())
       return true;
     if (!plan.surface_crossings.empty() && plan.merges.empty()) {
-      if (refinements_ == given_.options.refinement_rounds)
+      const int rounds = given_.options.refinement_rounds;
+      if (!plan.folds.empty() && refinements_ >= std::min(rounds, 2) && can_be_fewer())
+        throw too_many_merges(plan.folds); // whole faces may not fold
+      if (refinements_ == rounds)
         throw_crossing_faces(model_.topology(), plan.surface_crossings.front().cad_faces);
-      if (!plan.folds.empty() && refinements_ >= 2 && can_be_fewer()) // whole faces may not fold
-        throw too_many_merges(plan.folds);
       refine(plan.surface_crossings);
     } else if (!plan.lines_at_fault.empty() && may_refine_instead(plan)) {
       refine(one_of_each_place(plan.interface_crossings));

@@ -132,7 +132,7 @@ private:
         forbidden.push_back({at_x->second, at_y->second});
     key_maker make(size_.key_near(place(model_, r, b)));
     make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
-        std::int64_t{options_.parameters});
+        std::int64_t{options_.parameters})(std::int64_t{options_.deviation});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
     if (!set_.surface_keys.empty())
       make(static_cast<std::int64_t>(set_.surface_keys[r].value));
