@@ -4,6 +4,7 @@
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "plane_meshes.hpp"
+#include "solid_meshes.hpp"
 
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
@@ -128,17 +129,6 @@ std::vector<face_figures> compare_faces(const occt_model& model, const surface_o
     }
   }
   return figures;
-}
-
-double volume_of(const distributed_mesh& mesh) {
-  double sum = 0;
-  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
-    const mesh_piece piece = mesh.load(static_cast<local_id>(p));
-    const auto at = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
-    for (const auto& [a, b, c, d] : piece.mesh.elements)
-      sum += signed_volume(at(a), at(b), at(c), at(d));
-  }
-  return sum;
 }
 
 void check_surface(const occt_model& model, const surface_of_mesh& mesh) {

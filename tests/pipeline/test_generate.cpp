@@ -8,6 +8,7 @@
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "io/scratch_folder.hpp"
+#include "solid_meshes.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -23,6 +24,8 @@
 using namespace dovetail;
 
 namespace {
+
+using testing::volume_of;
 
 TopoDS_Shape drilled_block() {
   const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 1.5, 1)).Shape();
@@ -62,17 +65,6 @@ generate_result mesh_shape(const TopoDS_Shape& shape, double size, generate_opti
                          .with_partitioner(partition::metis{})
                          .with_executor(run)
                          .with_options(std::move(options)));
-}
-
-double volume_of(const distributed_mesh& mesh) {
-  double sum = 0;
-  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
-    const mesh_piece piece = mesh.load(static_cast<local_id>(p));
-    const auto at = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
-    for (const auto& [a, b, c, d] : piece.mesh.elements)
-      sum += signed_volume(at(a), at(b), at(c), at(d));
-  }
-  return sum;
 }
 
 void require_valid(const generate_result& result) {
