@@ -247,25 +247,16 @@ private:
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder,
              const finished_run& record) {
     const stopwatch output;
-    std::vector<io::any_piecewise_writer<D>> by_pieces;
-    std::vector<const output_format<D>*> in_one_file;
+    std::vector<io::any_piecewise_writer<D>> writers;
     for (const auto& format : formats_)
-      if (format.files)
-        by_pieces.push_back(format.files);
-      else
-        in_one_file.push_back(&format);
-    const auto finished =
-        io::finish_mesh<D>(mesh, by_pieces, folder, policies_.executor,
-                           {.release = in_one_file.empty(), .on_progress = parameters_.on_progress});
+      writers.push_back(format.writer);
+    const auto finished = io::finish_mesh<D>(mesh, writers, folder, policies_.executor,
+                                             {.release = true, .on_progress = parameters_.on_progress});
     figures_.mesh_hash = finished.hash;
     figures_.quality = finished.quality;
     figures_.peak_rss_bytes =
         std::max(figures_.peak_rss_bytes, static_cast<std::uint64_t>(finished.summary.get("peak_rss_bytes")));
     figures_.details.children.push_back(finished.summary);
-    for (const auto* format : in_one_file) {
-      show(("writing " + format->name).c_str());
-      figures_.details.children.push_back(format->write(mesh, folder, format == in_one_file.back()));
-    }
     std::vector<std::string> names;
     for (const report& part : figures_.details.children)
       append_files(part, names);

@@ -16,25 +16,16 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
-template <int D, class Writer>
-output_format<D> in_one_file(const std::string& name, double bytes_per_element, Writer writer) {
-  return {name, bytes_per_element, {}, [writer](const auto& mesh, const auto& folder, bool release) {
-            auto last = writer;
-            last.release = release;
-            return last(mesh, folder);
-          }};
-}
-
 /// All of them: a new format is one more line.
 template <int D>
 std::vector<output_format<D>> known_formats(int pieces) {
   constexpr double msh_bytes = D == 3 ? 48 : 45;
   std::vector<output_format<D>> known;
   known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.pieces = pieces}});
-  known.push_back(in_one_file<D>("msh", msh_bytes, io::msh_writer{}));
+  known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
-    known.push_back(in_one_file<D>("msh-partitioned", msh_bytes,
-                                   io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"}));
+    known.push_back(
+        {"msh-partitioned", msh_bytes, io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"}});
   return known;
 }
 

@@ -2,12 +2,10 @@
 /// The file formats of meshes, by name.
 #pragma once
 
-#include "dovetail/core/report.hpp"
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,12 +16,7 @@ template <int D>
 struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of points
-  /// Of a format in files of whole pieces.
-  io::any_piecewise_writer<D> files = {};
-  /// Of a format in one file. With `release`, pieces are given up when they are read for the last time.
-  std::function<report(const distributed_simplicial_mesh<D>&, const std::filesystem::path& folder,
-                       bool release)>
-      write = {};
+  io::any_piecewise_writer<D> writer;
 };
 
 /// What `--format` may name, of that dimension; the first is the default.

@@ -22,7 +22,7 @@
 using namespace dovetail;
 
 static_assert(piecewise_mesh_writer<io::vtu_writer> && piecewise_mesh_writer<io::vtu_writer, 2> &&
-              !piecewise_mesh_writer<io::msh_writer>);
+              piecewise_mesh_writer<io::msh_writer> && piecewise_mesh_writer<io::msh_writer, 2>);
 
 namespace {
 
@@ -231,14 +231,52 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   CHECK(content_of(folder / "out") == content_of(folder / "expected"));
 }
 
-TEST_CASE("the MSH writer gives up each piece when it has read it for the last time") {
+TEST_CASE("an MSH file is put together from the parts of pieces, also by workers and after an interruption") {
   const testing::scratch_folder folder("finish_msh");
-  store pieces;
-  io::msh_writer{}(pieces.mesh(), folder);
-  CHECK(pieces.gone.empty());
-  pieces.loads.clear();
-  io::msh_writer{.release = true}(pieces.mesh(), folder);
-  CHECK(pieces.loads.size() == 16);
-  CHECK(pieces.gone.size() == 8);
-  CHECK(pieces.notes.empty());
+  for (const auto& writer :
+       {io::msh_writer{}, io::msh_writer{.partitioned = true, .ghosts = true, .stem = "parts"},
+        io::msh_writer{.partitioned = true, .ghosts = true, .binary = false, .stem = "text"}}) {
+    CAPTURE(writer.stem);
+    const std::string file = writer.stem + ".msh";
+    store pieces;
+    writer(pieces.mesh(), folder / "expected");
+    CHECK(pieces.loads.size() == 8);
+    const auto expected = testing::file_content(folder / "expected" / file);
+
+    io::finish_mesh<3>(pieces.mesh(), {writer}, folder / "workers", parallel::processes{.worker_count = 2});
+    CHECK(testing::file_content(folder / "workers" / file) == expected);
+
+    auto damaged = pieces.mesh();
+    damaged.load = [load = damaged.load](local_id p) {
+      if (p == 5)
+        throw io_error("a damaged file");
+      return load(p);
+    };
+    const auto finish = [&](const distributed_mesh& mesh) {
+      io::finish_mesh<3>(mesh, {writer}, folder / "again", parallel::serial{}, {.release = true});
+    };
+    CHECK_THROWS_WITH_AS(finish(damaged), "a damaged file", io_error);
+    pieces.loads.clear();
+    finish(pieces.mesh());
+    CHECK(pieces.loads == std::vector<local_id>{5});
+    CHECK(testing::file_content(folder / "again" / file) == expected);
+    CHECK(content_of(folder / "again").size() == 1); // the folder of parts has gone
+    std::filesystem::remove_all(folder / "again");
+  }
+}
+
+TEST_CASE("a lost or shortened part of an MSH file is an io_error that names it") {
+  const testing::scratch_folder folder("finish_msh_lost");
+  const auto mesh = cubes.distributed();
+  for (const std::uintmax_t bytes : {0, 7, 100}) {
+    const auto output = io::msh_writer{}.begin(mesh, folder);
+    for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
+      const auto part = output.open(f);
+      part.add(io::load_checked(mesh, static_cast<local_id>(f)));
+      part.close();
+    }
+    std::filesystem::resize_file(folder / output.names[3], bytes);
+    CHECK_THROWS_WITH_AS(output.finish(folder), doctest::Contains(output.names[3].c_str()), io_error);
+    CHECK(!std::filesystem::exists(folder / "mesh.msh"));
+  }
 }

@@ -19,6 +19,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <sys/sendfile.h>
 #include <type_traits>
 #include <unistd.h>
 #include <utility>
@@ -101,6 +102,29 @@ public:
     flush();
     if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0)
       fail("cannot move in");
+  }
+
+  /// Appends a range of another file; the system copies it.
+  void copy(const std::filesystem::path& from, std::uint64_t first, std::uint64_t bytes) {
+    flush();
+    errno = 0;
+    const int source = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
+    auto at = static_cast<off_t>(first);
+    auto left = static_cast<std::size_t>(bytes);
+    while (source >= 0 && left > 0) {
+      const auto copied = ::sendfile(descriptor_, source, &at, left);
+      if (copied > 0)
+        left -= static_cast<std::size_t>(copied);
+      else if (copied == 0 || errno != EINTR)
+        break;
+    }
+    const int reason = errno;
+    if (source >= 0)
+      ::close(source);
+    if (source < 0 || left > 0)
+      throw io_error("cannot copy " + from.string() + " to " + path_.string() + ": " +
+                     (reason != 0 ? std::strerror(reason) : "it is too short"));
+    size_ += bytes;
   }
 
   /// Bytes written so far.

@@ -41,15 +41,15 @@ concept mesh_writer = std::copy_constructible<W> &&
 /// `const std::filesystem::path& unfinished`: `w.begin(mesh, unfinished)` -> io::piecewise_output<D>.
 ///
 /// Semantics: prepares the files, which will be in the folder `unfinished` until all are complete. Nothing is
-/// loaded; each piece is given once to the file that takes it (`piecewise_output::open`), in any worker. The
-/// bytes of a file depend on the mesh alone. `mesh` outlives the output. `w(mesh, folder)` gives the same
-/// files.
+/// loaded; each piece is given once to the file that takes it (`piecewise_output::open`), in any worker.
+/// These are the files of the mesh, or what `piecewise_output::finish` makes them of. The bytes of a file
+/// depend on the mesh alone. `mesh` outlives the output. `w(mesh, folder)` gives the same files.
 ///
 /// Complexity: linear in the skeleton.
 ///
 /// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
 ///
-/// Models: io::vtu_writer.
+/// Models: io::vtu_writer, io::msh_writer.
 template <class W, int D = 3>
 concept piecewise_mesh_writer = mesh_writer<W, D> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh,

@@ -18,10 +18,13 @@ namespace dovetail::io {
 /// record.
 class msh_encoder {
 public:
-  msh_encoder(output_file& file, bool binary) : file_(file), binary_(binary) {
+  msh_encoder(output_file& file, bool binary) : file_(file), binary_(binary) {}
+
+  /// The beginning of a file.
+  void format() {
     file_.text("$MeshFormat\n");
-    file_.text(binary ? "4.1 1 8\n" : "4.1 0 8\n");
-    if (binary) {
+    file_.text(binary_ ? "4.1 1 8\n" : "4.1 0 8\n");
+    if (binary_) {
       file_.value<std::int32_t>(1); // tells readers the byte order
       file_.text("\n");
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <filesystem>
@@ -18,14 +19,17 @@ struct msh_writer {
   bool ghosts = false; ///< with `partitioned`: one layer of elements that touch another partition in a point
   bool binary = true;
   std::string stem = "mesh";
-  bool release = false; ///< gives up each piece when it is read for the last time; after a failure, or when
-                        ///< the program is stopped, a resumed run makes these pieces again
 
-  /// Every piece is loaded twice, once for its nodes and once for its elements; in D = 2 once more, to count
-  /// those on each CAD face. Memory: the skeleton with several times its size in work arrays, one piece, and
-  /// the ghosts. Throws `usage_error` when a mesh of D = 2 is to be partitioned.
+  /// A model of `piecewise_mesh_writer`. Memory: the skeleton with several times its size in work arrays, and
+  /// one piece. Throws `usage_error` when a mesh of D = 2 is to be partitioned.
   template <int D>
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const;
+
+  /// Tasks for `finish_mesh`: a worker encodes what a piece adds to the file, and the file is put together
+  /// from these parts, each of which goes as soon as it has been copied.
+  template <int D>
+  piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                            const std::filesystem::path& unfinished) const;
 };
 
 } // namespace dovetail::io

@@ -4,20 +4,20 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/output_file.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/msh_encoder.hpp"
 #include "dovetail/io/msh_entities.hpp"
+#include "dovetail/io/msh_piece_file.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/patches.hpp"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iterator>
-#include <map>
+#include <memory>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,14 +33,58 @@ struct element_block {
   global_id elements = 0;
 };
 
+/// The files of all pieces. Their contents are copied to the whole file and go: of each piece first the
+/// points, which are last in its file, then block by block the elements, then the ghosts.
+class msh_piece_files {
+public:
+  explicit msh_piece_files(std::vector<std::filesystem::path> paths) : paths_(std::move(paths)) {
+    for (const auto& path : paths_)
+      tables_.push_back(read_msh_piece_table(path));
+    copied_.resize(paths_.size());
+    blocks_.resize(paths_.size());
+  }
+  const std::vector<msh_piece_table>& tables() const { return tables_; }
+
+  void copy_points(output_file& to, local_id piece) const {
+    const auto p = static_cast<std::size_t>(piece);
+    const auto first = tables_[p].element_bytes() + tables_[p].ghost_bytes;
+    to.copy(paths_[p], first, tables_[p].point_bytes);
+    std::error_code ignored;
+    std::filesystem::resize_file(paths_[p], first, ignored);
+  }
+  void copy_next_block(output_file& to, local_id piece) {
+    const auto p = static_cast<std::size_t>(piece);
+    copy_next(to, p, tables_[p].blocks[blocks_[p]++].bytes);
+  }
+  void copy_ghosts(output_file& to) {
+    for (std::size_t p = 0; p < paths_.size(); ++p)
+      copy_next(to, p, tables_[p].ghost_bytes);
+  }
+
+private:
+  void copy_next(output_file& to, std::size_t p, std::uint64_t bytes) {
+    if (bytes == 0)
+      return; // the file may have gone
+    to.copy(paths_[p], copied_[p], bytes);
+    copied_[p] += bytes;
+    std::error_code ignored;
+    if (copied_[p] == tables_[p].element_bytes() + tables_[p].ghost_bytes)
+      std::filesystem::remove(paths_[p], ignored);
+  }
+
+  std::vector<std::filesystem::path> paths_;
+  std::vector<msh_piece_table> tables_;
+  std::vector<std::uint64_t> copied_; ///< bytes of each file's beginning
+  std::vector<std::size_t> blocks_;   ///< number of those copied of each file
+};
+
 /// Everything but the pieces: what the sections of one MSH file are written from.
 template <int D>
 struct msh_document {
   const distributed_simplicial_mesh<D>& mesh;
-  global_numbering numbers;
+  const global_numbering& numbers;
   boundary_patches patches;
   std::vector<std::string> materials; ///< of D = 3
-  point_sharers sharers;              ///< of D = 3
   msh_entities cad;
   msh_entities parts; ///< only of a partitioned file
   bool partitioned = false;
@@ -61,18 +105,14 @@ struct msh_document {
   }
 };
 
-inline msh_document<3> prepare_msh(const distributed_mesh& mesh, bool partitioned, bool ghosts) {
-  msh_document<3> document{mesh,
-                           number_globally(mesh),
-                           collect_patches(mesh),
-                           collect_material_names(mesh),
-                           point_sharers(mesh.skeleton),
-                           {},
-                           {},
-                           partitioned};
-  document.cad = number_cad_entities(mesh, document.sharers, document.materials.size());
+inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_numbering& numbers,
+                                   const std::vector<msh_piece_table>&, bool partitioned, bool ghosts) {
+  msh_document<3> document{mesh, numbers,    collect_patches(mesh), collect_material_names(mesh), {},
+                           {},   partitioned};
+  const point_sharers sharers(mesh.skeleton);
+  document.cad = number_cad_entities(mesh, sharers, document.materials.size());
   if (partitioned)
-    document.parts = number_partition_entities(mesh, document.sharers, document.cad);
+    document.parts = number_partition_entities(mesh, sharers, document.cad);
   if (partitioned && ghosts)
     for (std::size_t s = 0; s < mesh.counts.size(); ++s)
       document.ghost_tags.push_back(document.parts.tags[3].back() + 1 + static_cast<local_id>(s));
@@ -87,30 +127,27 @@ inline msh_document<3> prepare_msh(const distributed_mesh& mesh, bool partitione
   return document;
 }
 
-inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh, bool partitioned, bool) {
-  if (partitioned)
-    throw usage_error("a mesh of triangles is written to MSH whole, not partitioned");
-  std::vector<std::map<local_id, global_id>> of_face(mesh.counts.size()); // per piece
+inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh,
+                                   const global_numbering& numbers,
+                                   const std::vector<msh_piece_table>& pieces, bool, bool) {
   std::set<local_id> faces;
-  for (std::size_t p = 0; p < mesh.counts.size(); ++p)
-    for (const local_id face : load_checked(mesh, static_cast<local_id>(p)).mesh.tags) {
-      ++of_face[p][face];
-      faces.insert(face);
-    }
+  for (const msh_piece_table& piece : pieces)
+    for (const auto& block : piece.blocks)
+      faces.insert(static_cast<local_id>(block.face));
   if (faces.empty())
     throw mesh_error("there are no triangles to write");
   msh_document<2> document{mesh,
-                           number_globally(mesh),
+                           numbers,
                            collect_patches(mesh, static_cast<std::size_t>(*faces.rbegin()) + 1),
                            {},
-                           point_sharers(fine_skeleton{}),
                            number_cad_entities(mesh, faces),
                            {}};
-  for (std::size_t p = 0; p < of_face.size(); ++p)
-    for (const auto& [face, triangles] : of_face[p])
-      document.blocks.push_back({static_cast<std::size_t>(std::distance(faces.begin(), faces.find(face))),
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    for (const auto& block : pieces[p].blocks)
+      document.blocks.push_back({static_cast<std::size_t>(std::distance(
+                                     faces.begin(), faces.find(static_cast<local_id>(block.face)))),
                                  {static_cast<local_id>(p)},
-                                 triangles});
+                                 block.elements});
   return document;
 }
 
@@ -133,15 +170,11 @@ inline void write_block_head(msh_encoder& out, int dimension, local_id entity, i
   out.line();
 }
 
-/// The tag of a node or element with a global number.
-inline std::uint64_t msh_tag(global_id id) {
-  return static_cast<std::uint64_t>(id) + 1;
-}
-
 /// The nodes of one entity: skeleton points, then the inner points of subdomains. MSH lists a block's tags
-/// before its coordinates; tags follow from the counts, so pieces are loaded for the coordinates only.
+/// before its coordinates; the tags follow from the counts.
 template <int D>
-void write_node_block(msh_encoder& out, const msh_document<D>& document, int dimension, std::size_t entity,
+void write_node_block(output_file& file, msh_encoder& out, const msh_document<D>& document,
+                      const msh_piece_files& pieces, int dimension, std::size_t entity,
                       const std::vector<local_id>& subdomains) {
   const auto& mesh = document.mesh;
   const auto& filing = document.filing();
@@ -157,27 +190,23 @@ void write_node_block(msh_encoder& out, const msh_document<D>& document, int dim
     out.count(msh_tag(id));
     out.line();
   };
-  const auto coordinates = [&](vec3 p) {
-    out.point(p);
-    out.line();
-  };
   for (const auto v : shared)
     node_tag(v);
   for (const auto s : subdomains)
     for (auto id = document.numbers.first_point[static_cast<std::size_t>(s)];
          id < document.numbers.first_point[static_cast<std::size_t>(s) + 1]; ++id)
       node_tag(id);
-  for (const auto v : shared)
-    coordinates(mesh.skeleton.points[static_cast<std::size_t>(v)]);
-  for (const auto s : subdomains) {
-    const auto piece = load_checked(mesh, s);
-    for (auto i = piece.skeleton_points.size(); i < piece.mesh.points.size(); ++i)
-      coordinates(piece.mesh.points[i]);
+  for (const auto v : shared) {
+    out.point(mesh.skeleton.points[static_cast<std::size_t>(v)]);
+    out.line();
   }
+  for (const auto s : subdomains)
+    pieces.copy_points(file, s);
 }
 
 template <int D>
-void write_nodes(msh_encoder& out, const msh_document<D>& document) {
+void write_nodes(output_file& file, msh_encoder& out, const msh_document<D>& document,
+                 const msh_piece_files& pieces) {
   const auto& filing = document.filing();
   const auto subdomains = document.subdomains_of_entities();
   const auto inner = [&](std::size_t entity) {
@@ -203,17 +232,9 @@ void write_nodes(msh_encoder& out, const msh_document<D>& document) {
   out.line();
   for (std::size_t d = 0; d < 4; ++d)
     for (std::size_t i = 0; i < filing.points[d].size(); ++i)
-      write_node_block(out, document, static_cast<int>(d), i,
+      write_node_block(file, out, document, pieces, static_cast<int>(d), i,
                        d == D ? subdomains[i] : std::vector<local_id>{});
   out.end("Nodes");
-}
-
-template <std::size_t N>
-void write_element(msh_encoder& out, std::uint64_t tag, const std::array<global_id, N>& vertices) {
-  out.count(tag);
-  for (const auto v : vertices)
-    out.count(msh_tag(v));
-  out.line();
 }
 
 /// One point element per vertex, then the line and triangle elements of the entities. Returns the next tag.
@@ -249,43 +270,9 @@ std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document<D>& d
   return tag;
 }
 
-/// Elements that touch another subdomain in a point, and which subdomains they touch.
-struct ghost_elements {
-  struct entry {
-    global_id element;
-    local_id owner;
-    std::uint32_t first; ///< in `partitions`
-    std::uint32_t count;
-  };
-  std::vector<entry> entries;
-  std::vector<local_id> partitions;
-
-  void collect(const mesh_piece& piece, const point_sharers& sharers, global_id first_element) {
-    std::vector<local_id> touched;
-    for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
-      touched.clear();
-      for (const auto v : piece.mesh.elements[e])
-        if (static_cast<std::size_t>(v) < piece.skeleton_points.size())
-          for (const auto s : sharers[piece.skeleton_points[static_cast<std::size_t>(v)]])
-            if (s != piece.subdomain)
-              touched.push_back(s);
-      if (touched.empty())
-        continue;
-      std::sort(touched.begin(), touched.end());
-      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-      entries.push_back({first_element + static_cast<global_id>(e), piece.subdomain,
-                         static_cast<std::uint32_t>(partitions.size()),
-                         static_cast<std::uint32_t>(touched.size())});
-      partitions.insert(partitions.end(), touched.begin(), touched.end());
-    }
-  }
-};
-
-/// Returns the ghosts, if they are wanted: they are collected on the way. This is the last reading of a
-/// piece.
 template <int D>
-ghost_elements write_elements(msh_encoder& out, const msh_document<D>& document, bool release) {
-  const auto& mesh = document.mesh;
+void write_elements(output_file& file, msh_encoder& out, const msh_document<D>& document,
+                    msh_piece_files& pieces) {
   const auto& filing = document.filing();
   std::uint64_t blocks = filing.tags[0].size() + document.blocks.size();
   std::uint64_t total = static_cast<std::uint64_t>(document.numbers.elements()) + filing.tags[0].size();
@@ -302,87 +289,107 @@ ghost_elements write_elements(msh_encoder& out, const msh_document<D>& document,
   out.line();
   // Elements of dimension D carry their global numbers; the others are numbered after them.
   write_skeleton_elements(out, document, msh_tag(document.numbers.elements()));
-  ghost_elements ghosts;
-  simplicial_piece<D> piece;
   for (const element_block& block : document.blocks) {
     write_block_head(out, D, filing.tags[D][block.entity],
                      static_cast<int>(D == 2 ? msh_type::triangle : msh_type::tetrahedron), block.elements);
-    for (const local_id s : block.pieces) {
-      if (piece.subdomain != s) {
-        piece = {}; // not two at a time
-        piece = load_checked(mesh, s);
-        if (release && mesh.release)
-          mesh.release(s, {});
-      }
-      const global_id first = document.numbers.first_element[static_cast<std::size_t>(s)];
-      if constexpr (D == 3)
-        if (!document.ghost_tags.empty())
-          ghosts.collect(piece, document.sharers, first);
-      for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
-        if (D == 2 && cad_tag(piece.mesh.tags[e]) != filing.tags[D][block.entity])
-          continue;
-        std::array<global_id, D + 1> vertices;
-        for (std::size_t k = 0; k <= D; ++k)
-          vertices[k] = global_point(piece, document.numbers, piece.mesh.elements[e][k]);
-        write_element(out, msh_tag(first + static_cast<global_id>(e)), vertices);
-      }
-    }
+    for (const local_id s : block.pieces)
+      pieces.copy_next_block(file, s);
   }
   out.end("Elements");
-  return ghosts;
 }
 
-inline void write_ghosts(msh_encoder& out, const ghost_elements& ghosts) {
+inline void write_ghosts(output_file& file, msh_encoder& out, msh_piece_files& pieces) {
+  std::uint64_t ghosts = 0;
+  for (const msh_piece_table& piece : pieces.tables())
+    ghosts += piece.ghosts;
   out.begin("GhostElements");
-  out.count(ghosts.entries.size());
+  out.count(ghosts);
   out.line();
-  for (const auto& ghost : ghosts.entries) {
-    out.count(msh_tag(ghost.element));
-    out.integer(partition_tag(ghost.owner));
-    out.count(ghost.count);
-    for (const auto s : std::span(ghosts.partitions).subspan(ghost.first, ghost.count))
-      out.integer(partition_tag(s));
-    out.line();
-  }
+  pieces.copy_ghosts(file);
   out.end("GhostElements");
+}
+
+/// Puts the file together. Returns its bytes.
+template <int D>
+std::uint64_t write_msh_file(const std::filesystem::path& path, const msh_document<D>& document,
+                             msh_piece_files& pieces, bool binary) {
+  output_file file(path);
+  msh_encoder out(file, binary);
+  out.format();
+  write_physical_names(file, physical_names(document));
+  out.begin("Entities");
+  write_entity_records(out, document.cad, document.patches, false);
+  out.end("Entities");
+  if (document.partitioned)
+    write_partitioned_entities(out, document.parts, document.patches, document.mesh.counts.size(),
+                               document.ghost_tags);
+  write_nodes(file, out, document, pieces);
+  write_elements(file, out, document, pieces);
+  if (!document.ghost_tags.empty())
+    write_ghosts(file, out, pieces);
+  file.commit();
+  return file.size();
 }
 
 } // namespace detail
 
 template <int D>
+piecewise_output<D> msh_writer::begin(const distributed_simplicial_mesh<D>& mesh,
+                                      const std::filesystem::path& unfinished) const {
+  if (D == 2 && partitioned)
+    throw usage_error("a mesh of triangles is written to MSH whole, not partitioned");
+  const bool with_ghosts = partitioned && ghosts;
+  sides_by_subdomain<D>{mesh}; // checks the skeleton's references; everything after indexes freely
+  auto encoding = std::make_shared<detail::msh_encoding>();
+  encoding->numbers = number_globally(mesh);
+  encoding->binary = binary;
+  if constexpr (D == 3)
+    if (with_ghosts)
+      encoding->sharers = std::make_unique<const point_sharers>(mesh.skeleton);
+  const std::shared_ptr<const detail::msh_encoding> shared = std::move(encoding);
+
+  piecewise_output<D> output;
+  output.bounds = {0};
+  std::vector<std::filesystem::path> paths;
+  for (local_id p = 0; p < static_cast<local_id>(mesh.counts.size()); ++p) {
+    output.bounds.push_back(p + 1);
+    output.names.push_back(stem + "_" + std::to_string(p) + ".msh_piece");
+    paths.push_back(unfinished / output.names.back());
+  }
+  output.open = [paths, shared](std::size_t f) {
+    const auto file = std::make_shared<detail::msh_piece_file<D>>(paths[f], shared);
+    return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
+                         [file] { return file->close(); }};
+  };
+  output.finish = [&mesh, paths, shared, with_ghosts, *this](const std::filesystem::path& folder) {
+    detail::msh_piece_files pieces(paths);
+    const auto document =
+        detail::prepare_msh(mesh, shared->numbers, pieces.tables(), partitioned, with_ghosts);
+    const auto bytes = detail::write_msh_file(folder / (stem + ".msh"), document, pieces, binary);
+    report summary{"msh", 0, {}, {}, {}, {stem + ".msh"}};
+    summary.set("elements", static_cast<double>(shared->numbers.elements()));
+    summary.set("bytes", static_cast<double>(bytes));
+    summary.set("files", 1);
+    return summary;
+  };
+  return output;
+}
+
+template <int D>
 report msh_writer::operator()(const distributed_simplicial_mesh<D>& mesh,
                               const std::filesystem::path& folder) const {
-  const stopwatch clock;
-  make_folder(folder);
-  sides_by_subdomain<D>{mesh}; // checks the skeleton's references; everything after indexes freely
-  const auto document = detail::prepare_msh(mesh, partitioned, ghosts);
-  output_file file(folder / (stem + ".msh"));
-  msh_encoder out(file, binary);
-  write_physical_names(file, detail::physical_names(document));
-  out.begin("Entities");
-  detail::write_entity_records(out, document.cad, document.patches, false);
-  out.end("Entities");
-  if (partitioned)
-    detail::write_partitioned_entities(out, document.parts, document.patches, mesh.counts.size(),
-                                       document.ghost_tags);
-  detail::write_nodes(out, document);
-  const auto ghost_layer = detail::write_elements(out, document, release);
-  if (!document.ghost_tags.empty())
-    detail::write_ghosts(out, ghost_layer);
-  file.commit();
-
-  report summary{"msh", clock.seconds(), {}, {}, {}, {stem + ".msh"}};
-  summary.set("elements", static_cast<double>(document.numbers.elements()));
-  summary.set("bytes", static_cast<double>(file.size()));
-  summary.set("files", 1);
-  return summary;
+  return write_piecewise<D>(mesh, *this, folder);
 }
 
 #ifdef DOVETAIL_COMPILED
-template report msh_writer::operator()<2>(const distributed_simplicial_mesh<2>& mesh,
-                                          const std::filesystem::path& folder) const;
-template report msh_writer::operator()<3>(const distributed_simplicial_mesh<3>& mesh,
-                                          const std::filesystem::path& folder) const;
+template piecewise_output<2> msh_writer::begin(const distributed_simplicial_mesh<2>&,
+                                               const std::filesystem::path&) const;
+template piecewise_output<3> msh_writer::begin(const distributed_simplicial_mesh<3>&,
+                                               const std::filesystem::path&) const;
+template report msh_writer::operator()(const distributed_simplicial_mesh<2>&,
+                                       const std::filesystem::path&) const;
+template report msh_writer::operator()(const distributed_simplicial_mesh<3>&,
+                                       const std::filesystem::path&) const;
 #endif
 
 } // namespace dovetail::io

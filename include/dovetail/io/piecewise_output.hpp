@@ -102,8 +102,8 @@ public:
           !std::filesystem::is_directory(std::filesystem::symlink_status(of_format, ignored)))
         continue;
       for (const auto& file : entries_of(of_format))
-        if (const auto ending = file.extension();
-            ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu")
+        if (const auto ending = file.extension(); ending == ".part" || ending == ".vtu" || ending == ".vtp" ||
+                                                  ending == ".pvtu" || ending == ".msh_piece")
           std::filesystem::remove(file, ignored);
       remove_empty_folder(of_format);
     }

@@ -191,6 +191,7 @@ private:
 inline void write_msh_document(const mesh_document& mesh, const std::filesystem::path& path, bool binary) {
   output_file file(path);
   msh_encoder out(file, binary);
+  out.format();
   part_sections sections(out, mesh);
   std::vector<physical_name> groups;
   for (const auto& [tag, name] : mesh.patch_names)

@@ -1,0 +1,170 @@
+/// @file
+/// What a piece adds to an MSH file, in a file of its own: any worker encodes it, and when all are there the
+/// parts are copied to their places.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/msh_encoder.hpp"
+#include "dovetail/io/msh_entities.hpp"
+#include "dovetail/io/skeleton_entities.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io::detail {
+
+/// The tag in the file of a node or element with a global number.
+inline std::uint64_t msh_tag(global_id id) {
+  return static_cast<std::uint64_t>(id) + 1;
+}
+
+template <std::size_t N>
+void write_element(msh_encoder& out, std::uint64_t tag, const std::array<global_id, N>& vertices) {
+  out.count(tag);
+  for (const auto v : vertices)
+    out.count(msh_tag(v));
+  out.line();
+}
+
+/// What is in the file of a piece, one behind the other: elements, ghosts, coordinates of the inner points.
+struct msh_piece_table {
+  struct block {
+    global_id face; ///< in D = 2 the CAD face that the elements are on
+    global_id elements;
+    std::uint64_t bytes;
+  };
+  std::vector<block> blocks;
+  std::uint64_t ghosts = 0;
+  std::uint64_t ghost_bytes = 0;
+  std::uint64_t point_bytes = 0;
+
+  std::uint64_t element_bytes() const {
+    return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const block& b) { return sum + b.bytes; });
+  }
+};
+
+/// What the files of all pieces are written with.
+struct msh_encoding {
+  global_numbering numbers;
+  bool binary = true;
+  std::unique_ptr<const point_sharers> sharers = {}; ///< only where ghosts are wanted
+};
+
+template <int D>
+class msh_piece_file {
+public:
+  msh_piece_file(const std::filesystem::path& path, std::shared_ptr<const msh_encoding> how)
+      : how_(std::move(how)), file_(path), out_(file_, how_->binary) {}
+
+  /// Once.
+  void add(const simplicial_piece<D>& piece) {
+    write_elements(piece);
+    const auto before_ghosts = file_.size();
+    if (how_->sharers)
+      write_ghosts(piece);
+    const auto before_points = file_.size();
+    for (auto i = piece.skeleton_points.size(); i < piece.mesh.points.size(); ++i) {
+      out_.point(piece.mesh.points[i]);
+      out_.line();
+    }
+    table_.ghost_bytes = before_points - before_ghosts;
+    table_.point_bytes = file_.size() - before_points;
+  }
+  std::uint64_t close() {
+    byte_writer bytes;
+    bytes.array(table_.blocks);
+    bytes.value(table_.ghosts);
+    bytes.value(table_.ghost_bytes);
+    bytes.value(table_.point_bytes);
+    const byte_buffer table = bytes.take();
+    file_.bytes(table.data(), table.size());
+    file_.value<std::uint64_t>(table.size());
+    file_.commit();
+    return file_.size();
+  }
+
+private:
+  void write_elements(const simplicial_piece<D>& piece) {
+    std::map<local_id, std::vector<std::size_t>> of_face;
+    for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
+      of_face[D == 2 ? piece.mesh.tags[e] : 0].push_back(e);
+    const global_id first = how_->numbers.first_element[static_cast<std::size_t>(piece.subdomain)];
+    for (const auto& [face, elements] : of_face) {
+      const auto before = file_.size();
+      for (const std::size_t e : elements) {
+        std::array<global_id, D + 1> vertices;
+        for (std::size_t k = 0; k <= D; ++k)
+          vertices[k] = global_point(piece, how_->numbers, piece.mesh.elements[e][k]);
+        write_element(out_, msh_tag(first + static_cast<global_id>(e)), vertices);
+      }
+      table_.blocks.push_back({face, static_cast<global_id>(elements.size()), file_.size() - before});
+    }
+  }
+
+  /// Elements that touch another subdomain in a point, and which subdomains they touch.
+  void write_ghosts(const simplicial_piece<D>& piece) {
+    const global_id first = how_->numbers.first_element[static_cast<std::size_t>(piece.subdomain)];
+    std::vector<local_id> touched;
+    for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
+      touched.clear();
+      for (const auto v : piece.mesh.elements[e])
+        if (static_cast<std::size_t>(v) < piece.skeleton_points.size())
+          for (const auto s : (*how_->sharers)[piece.skeleton_points[static_cast<std::size_t>(v)]])
+            if (s != piece.subdomain)
+              touched.push_back(s);
+      if (touched.empty())
+        continue;
+      sort_unique(touched);
+      ++table_.ghosts;
+      out_.count(msh_tag(first + static_cast<global_id>(e)));
+      out_.integer(partition_tag(piece.subdomain));
+      out_.count(touched.size());
+      for (const auto s : touched)
+        out_.integer(partition_tag(s));
+      out_.line();
+    }
+  }
+
+  std::shared_ptr<const msh_encoding> how_;
+  output_file file_;
+  msh_encoder out_;
+  msh_piece_table table_;
+};
+
+/// Reads the end of a piece's file. Throws `io_error` naming it when it is not whole.
+inline msh_piece_table read_msh_piece_table(const std::filesystem::path& path) {
+  std::error_code missing;
+  const auto whole = std::filesystem::file_size(path, missing);
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t size = 0;
+  constexpr std::streamoff end = sizeof size;
+  if (file.seekg(-end, std::ios::end).read(reinterpret_cast<char*>(&size), end) && size <= whole)
+    file.seekg(-end - static_cast<std::streamoff>(size), std::ios::end);
+  byte_buffer bytes(file && size <= whole ? size : 0);
+  if (bytes.empty() || !file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+    throw io_error("cannot read " + path.string() + ", a piece's part of an MSH file");
+  byte_reader from(bytes);
+  msh_piece_table table;
+  table.blocks = from.array<msh_piece_table::block>();
+  table.ghosts = from.value<std::uint64_t>();
+  table.ghost_bytes = from.value<std::uint64_t>();
+  table.point_bytes = from.value<std::uint64_t>();
+  return table;
+}
+
+} // namespace dovetail::io::detail
