@@ -23,12 +23,6 @@ inline box3 united(box3 a, const box3& b) {
   return a;
 }
 
-/// The box grown by `margin` on every side.
-inline box3 inflated(const box3& box, double margin) {
-  const vec3 by{margin, margin, margin};
-  return {box.lower - by, box.upper + by};
-}
-
 inline bool contains(const box3& box, vec3 p) {
   return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
          box.lower.z <= p.z && p.z <= box.upper.z;

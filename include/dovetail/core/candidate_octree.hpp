@@ -69,18 +69,15 @@ private:
   /// gained.
   template <class Reaches>
   bool split(const listed_leaf& leaf, Reaches&& reaches, std::vector<listed_leaf>& next) {
-    const box3 whole = tree_.box(leaf.node);
-    std::array<std::vector<local_id>, 8> lists;
-    std::size_t listed = 0;
     // Rounding moves the centres of a descent by far less than this.
     const double margin = 1e-12 * (norm(bounds_.lower) + norm(bounds_.upper));
-    for (unsigned k = 0; k < 8; ++k) {
-      const box3 part = inflated(octant(whole, k), margin);
-      for (const local_id item : leaf.items)
-        if (reaches(item, part))
-          lists[k].push_back(item);
-      listed += lists[k].size();
-    }
+    const auto reach = [&](local_id item) {
+      return [&reaches, item](const box3& part) { return reaches(item, part); };
+    };
+    auto lists = items_by_octant(tree_.box(leaf.node), leaf.items, reach, margin);
+    std::size_t listed = 0;
+    for (const auto& list : lists)
+      listed += list.size();
     if (listed > 7 * leaf.items.size())
       return false;
     tree_.split(leaf.node);

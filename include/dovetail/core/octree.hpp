@@ -2,15 +2,52 @@
 /// A pointerless cube octree that can be refined, with integer keys for the corners of its leaves.
 #pragma once
 
+#include "dovetail/core/ids.hpp"
 #include "dovetail/core/vector.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// Octant k of a box: its upper half along x, y, z where bits 0, 1, 2 of k are set.
+constexpr box3 octant(const box3& box, unsigned k) {
+  const vec3 center = box.center();
+  box3 part = box;
+  for (int axis = 0; axis < 3; ++axis)
+    ((k >> axis & 1U) != 0 ? part.lower : part.upper)[axis] = center[axis];
+  return part;
+}
+
+/// Visits a box and, where `enter(box, depth)` says so, its octants, depth first and in their order.
+template <class Enter>
+void descend_octants(const box3& box, Enter&& enter, int depth = 0) {
+  if (enter(box, depth))
+    for (unsigned k = 0; k < 8; ++k)
+      descend_octants(octant(box, k), enter, depth + 1);
+}
+
+/// For each octant of a box, in their order, the items that may reach into it, `margin` beyond its faces:
+/// those for which `reach(item)`, asked once an item, says so of the octant's box.
+template <class Reach>
+std::array<std::vector<local_id>, 8> items_by_octant(const box3& box, std::span<const local_id> items,
+                                                     Reach&& reach, double margin = 0) {
+  std::array<box3, 8> parts;
+  for (unsigned k = 0; k < 8; ++k)
+    parts[k] = inflated(octant(box, k), margin);
+  std::array<std::vector<local_id>, 8> lists;
+  for (const local_id item : items) {
+    const auto reaches = reach(item);
+    for (unsigned k = 0; k < 8; ++k)
+      if (reaches(parts[k]))
+        lists[k].push_back(item);
+  }
+  return lists;
+}
 
 /// The cube around a box, a little larger so that nothing lies on its faces.
 inline box3 cube_around(const box3& box) {

@@ -103,13 +103,10 @@ struct box3 {
   }
 };
 
-/// Octant k of a box: its upper half along x, y, z where bits 0, 1, 2 of k are set.
-constexpr box3 octant(const box3& box, unsigned k) {
-  const vec3 center = box.center();
-  box3 part = box;
-  for (int axis = 0; axis < 3; ++axis)
-    ((k >> axis & 1U) != 0 ? part.lower : part.upper)[axis] = center[axis];
-  return part;
+/// The box grown by `margin` on every side.
+inline box3 inflated(const box3& box, double margin) {
+  const vec3 by{margin, margin, margin};
+  return {box.lower - by, box.upper + by};
 }
 
 } // namespace dovetail

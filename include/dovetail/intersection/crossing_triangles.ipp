@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/octree.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
@@ -104,20 +105,12 @@ private:
   box3 box(local_id item) const { return box_of(points_, triangles_[static_cast<std::size_t>(item)]); }
 
   std::array<cell, 8> octants(const cell& whole) const {
-    const vec3 middle = whole.box.center();
+    auto items = items_by_octant(whole.box, whole.items, [&](local_id item) {
+      return [at = box(item)](const box3& part) { return at.overlaps(part); };
+    });
     std::array<cell, 8> parts;
-    for (unsigned part = 0; part < 8; ++part) {
-      parts[part].box = octant(whole.box, part);
-      parts[part].depth = whole.depth + 1;
-    }
-    for (const local_id item : whole.items) {
-      const box3 at = box(item);
-      for (unsigned part = 0; part < 8; ++part)
-        if (((part & 1u) ? at.upper.x >= middle.x : at.lower.x <= middle.x) &&
-            ((part & 2u) ? at.upper.y >= middle.y : at.lower.y <= middle.y) &&
-            ((part & 4u) ? at.upper.z >= middle.z : at.lower.z <= middle.z))
-          parts[part].items.push_back(item);
-    }
+    for (unsigned k = 0; k < 8; ++k)
+      parts[k] = {octant(whole.box, k), std::move(items[k]), whole.depth + 1};
     return parts;
   }
 

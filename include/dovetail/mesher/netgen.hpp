@@ -3,6 +3,7 @@
 /// Netgen is licensed under the LGPL.
 #pragma once
 
+#include "dovetail/core/octree.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/call_budget.hpp"
 #include "dovetail/mesher/checks.hpp"
@@ -103,24 +104,21 @@ private:
 
   /// Samples the field in an octree over the box, depth first: the order matters to Netgen.
   void add_sizes() {
-    sample(box_, 0);
+    descend_octants(box_, [&](const box3& box, int depth) {
+      const vec3 center = box.center();
+      const double h = mesher::netgen::calibration * parameters_.size_scale * checked_size(size_, center);
+      const vec3 extent = box.upper - box.lower;
+      if (std::max({extent.x, extent.y, extent.z}) > parameters_.sample_spacing * h && depth < 12)
+        return true;
+      samples_.push_back({center, h});
+      largest_ = std::max(largest_, h);
+      return false;
+    });
     nglib::Ng_RestrictMeshSizeGlobal(mesh_, largest_);
     for (const auto& [p, h] : samples_) {
       std::array<double, 3> x{p.x, p.y, p.z};
       nglib::Ng_RestrictMeshSizePoint(mesh_, x.data(), h);
     }
-  }
-  void sample(const box3& box, int depth) {
-    const vec3 center = box.center();
-    const double h = mesher::netgen::calibration * parameters_.size_scale * checked_size(size_, center);
-    const vec3 extent = box.upper - box.lower;
-    if (std::max({extent.x, extent.y, extent.z}) <= parameters_.sample_spacing * h || depth == 12) {
-      samples_.push_back({center, h});
-      largest_ = std::max(largest_, h);
-      return;
-    }
-    for (unsigned k = 0; k < 8; ++k)
-      sample(octant(box, k), depth + 1);
   }
 
   simplicial_mesh<3> result() const {

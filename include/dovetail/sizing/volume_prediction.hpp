@@ -2,6 +2,7 @@
 /// How many tetrahedra will fill a closed surface, before there is any volume mesh.
 #pragma once
 
+#include "dovetail/core/octree.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/sizing/prediction.hpp"
@@ -93,11 +94,11 @@ void integrate(volume_cell& cell, const inside_surface& inside, const H& h, samp
 template <sizing_field H>
 void append_children(const volume_cell& parent, const inside_surface& inside, const H& h,
                      sample_sequence& random, double largest_unsampled, std::vector<volume_cell>& to) {
+  auto triangles = items_by_octant(parent.box, parent.triangles, [&](local_id t) {
+    return [&inside, t](const box3& part) { return inside.may_meet(t, part); };
+  });
   for (unsigned k = 0; k < 8; ++k) {
-    volume_cell child{octant(parent.box, k)};
-    for (const local_id t : parent.triangles)
-      if (inside.may_meet(t, child.box))
-        child.triangles.push_back(t);
+    volume_cell child{octant(parent.box, k), std::move(triangles[k])};
     if (child.triangles.empty() && !parent.triangles.empty() && !inside(child.box.center()))
       continue;
     integrate(child, inside, h, random, largest_unsampled);
