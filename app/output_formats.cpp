@@ -24,8 +24,7 @@ std::vector<output_format<D>> known_formats(int pieces) {
   known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.pieces = pieces}});
   known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
-    known.push_back(
-        {"msh-partitioned", msh_bytes, io::msh_writer{.partitioned = true, .stem = "mesh_partitioned"}});
+    known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
   return known;
 }
 

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   write("vtu", io::vtu_writer{});
   write("vtu, 2 pieces", io::vtu_writer{.pieces = 2});
   write("msh, whole", io::msh_writer{});
-  write("msh, partitioned", io::msh_writer{.partitioned = true});
-  write("msh, partitioned, ghosts", io::msh_writer{.partitioned = true, .ghosts = true});
+  write("msh, partitioned", io::partitioned_msh_writer{.stem = "mesh"});
+  write("msh, partitioned, ghosts", io::partitioned_msh_writer{.ghosts = true, .stem = "mesh"});
   write("msh, text", io::msh_writer{.binary = false});
 }

@@ -28,8 +28,8 @@ TEST_CASE("header-only: a box of CAD becomes a volume mesh, is written and read"
 
   io::vtu_writer{}(made.mesh, folder);
   CHECK(io::mesh_hash(io::read_mesh(folder / "mesh.pvtu")) == io::mesh_hash(made.mesh));
-  io::msh_writer{.partitioned = true}(made.mesh, folder);
-  CHECK(io::mesh_hash(io::read_mesh(folder / "mesh.msh")) == io::mesh_hash(made.mesh));
+  io::partitioned_msh_writer{}(made.mesh, folder);
+  CHECK(io::mesh_hash(io::read_mesh(folder / "mesh_partitioned.msh")) == io::mesh_hash(made.mesh));
 }
 
 TEST_CASE("header-only: a plane domain becomes a mesh of triangles, is written and read") {

@@ -1,8 +1,8 @@
 // Gmsh itself rereads what the MSH writer writes, and the MSH reader reads what Gmsh writes.
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/read_mesh.hpp"
+#include "io/msh_kinds.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -152,7 +152,7 @@ TEST_CASE("Gmsh rereads a whole mesh without complaint, with its groups and coun
 TEST_CASE("faces of the model are closed by their curves, and volumes by their faces, with signs") {
   const testing::scratch_folder folder("msh_boundary");
   for (const bool partitioned : {false, true}) {
-    io::msh_writer{.partitioned = partitioned}(cubes.distributed(), folder);
+    testing::write_kind_of_msh(cubes.distributed(), folder, partitioned);
     const gmsh_session session(folder / "mesh.msh");
     for (int dimension = 1; dimension <= 3; ++dimension)
       for (const auto& [d, tag] : entities(dimension)) {
@@ -183,7 +183,7 @@ TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal coun
   const auto mesh = cubes.distributed();
   for (const bool binary : {true, false})
     for (const bool ghosts : {false, true}) {
-      io::msh_writer{.partitioned = true, .ghosts = ghosts, .binary = binary}(mesh, folder);
+      testing::write_kind_of_msh(mesh, folder, true, ghosts, binary);
       const gmsh_session session(folder / "mesh.msh");
       CHECK(session.complaints() == std::string());
       std::map<int, std::size_t> elements;
@@ -223,7 +223,7 @@ TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal coun
 TEST_CASE("ghosts are the elements that touch another partition in a point") {
   const testing::scratch_folder folder("msh_ghosts");
   const auto mesh = cubes.distributed();
-  io::msh_writer{.partitioned = true, .ghosts = true}(mesh, folder);
+  testing::write_kind_of_msh(mesh, folder, true, true);
   const gmsh_session session(folder / "mesh.msh");
   std::map<int, std::set<std::size_t>> nodes_of_partition; // of own elements
   std::map<int, std::map<std::size_t, std::set<std::size_t>>> elements_of_partition;
@@ -271,7 +271,7 @@ TEST_CASE("gmsh -check finds no fault") {
   }
   const testing::scratch_folder folder("msh_check");
   for (const bool partitioned : {false, true}) {
-    io::msh_writer{.partitioned = partitioned}(cubes.distributed(), folder);
+    testing::write_kind_of_msh(cubes.distributed(), folder, partitioned);
     const auto command =
         "gmsh -check '" + (folder / "mesh.msh").string() + "' > '" + (folder / "log").string() + "' 2>&1";
     CHECK(std::system(command.c_str()) == 0);
@@ -301,7 +301,7 @@ TEST_CASE("what Gmsh writes is read: versions 2.2 and 4.1, text and binary, whol
   const testing::scratch_folder folder("msh_by_gmsh");
   const auto mesh = cubes.distributed();
   for (const bool partitioned : {false, true}) {
-    io::msh_writer{.partitioned = partitioned}(mesh, folder);
+    testing::write_kind_of_msh(mesh, folder, partitioned);
     for (const double version : {2.2, 4.1})
       for (const int binary : {0, 1}) {
         {
@@ -375,7 +375,7 @@ TEST_CASE("a single subdomain, and subdomains without inner points") {
                           testing::stacked_cubes{.cells = 2, .cuts = 2, .solids = 2}})
     for (const bool partitioned : {false, true}) {
       const auto mesh = cut.distributed();
-      io::msh_writer{.partitioned = partitioned, .ghosts = true}(mesh, folder);
+      testing::write_kind_of_msh(mesh, folder, partitioned, true);
       const gmsh_session session(folder / "mesh.msh");
       CHECK(session.complaints() == std::string());
       std::set<std::size_t> nodes;
@@ -397,7 +397,7 @@ TEST_CASE("partitions of any shape: elements dealt out at random, interfaces tha
       parts.push_back(2 * static_cast<local_id>(random() % static_cast<unsigned>(subdomains)) + tag);
     const auto mesh = cut.distributed(parts);
     REQUIRE(io::check_distributed(mesh).valid());
-    io::msh_writer{.partitioned = true, .ghosts = true}(mesh, folder);
+    testing::write_kind_of_msh(mesh, folder, true, true);
     CHECK(io::mesh_hash(io::read_mesh(folder / "mesh.msh")) == io::mesh_hash(mesh));
     const gmsh_session session(folder / "mesh.msh");
     CHECK(session.complaints() == std::string());

@@ -18,6 +18,7 @@ using namespace dovetail;
 static_assert(mesh_writer<io::vtu_writer>);
 static_assert(mesh_writer<io::msh_writer>);
 static_assert(mesh_writer<io::vtu_writer, 2> && mesh_writer<io::msh_writer, 2>);
+static_assert(mesh_writer<io::partitioned_msh_writer, 3> && !mesh_writer<io::partitioned_msh_writer, 2>);
 
 namespace {
 

@@ -201,8 +201,6 @@ TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, wi
       ++read_of_face[face];
     CHECK(read_of_face == of_face);
   }
-  CHECK_THROWS_WITH_AS(io::msh_writer{.partitioned = true}(result.mesh, folder / "msh"),
-                       doctest::Contains("whole, not partitioned"), usage_error);
 }
 
 TEST_CASE("the aircraft in its box: several closed shells") {

@@ -27,7 +27,7 @@ namespace dovetail {
 /// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
 /// `mesh_error` when pieces and skeleton disagree.
 ///
-/// Models: io::vtu_writer, io::msh_writer, both for D = 2 and 3.
+/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3.
 template <class W, int D = 3>
 concept mesh_writer = std::copy_constructible<W> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
@@ -49,7 +49,7 @@ concept mesh_writer = std::copy_constructible<W> &&
 ///
 /// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
 ///
-/// Models: io::vtu_writer, io::msh_writer.
+/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3.
 template <class W, int D = 3>
 concept piecewise_mesh_writer = mesh_writer<W, D> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh,

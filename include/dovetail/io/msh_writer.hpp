@@ -11,17 +11,14 @@
 
 namespace dovetail::io {
 
-/// Writes `<stem>.msh`. Physical groups are boundary patches and materials. A partitioned file (D = 3) has
-/// one partitioned entity per CAD entity or interface and set of sharers; partition s + 1 is subdomain s. In
-/// D = 2 the nodes are all in the block of the first CAD face.
+/// Writes `<stem>.msh`. Physical groups are boundary patches and materials. In D = 2 the nodes are all in the
+/// block of the first CAD face.
 struct msh_writer {
-  bool partitioned = false;
-  bool ghosts = false; ///< with `partitioned`: one layer of elements that touch another partition in a point
   bool binary = true;
   std::string stem = "mesh";
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton with several times its size in work arrays, and
-  /// one piece. Throws `usage_error` when a mesh of D = 2 is to be partitioned.
+  /// one piece.
   template <int D>
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const;
 
@@ -30,6 +27,18 @@ struct msh_writer {
   template <int D>
   piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
                             const std::filesystem::path& unfinished) const;
+};
+
+/// Writes `<stem>.msh` with one partitioned entity per CAD entity or interface and set of sharers; partition
+/// s + 1 is subdomain s. The format has no such files of triangles alone, so D = 3.
+struct partitioned_msh_writer {
+  bool ghosts = false; ///< one layer of elements that touch another partition in a point
+  bool binary = true;
+  std::string stem = "mesh_partitioned";
+
+  /// As those of `msh_writer`.
+  report operator()(const distributed_mesh& mesh, const std::filesystem::path& folder) const;
+  piecewise_output<3> begin(const distributed_mesh& mesh, const std::filesystem::path& unfinished) const;
 };
 
 } // namespace dovetail::io

@@ -105,15 +105,18 @@ struct msh_document {
   }
 };
 
+enum class msh_partitions { none, plain, with_ghosts };
+
 inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_numbering& numbers,
-                                   const std::vector<msh_piece_table>&, bool partitioned, bool ghosts) {
+                                   const std::vector<msh_piece_table>&, msh_partitions partitions) {
+  const bool partitioned = partitions != msh_partitions::none;
   msh_document<3> document{mesh, numbers,    collect_patches(mesh), collect_material_names(mesh), {},
                            {},   partitioned};
   const point_sharers sharers(mesh.skeleton);
   document.cad = number_cad_entities(mesh, sharers, document.materials.size());
   if (partitioned)
     document.parts = number_partition_entities(mesh, sharers, document.cad);
-  if (partitioned && ghosts)
+  if (partitions == msh_partitions::with_ghosts)
     for (std::size_t s = 0; s < mesh.counts.size(); ++s)
       document.ghost_tags.push_back(document.parts.tags[3].back() + 1 + static_cast<local_id>(s));
   auto subdomains = document.subdomains_of_entities();
@@ -129,7 +132,7 @@ inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_nu
 
 inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh,
                                    const global_numbering& numbers,
-                                   const std::vector<msh_piece_table>& pieces, bool, bool) {
+                                   const std::vector<msh_piece_table>& pieces, msh_partitions) {
   std::set<local_id> faces;
   for (const msh_piece_table& piece : pieces)
     for (const auto& block : piece.blocks)
@@ -331,41 +334,36 @@ std::uint64_t write_msh_file(const std::filesystem::path& path, const msh_docume
   return file.size();
 }
 
-} // namespace detail
-
 template <int D>
-piecewise_output<D> msh_writer::begin(const distributed_simplicial_mesh<D>& mesh,
-                                      const std::filesystem::path& unfinished) const {
-  if (D == 2 && partitioned)
-    throw usage_error("a mesh of triangles is written to MSH whole, not partitioned");
-  const bool with_ghosts = partitioned && ghosts;
+piecewise_output<D> begin_msh(const distributed_simplicial_mesh<D>& mesh,
+                              const std::filesystem::path& unfinished, const msh_writer& as,
+                              msh_partitions partitions) {
   sides_by_subdomain<D>{mesh}; // checks the skeleton's references; everything after indexes freely
-  auto encoding = std::make_shared<detail::msh_encoding>();
+  auto encoding = std::make_shared<msh_encoding>();
   encoding->numbers = number_globally(mesh);
-  encoding->binary = binary;
+  encoding->binary = as.binary;
   if constexpr (D == 3)
-    if (with_ghosts)
+    if (partitions == msh_partitions::with_ghosts)
       encoding->sharers = std::make_unique<const point_sharers>(mesh.skeleton);
-  const std::shared_ptr<const detail::msh_encoding> shared = std::move(encoding);
+  const std::shared_ptr<const msh_encoding> shared = std::move(encoding);
 
   piecewise_output<D> output;
   output.bounds = {0};
   std::vector<std::filesystem::path> paths;
   for (local_id p = 0; p < static_cast<local_id>(mesh.counts.size()); ++p) {
     output.bounds.push_back(p + 1);
-    output.names.push_back(stem + "_" + std::to_string(p) + ".msh_piece");
+    output.names.push_back(as.stem + "_" + std::to_string(p) + ".msh_piece");
     paths.push_back(unfinished / output.names.back());
   }
   output.open = [paths, shared](std::size_t f) {
-    const auto file = std::make_shared<detail::msh_piece_file<D>>(paths[f], shared);
+    const auto file = std::make_shared<msh_piece_file<D>>(paths[f], shared);
     return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
                          [file] { return file->close(); }};
   };
-  output.finish = [&mesh, paths, shared, with_ghosts, *this](const std::filesystem::path& folder) {
-    detail::msh_piece_files pieces(paths);
-    const auto document =
-        detail::prepare_msh(mesh, shared->numbers, pieces.tables(), partitioned, with_ghosts);
-    const auto bytes = detail::write_msh_file(folder / (stem + ".msh"), document, pieces, binary);
+  output.finish = [&mesh, paths, shared, partitions, stem = as.stem](const std::filesystem::path& folder) {
+    msh_piece_files pieces(paths);
+    const auto document = prepare_msh(mesh, shared->numbers, pieces.tables(), partitions);
+    const auto bytes = write_msh_file(folder / (stem + ".msh"), document, pieces, shared->binary);
     report summary{"msh", 0, {}, {}, {}, {stem + ".msh"}};
     summary.set("elements", static_cast<double>(shared->numbers.elements()));
     summary.set("bytes", static_cast<double>(bytes));
@@ -375,10 +373,29 @@ piecewise_output<D> msh_writer::begin(const distributed_simplicial_mesh<D>& mesh
   return output;
 }
 
+} // namespace detail
+
+template <int D>
+piecewise_output<D> msh_writer::begin(const distributed_simplicial_mesh<D>& mesh,
+                                      const std::filesystem::path& unfinished) const {
+  return detail::begin_msh(mesh, unfinished, *this, detail::msh_partitions::none);
+}
+
 template <int D>
 report msh_writer::operator()(const distributed_simplicial_mesh<D>& mesh,
                               const std::filesystem::path& folder) const {
   return write_piecewise<D>(mesh, *this, folder);
+}
+
+DOVETAIL_INLINE piecewise_output<3>
+partitioned_msh_writer::begin(const distributed_mesh& mesh, const std::filesystem::path& unfinished) const {
+  return detail::begin_msh(mesh, unfinished, {.binary = binary, .stem = stem},
+                           ghosts ? detail::msh_partitions::with_ghosts : detail::msh_partitions::plain);
+}
+
+DOVETAIL_INLINE report partitioned_msh_writer::operator()(const distributed_mesh& mesh,
+                                                          const std::filesystem::path& folder) const {
+  return write_piecewise<3>(mesh, *this, folder);
 }
 
 #ifdef DOVETAIL_COMPILED
