@@ -1,9 +1,11 @@
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/task_board.hpp"
 #include "parallel/executor_contract.hpp"
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -11,6 +13,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +25,29 @@ namespace {
 [[noreturn]] void hang() {
   for (;;)
     std::this_thread::sleep_for(std::chrono::seconds(1));
+}
+
+/// Numbers that workers and their parent share.
+class shared_numbers {
+public:
+  shared_numbers()
+      : first_(static_cast<std::atomic<int>*>(
+            ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
+  ~shared_numbers() { ::munmap(first_, bytes); }
+  shared_numbers(const shared_numbers&) = delete;
+  shared_numbers& operator=(const shared_numbers&) = delete;
+  std::atomic<int>& operator[](std::size_t i) const { return first_[i]; }
+
+private:
+  static constexpr std::size_t bytes = 4096;
+  std::atomic<int>* first_;
+};
+
+/// Whether that many are reached within ten seconds.
+bool reaches(const std::atomic<int>& number, int wanted) {
+  for (int waited = 0; number < wanted && waited < 10000; ++waited)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return number >= wanted;
 }
 
 bool has_children() {
@@ -229,4 +255,101 @@ TEST_CASE("Outcomes equal those of serial, failures included") {
       CHECK(outcomes[i].failure == expected[i].failure);
     }
   }
+}
+
+TEST_CASE("Workers go on while their parent is busy") {
+  const shared_numbers begun;
+  run_options options;
+  bool went_on = true;
+  options.on_progress.update = [&](std::string_view, std::size_t done, std::size_t) {
+    if (done > 0)
+      went_on = went_on && reaches(begun[0], 20);
+  };
+  const task_function task = [&](std::size_t i) {
+    ++begun[0];
+    return contract::encoded(i);
+  };
+  processes{2}.run(20, task, options);
+  CHECK(went_on);
+}
+
+TEST_CASE("No task waits behind a long one while another worker has nothing to do") {
+  const shared_numbers ended;
+  const auto outcomes = processes{2}.run(20, [&](std::size_t i) {
+    if (i == 3 && !reaches(ended[0], 19))
+      throw mesher_error("some task waits for this one");
+    ++ended[0];
+    return contract::encoded(i);
+  });
+  CHECK(outcomes[3].ok);
+}
+
+TEST_CASE("A worker that is killed loses the task it is at, and no task is run twice") {
+  for (const int workers : {1, 2, 4}) {
+    CAPTURE(workers);
+    const shared_numbers runs; // per task, and behind them the process that another one may kill
+    constexpr std::size_t tasks = 200;
+    runs[tasks] = 0;
+    const auto outcomes = processes{workers}.run(tasks, [&](std::size_t i) {
+      ++runs[i];
+      int self = static_cast<int>(::getpid());
+      if (i % 20 == 7) {
+        runs[tasks].compare_exchange_strong(self, 0);
+        ::raise(SIGKILL);
+      }
+      const int victim = runs[tasks].exchange(i % 20 == 13 ? 0 : self);
+      if (i % 20 == 13 && victim != 0 && victim != self)
+        ::kill(victim, SIGKILL); // wherever that one is
+      return contract::encoded(i);
+    });
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < tasks; ++i) {
+      CAPTURE(i);
+      CHECK(runs[i] <= 1);
+      CHECK(outcomes[i].ok != outcomes[i].crashed);
+      if (outcomes[i].ok) {
+        CHECK(runs[i] == 1);
+        CHECK(contract::decoded(outcomes[i].result) == i);
+      } else {
+        CHECK(outcomes[i].failure.find("signal 9") != std::string::npos);
+        ++lost;
+      }
+    }
+    CHECK(lost >= 10);
+    CHECK(lost <= (workers == 1 ? 10 : 20));
+    CHECK_FALSE(has_children());
+  }
+}
+
+TEST_CASE("A worker whose task failed takes no other one") {
+  const shared_numbers failed; // whether a process has seen a failure is in its own memory
+  static bool this_one_failed = false;
+  const auto outcomes = processes{2}.run(40, [&](std::size_t i) {
+    failed[0] += this_one_failed ? 1 : 0;
+    this_one_failed = i % 3 == 0;
+    if (this_one_failed)
+      throw mesher_error("on purpose");
+    return contract::encoded(i);
+  });
+  CHECK(failed[0] == 0);
+  CHECK_FALSE(this_one_failed);
+}
+
+TEST_CASE("A task is taken once, and again when it is given back") {
+  detail::task_board board(3);
+  CHECK(board.take(1, 0) == 0);
+  CHECK(board.take(2, 0) == 1);
+  CHECK(board.is_taken_by(2, 1));
+  CHECK_FALSE(board.is_taken_by(1, 1));
+  CHECK(board.has_free());
+  CHECK(board.take(1, 1) == 2);
+  CHECK_FALSE(board.has_free());
+  CHECK_FALSE(board.take(1, 0).has_value());
+  board.give_back(1);
+  CHECK(board.has_free());
+  CHECK(board.take(3, 0) == 1);
+  board.give_back(2);
+  board.end_at(2);
+  CHECK_FALSE(board.has_free());
+  CHECK_FALSE(board.take(1, 0).has_value());
 }

@@ -16,9 +16,9 @@ namespace dovetail::parallel {
 
 /// A model of `executor`. Workers are forked for each call of `run`, so tasks see all data as they are then,
 /// without copying; they end with the call, and with this process if it dies. Their standard streams are
-/// silent. A worker whose task failed is replaced, so that nothing of the failure reaches other tasks.
-/// Refuses with `usage_error` in a process that has other threads: forking copies locks but not their
-/// holders.
+/// silent. Each takes its next task by itself, as soon as it has sent the result of the last. A worker whose
+/// task failed is replaced, so that nothing of the failure reaches other tasks. Refuses with `usage_error` in
+/// a process that has other threads: forking copies locks but not their holders.
 struct processes {
   int worker_count = 0; ///< 0: one per hardware thread
 

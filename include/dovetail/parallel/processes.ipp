@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <poll.h>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dovetail::detail {
@@ -32,13 +34,13 @@ inline std::size_t thread_count() {
 class process_pool {
 public:
   process_pool(std::size_t count, const task_function& task, const run_options& options, std::size_t workers)
-      : task_(task), options_(options), outcomes_(count), waiting_(start_order(count, options)),
-        workers_(std::min(workers, count)) {}
+      : options_(options), tasks_{task, start_order(count, options), task_board(count)}, outcomes_(count),
+        recorded_(count, false), workers_(std::min(workers, count)) {}
 
   std::vector<task_outcome> run() {
     options_.on_progress(options_.stage, 0, outcomes_.size());
     while (done_ < outcomes_.size()) {
-      hand_out();
+      start_workers();
       wait_for_news();
       const std::size_t before = done_;
       collect();
@@ -51,21 +53,20 @@ public:
   }
 
 private:
-  void hand_out() {
+  using worker_id = task_board::worker_id;
+
+  void start_workers() {
     bool any_running = false;
-    for (worker_process& worker : workers_) {
-      if (next_ == waiting_.size())
-        return;
-      if (worker.busy() || (!worker.running() && !worker.start(task_, sockets()))) {
-        any_running = any_running || worker.running();
-        continue;
-      }
-      worker.assign(waiting_[next_++]);
-      any_running = true;
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      worker_process& worker = workers_[w];
+      any_running = worker.running() ||
+                    (tasks_.board.has_free() && worker.start(tasks_, id_of(w), sockets())) || any_running;
     }
     if (!any_running)
       throw usage_error("the system refuses to start a worker process; run with the serial executor");
   }
+
+  static worker_id id_of(std::size_t w) { return static_cast<worker_id>(w + 1); }
 
   std::vector<int> sockets() const {
     std::vector<int> open;
@@ -78,34 +79,60 @@ private:
   /// Sleeps until a worker sends something, at most a tenth of a second.
   void wait_for_news() const {
     std::vector<pollfd> watched;
-    for (const worker_process& worker : workers_)
-      if (worker.busy())
-        watched.push_back({worker.socket(), POLLIN, 0});
+    for (const int socket : sockets())
+      watched.push_back({socket, POLLIN, 0});
     ::poll(watched.data(), watched.size(), 100); // an interrupting signal is as good as news
   }
 
   void collect() {
-    for (worker_process& worker : workers_) {
-      if (!worker.busy())
+    for (std::size_t w = 0; w < workers_.size(); ++w) {
+      worker_process& worker = workers_[w];
+      if (!worker.running())
         continue;
-      task_outcome outcome;
-      const bool ended = worker.receive(outcome);
-      if (!ended && worker.seconds_on_task() <= options_.limit_seconds)
-        continue;
-      if (!ended)
-        outcome = worker.give_up(options_.limit_seconds);
-      if (!outcome.ok)
-        worker.end();
-      outcomes_[worker.task()] = std::move(outcome);
-      ++done_;
+      record_replies(worker);
+      if (worker.closed()) {
+        task_outcome death = worker.death();
+        if (const auto place = task_of(w))
+          record(*place, std::move(death));
+      } else if (worker.seconds_on_task() > options_.limit_seconds) {
+        task_outcome late = worker.give_up(options_.limit_seconds);
+        const bool done_after_all = record_replies(worker);
+        if (const auto place = task_of(w); place && done_after_all)
+          tasks_.board.give_back(*place); // it had just begun the next one
+        else if (place)
+          record(*place, std::move(late));
+      }
     }
   }
 
-  const task_function& task_;
+  /// Whether there were any.
+  bool record_replies(worker_process& worker) {
+    bool any = false;
+    while (auto reply = worker.receive()) {
+      any = true;
+      record(reply->place, std::move(reply->outcome));
+    }
+    return any;
+  }
+
+  /// What a worker that has ended was at. O(tasks)
+  std::optional<std::size_t> task_of(std::size_t w) const {
+    for (std::size_t place = 0; place < recorded_.size(); ++place)
+      if (!recorded_[place] && tasks_.board.is_taken_by(id_of(w), place))
+        return place;
+    return std::nullopt;
+  }
+
+  void record(std::size_t place, task_outcome outcome) {
+    outcomes_[tasks_.order[place]] = std::move(outcome);
+    recorded_[place] = true;
+    ++done_;
+  }
+
   const run_options& options_;
+  shared_tasks tasks_;
   std::vector<task_outcome> outcomes_;
-  std::vector<std::size_t> waiting_; ///< those before `next_` were handed out
-  std::size_t next_ = 0;
+  std::vector<bool> recorded_; ///< per place
   std::size_t done_ = 0;
   std::vector<worker_process> workers_;
 };

@@ -1,9 +1,10 @@
 /// @file
-/// One forked worker: takes task numbers from its parent over a socket and sends results back. Linux.
+/// One forked worker: takes tasks from a board that all share and sends their results over a socket. Linux.
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/task_board.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -53,6 +55,7 @@ private:
 
 /// What a worker sends before the bytes of its result, or of its failure's text.
 struct result_header {
+  std::uint64_t place;
   std::uint32_t ok;
   std::uint32_t timed_out;
   std::uint64_t size;
@@ -79,32 +82,28 @@ inline bool send_all(int socket, const void* data, std::size_t size) {
   return true;
 }
 
-/// Reads exactly `size` bytes, or returns false when the other end is gone.
-inline bool receive_all(int socket, void* data, std::size_t size) {
-  auto* next = static_cast<std::byte*>(data);
-  while (size > 0) {
-    const ssize_t got = ::recv(socket, next, size, 0);
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got <= 0)
-      return false;
-    next += got;
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
+/// What all workers of a run know.
+struct shared_tasks {
+  const task_function& task;
+  std::vector<std::size_t> order; ///< the task at each place
+  task_board board;
+};
 
-/// The life of a worker. Never returns, and never runs what the parent registered for its own exit.
-[[noreturn]] inline void serve_tasks(int socket, const task_function& task) {
-  for (std::uint64_t index = 0; receive_all(socket, &index, sizeof(index));) {
-    const task_outcome outcome = run_task(task, static_cast<std::size_t>(index));
+/// The life of a worker: until nothing is left, or a task of its fails, so that nothing of the failure
+/// reaches another one. Never returns, and never runs what the parent registered for its own exit.
+[[noreturn]] inline void serve_tasks(int socket, shared_tasks& tasks, task_board::worker_id self) {
+  std::size_t from = 0;
+  while (const auto place = tasks.board.take(self, from)) {
+    from = *place + 1;
+    const task_outcome outcome = run_task(tasks.task, tasks.order[*place]);
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     const void* payload =
         outcome.ok ? static_cast<const void*>(outcome.result.data()) : outcome.failure.data();
     const std::size_t size = outcome.ok ? outcome.result.size() : outcome.failure.size();
-    const result_header header{outcome.ok, outcome.timed_out, size, outcome.seconds, peak_rss_bytes(usage)};
-    if (!send_all(socket, &header, sizeof(header)) || !send_all(socket, payload, size))
+    const result_header header{*place, outcome.ok,      outcome.timed_out,
+                               size,   outcome.seconds, peak_rss_bytes(usage)};
+    if (!send_all(socket, &header, sizeof(header)) || !send_all(socket, payload, size) || !outcome.ok)
       break;
   }
   ::_exit(0);
@@ -135,9 +134,9 @@ public:
   worker_process& operator=(const worker_process&) = delete;
   ~worker_process() { end(); }
 
-  /// Forks. `inherited` are the sockets of the other workers, which this one must not hold open. Returns
-  /// false when the system refuses another process.
-  bool start(const task_function& task, std::span<const int> inherited) {
+  /// Forks a worker that calls itself `self`. `inherited` are the sockets of the other workers, which this
+  /// one must not hold open. Returns false when the system refuses another process.
+  bool start(shared_tasks& tasks, task_board::worker_id self, std::span<const int> inherited) {
     end();
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -154,32 +153,29 @@ public:
       mine.close();
       for (const int descriptor : inherited)
         ::close(descriptor);
-      serve_tasks(theirs.get(), task);
+      serve_tasks(theirs.get(), tasks, self);
     }
     pid_ = child;
     socket_ = std::move(mine);
+    closed_ = false;
+    since_ = clock::now();
+    received_header_ = received_payload_ = 0;
     return true;
   }
 
   bool running() const { return pid_ > 0; }
-  bool busy() const { return busy_; }
+  /// Whether the worker has closed its end, with all that it sent received.
+  bool closed() const { return closed_; }
   int socket() const { return socket_.get(); }
-  std::size_t task() const { return task_; }
   double seconds_on_task() const { return std::chrono::duration<double>(clock::now() - since_).count(); }
 
-  /// Gives the worker a task. If it has died meanwhile, the next `receive` says so.
-  void assign(std::size_t task) {
-    task_ = task;
-    busy_ = true;
-    since_ = clock::now();
-    received_header_ = received_payload_ = 0;
-    const std::uint64_t index = task;
-    send_all(socket_.get(), &index, sizeof(index));
-  }
-
-  /// Takes what has arrived. Returns true when the task's outcome is complete, in `outcome`.
-  bool receive(task_outcome& outcome) {
-    for (;;) {
+  struct reply {
+    std::size_t place = 0;
+    task_outcome outcome;
+  };
+  /// Takes what has arrived: the next reply, once that is complete.
+  std::optional<reply> receive() {
+    while (!closed_) {
       const ssize_t got =
           received_header_ < sizeof(header_)
               ? ::recv(socket_.get(), reinterpret_cast<std::byte*>(&header_) + received_header_,
@@ -189,10 +185,10 @@ public:
       if (got < 0 && errno == EINTR)
         continue;
       if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
-        return false;
+        return std::nullopt;
       if (got <= 0) {
-        outcome = death();
-        return true;
+        closed_ = true;
+        return std::nullopt;
       }
       if (received_header_ < sizeof(header_)) {
         received_header_ += static_cast<std::size_t>(got);
@@ -201,33 +197,46 @@ public:
       } else {
         received_payload_ += static_cast<std::size_t>(got);
       }
-      if (received_header_ == sizeof(header_) && received_payload_ == payload_.size()) {
-        outcome = completed();
-        return true;
-      }
+      if (received_header_ == sizeof(header_) && received_payload_ == payload_.size())
+        return completed();
     }
+    return std::nullopt;
   }
 
-  /// Kills the worker because its task takes too long.
+  /// Kills the worker because its task takes too long. What it sent before can still be received.
   task_outcome give_up(double limit_seconds) {
     task_outcome outcome;
     outcome.timed_out = true;
     outcome.seconds = seconds_on_task();
     outcome.failure = "exceeded the time limit of " + std::to_string(limit_seconds) + " s";
-    outcome.peak_rss_bytes = end();
+    outcome.peak_rss_bytes = kill_and_reap().second;
     return outcome;
   }
 
-  /// Kills and reaps; returns the peak memory the worker reached.
-  std::uint64_t end() {
-    if (pid_ <= 0)
-      return 0;
-    ::kill(pid_, SIGKILL);
-    return reap().second;
+  /// What has become of the task of a worker that has closed its socket. One that lives on is killed; a
+  /// signal does not change how one ends that already does.
+  task_outcome death() {
+    task_outcome outcome;
+    outcome.crashed = true;
+    outcome.seconds = seconds_on_task();
+    const auto [status, rss] = kill_and_reap();
+    outcome.peak_rss_bytes = rss;
+    if (WIFSIGNALED(status))
+      outcome.failure = "the worker was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+                        ::strsignal(WTERMSIG(status)) + ")";
+    else
+      outcome.failure = "the worker exited with code " + std::to_string(WEXITSTATUS(status));
+    return outcome;
+  }
+
+  /// Kills and reaps.
+  void end() {
+    kill_and_reap();
+    socket_.close();
   }
 
 private:
-  task_outcome completed() {
+  reply completed() {
     task_outcome outcome;
     outcome.ok = header_.ok != 0;
     outcome.timed_out = header_.timed_out != 0;
@@ -238,44 +247,28 @@ private:
     else
       outcome.failure.assign(reinterpret_cast<const char*>(payload_.data()), payload_.size());
     payload_ = {};
-    busy_ = false;
-    return outcome;
+    received_header_ = received_payload_ = 0;
+    since_ = clock::now();
+    return {static_cast<std::size_t>(header_.place), std::move(outcome)};
   }
 
-  /// The socket closed: the worker is ending. One that lives on has closed it itself, and is killed; a signal
-  /// does not change how one ends that already does.
-  task_outcome death() {
-    task_outcome outcome;
-    outcome.crashed = true;
-    outcome.seconds = seconds_on_task();
+  /// How it ended, and the peak memory it reached.
+  std::pair<int, std::uint64_t> kill_and_reap() {
+    if (pid_ <= 0)
+      return {0, 0};
     ::kill(pid_, SIGKILL);
-    const auto [status, rss] = reap();
-    outcome.peak_rss_bytes = rss;
-    if (WIFSIGNALED(status))
-      outcome.failure = "the worker was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
-                        ::strsignal(WTERMSIG(status)) + ")";
-    else
-      outcome.failure = "the worker exited with code " + std::to_string(WEXITSTATUS(status));
-    return outcome;
-  }
-
-  std::pair<int, std::uint64_t> reap() {
     int status = 0;
     rusage usage{};
     while (::wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     pid_ = -1;
-    busy_ = false;
-    socket_.close();
-    payload_ = {};
     return {status, peak_rss_bytes(usage)};
   }
 
   pid_t pid_ = -1;
   owned_descriptor socket_;
-  bool busy_ = false;
-  std::size_t task_ = 0;
-  clock::time_point since_{};
+  bool closed_ = false;
+  clock::time_point since_{}; ///< when it was started, or sent its last reply
   result_header header_{};
   std::size_t received_header_ = 0;
   std::size_t received_payload_ = 0;
