@@ -1,5 +1,6 @@
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -103,9 +104,9 @@ byte_buffer all_bytes(const meshing_result& result) {
   return bytes.take();
 }
 
-meshing_result run_fan(const fan_mesher& mesher, const meshing_options& options = {}) {
-  return mesh_subdomains(piece_count, cube_number, mesher, counting_improver{}, unit_size,
-                         parallel::processes{2}, options);
+meshing_result run_fan(const fan_mesher& mesher, const meshing_options& options = {},
+                       const any_executor& run = parallel::processes{2}) {
+  return mesh_subdomains(piece_count, cube_number, mesher, counting_improver{}, unit_size, run, options);
 }
 
 } // namespace
@@ -213,9 +214,8 @@ TEST_CASE("The facets that cross are singled out") {
 }
 
 TEST_CASE("A hang ends at the time limit and is recorded") {
-  meshing_options options;
-  options.limit_seconds = 0.3;
-  const auto result = run_fan({1, fan_mesher::misbehaviour::hangs}, options);
+  const auto result =
+      run_fan({1, fan_mesher::misbehaviour::hangs}, {}, parallel::clock_watch(parallel::processes{2}, 0.3));
   CHECK(result.failures.empty());
   REQUIRE(result.summary.warnings.size() == 1);
   CHECK(result.summary.warnings[0].find("exceeded the time limit") != std::string::npos);

@@ -123,9 +123,36 @@ TEST_CASE("Of batches that fail, the entities that fail alone are named; a crash
     CHECK(failures[0].reason.find("1 fails") != std::string::npos);
     CHECK(failures[1].entity == 4);
     CHECK(failures[1].reason.find(crashes ? "signal 9" : "4 fails") != std::string::npos);
-    CHECK(entities.made() == 3); // the third batch
+    CHECK(entities.made() == 7); // the third batch, and what can be made alone of the others
     CHECK(make_all(keys, false).empty());
     CHECK(entities.made() == 9);
+  }
+}
+
+TEST_CASE("No member of a batch is blamed for what only all of them together do") {
+  const auto keys = keys_from(0, 9);
+  for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{1}),
+                                  any_executor(parallel::processes{4})}) {
+    batched_entities entities(std::make_shared<entity_store>());
+    const auto not_together = [&](const std::vector<std::size_t>& wanted) {
+      if (wanted.size() > 1)
+        throw mesher_error("too much for one task");
+      if (wanted.front() == 5)
+        throw mesher_error("5 fails");
+      return make_of(keys, wanted);
+    };
+    const auto failures = entities.make_missing(keys, std::vector<double>(9, 1), 3, not_together, run, {});
+    REQUIRE(failures.size() == 1);
+    CHECK(failures[0].entity == 5);
+    CHECK(failures[0].reason == "5 fails");
+    CHECK(entities.made() == 8);
+    const auto only_it = [&](const std::vector<std::size_t>& wanted) {
+      CHECK(wanted == std::vector<std::size_t>{5});
+      return make_of(keys, wanted);
+    };
+    CHECK(entities.make_missing(keys, std::vector<double>(9, 1), 3, only_it, parallel::serial{}, {}).empty());
+    entities.for_each(
+        keys, [&](std::size_t i, const byte_buffer& bytes) { CHECK(bytes == bytes_of(keys[i].value)); });
   }
 }
 

@@ -1,5 +1,6 @@
 #include "dovetail/geometry/plane_read.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/partition/greedy.hpp"
@@ -153,10 +154,9 @@ piece_input<D> one_piece(local_id) {
 
 template <int D>
 meshed_pieces<D> mesh_one(const any_mesher<D>& mesh_it, const any_improver<D>& improve) {
-  meshing_options options;
-  options.limit_seconds = 0.3;
   const any_sizing unit = [](vec3) { return 1.0; };
-  return mesh_subdomains<D>(1, one_piece<D>, mesh_it, improve, unit, parallel::processes{1}, options);
+  return mesh_subdomains<D>(1, one_piece<D>, mesh_it, improve, unit,
+                            parallel::clock_watch(parallel::processes{1}, 0.3));
 }
 
 struct harm {

@@ -15,7 +15,6 @@ namespace dovetail::background {
 struct coarse_volume_options {
   /// As `meshing_options::on_failure`, for the solids that cannot be filled.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
-  double limit_seconds = 600; ///< wall clock of one attempt; the last resort
   progress on_progress = {};
 };
 

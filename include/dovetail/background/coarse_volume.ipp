@@ -149,7 +149,6 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   detail::require_closed(boundary, topology);
 
   meshing_options attempt;
-  attempt.limit_seconds = options.limit_seconds;
   attempt.on_progress = options.on_progress;
   meshing_result made;
   bool one_by_one = topology.solids.size() == 1;

@@ -45,7 +45,6 @@ struct meshing_options {
   /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
   /// keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
-  double limit_seconds = 600; ///< wall clock per subdomain and attempt; the last resort
   progress on_progress = {};
 };
 
@@ -82,6 +81,7 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 /// cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`. Memory: one piece
 /// per worker with a spool, else the whole mesh.
 ///
+/// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
 template <int D = 3>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,

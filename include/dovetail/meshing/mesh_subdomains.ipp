@@ -11,6 +11,7 @@
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/final_errors.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 
 #include <algorithm>
@@ -121,9 +122,6 @@ private:
   std::vector<std::vector<local_id>> skeleton_points_;
 };
 
-/// Errors that no other rung can mend travel beside the result, and are thrown again by the parent.
-enum class reply_kind : std::uint8_t { finished, cannot_store, bad_size };
-
 /// The rounds of `mesh_subdomains`.
 template <int D>
 class subdomain_rounds {
@@ -170,11 +168,11 @@ private:
   void run_round(std::size_t rung) {
     run_options round;
     round.order = largest_first();
-    round.limit_seconds = options_.limit_seconds;
     round.on_progress = options_.on_progress;
     round.stage = rung == 0 ? "meshing" : "meshing again";
     auto outcomes = run_tasks_.run(
-        pending_.size(), [&](std::size_t k) { return reply(pending_[k], rung); }, round);
+        pending_.size(),
+        [&](std::size_t k) { return with_final_errors([&] { return reply(pending_[k], rung); }); }, round);
     std::vector<piece_failure> failed;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
       if (!accept(pending_[k], outcomes[k]))
@@ -196,62 +194,40 @@ private:
     return order;
   }
 
-  /// Runs in the worker.
+  /// Runs in the worker: the piece, unless it is in the store, and behind it the receipt and its length, so
+  /// that neither end moves the bytes of a piece.
   byte_buffer reply(const piece_failure& piece, std::size_t rung) const {
-    try {
-      piece_input<D> input = source_(piece.subdomain);
-      entity_store& store = shelf_->store();
-      piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
-      auto finished = store.find(receipt.key);
-      if (!finished)
-        finished = shelf_->find_released(receipt.key);
-      receipt.reused = finished.has_value();
-      if (!finished)
-        finished = attempt(piece, input, rung);
-      receipt.summary = summary_of(*finished);
-      receipt.skeleton_points = std::move(input.skeleton_points);
-      if (!receipt.reused && !store.is_shared())
-        return tagged(reply_kind::finished, *std::move(finished), receipt.encoded());
-      if (!receipt.reused)
-        store.keep(receipt.key, *std::move(finished));
-      return tagged(reply_kind::finished, {}, receipt.encoded());
-    } catch (const io_error& e) {
-      return tagged(reply_kind::cannot_store, {}, as_bytes(e.what()));
-    } catch (const sizing_error& e) {
-      return tagged(reply_kind::bad_size, {}, as_bytes(e.what()));
-    }
+    piece_input<D> input = source_(piece.subdomain);
+    entity_store& store = shelf_->store();
+    piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
+    auto finished = store.find(receipt.key);
+    if (!finished)
+      finished = shelf_->find_released(receipt.key);
+    receipt.reused = finished.has_value();
+    if (!finished)
+      finished = attempt(piece, input, rung);
+    receipt.summary = summary_of(*finished);
+    receipt.skeleton_points = std::move(input.skeleton_points);
+    if (!receipt.reused && store.is_shared())
+      store.keep(receipt.key, *std::move(finished));
+    byte_buffer bytes = receipt.reused || store.is_shared() ? byte_buffer{} : *std::move(finished);
+    const byte_buffer said = receipt.encoded();
+    byte_writer length;
+    length.value<std::uint64_t>(said.size());
+    append(bytes, said);
+    append(bytes, length.take());
+    return bytes;
   }
 
-  /// A piece (or nothing), and behind it what is said of it, so that neither end moves the bytes of a piece.
-  static byte_buffer tagged(reply_kind kind, byte_buffer piece, const byte_buffer& said) {
-    byte_writer tail;
-    tail.value<std::uint64_t>(said.size());
-    tail.value(kind);
-    append(piece, said);
-    append(piece, tail.take());
-    return piece;
-  }
-  static byte_buffer as_bytes(const std::string& text) {
-    const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    return {first, first + text.size()};
-  }
-
-  struct parts_of_reply {
-    reply_kind kind;
-    byte_buffer said;
-    byte_buffer piece;
-  };
-  static parts_of_reply parts_of(byte_buffer reply) {
-    constexpr std::size_t tail_size = sizeof(std::uint64_t) + sizeof(reply_kind);
-    const byte_buffer tail(reply.end() - tail_size, reply.end());
-    byte_reader numbers(tail);
-    const auto said = static_cast<std::ptrdiff_t>(numbers.value<std::uint64_t>());
-    const auto kind = numbers.value<reply_kind>();
-    reply.resize(reply.size() - tail_size);
-    parts_of_reply parts{kind, byte_buffer(reply.end() - said, reply.end()), {}};
-    reply.resize(reply.size() - static_cast<std::size_t>(said));
-    parts.piece = std::move(reply);
-    return parts;
+  static std::pair<piece_receipt, byte_buffer> parts_of(byte_buffer reply) {
+    const auto cut = [&](std::size_t length) {
+      const byte_buffer tail(reply.end() - static_cast<std::ptrdiff_t>(length), reply.end());
+      reply.resize(reply.size() - length);
+      return tail;
+    };
+    const byte_buffer length = cut(sizeof(std::uint64_t));
+    const byte_buffer said = cut(static_cast<std::size_t>(byte_reader(length).value<std::uint64_t>()));
+    return {piece_receipt::decoded(said), std::move(reply)};
   }
 
   /// Takes one outcome; false when the subdomain failed.
@@ -264,15 +240,7 @@ private:
       piece.timed_out = piece.timed_out || outcome.timed_out;
       return false;
     }
-    auto [kind, said, bytes] = parts_of(std::move(outcome.result));
-    const auto text = [&said = said] {
-      return std::string(reinterpret_cast<const char*>(said.data()), said.size());
-    };
-    if (kind == reply_kind::cannot_store)
-      throw io_error(text());
-    if (kind == reply_kind::bad_size)
-      throw sizing_error(text());
-    piece_receipt receipt = piece_receipt::decoded(said);
+    auto [receipt, bytes] = parts_of(without_final_errors(std::move(outcome.result)));
     if (!bytes.empty())
       shelf_->store().keep(receipt.key, std::move(bytes));
     summary.add("reused", receipt.reused ? 1 : 0);

@@ -5,12 +5,11 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/final_errors.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,7 +18,6 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,30 +43,24 @@ public:
   std::size_t made() const { return made_; }
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
-  /// a batch that fails are made again one by one, to find out which they are; these are returned, and of
-  /// such a batch none is kept. An `io_error` of the store and a `sizing_error`, which no other attempt
-  /// mends, are thrown.
+  /// a batch that fails are made again one by one; those that fail alone are returned, by growing number, and
+  /// the others are kept. An `io_error` of the store and a `sizing_error`, which no other attempt mends, are
+  /// thrown.
   std::vector<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
                                            double batch_cost, const maker& make, const any_executor& run,
                                            run_options options) {
     std::vector<entity_failure> failures;
-    const std::vector<batch> batches = missing(keys, costs, batch_cost);
-    options.order.resize(batches.size());
-    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
-    std::stable_sort(options.order.begin(), options.order.end(),
-                     [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
-    auto outcomes = run.run(
-        batches.size(), [&](std::size_t b) { return make_batch(batches[b], make); }, options);
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-      const std::vector<std::size_t>& members = batches[b].members;
-      if (!outcomes[b].ok) {
-        append(failures, failures_among(members, outcomes[b].failure, make, run, options));
-        continue;
-      }
-      accept(batches[b], std::move(outcomes[b].result));
-      for (std::size_t i = 0; i < members.size(); ++i)
-        places_[keys[members[i]]] = {batches[b].key, i};
-    }
+    std::vector<batch> alone;
+    const auto fail = [&](const batch& failed, std::string reason) {
+      if (failed.members.size() == 1)
+        failures.push_back({failed.members.front(), std::move(reason)});
+      else
+        for (const std::size_t i : failed.members)
+          alone.push_back(batch_of(keys, costs, {i}));
+    };
+    make_all(missing(keys, costs, batch_cost), keys, make, run, options, fail);
+    make_all(std::exchange(alone, {}), keys, make, run, options, fail);
+    stable_sort_all(failures, [](const auto& a, const auto& b) { return a.entity < b.entity; });
     return failures;
   }
 
@@ -105,69 +97,84 @@ private:
     std::size_t member;
   };
 
+  static batch batch_of(std::span<const content_key> keys, std::span<const double> costs,
+                        std::vector<std::size_t> members) {
+    batch result{.members = std::move(members)};
+    key_maker make;
+    for (const std::size_t i : result.members) {
+      make(static_cast<std::int64_t>(keys[i].value));
+      result.cost += costs[i];
+    }
+    result.key = make.key();
+    return result;
+  }
+
   std::vector<batch> missing(std::span<const content_key> keys, std::span<const double> costs,
                              double batch_cost) const {
     std::vector<batch> batches;
+    std::vector<std::size_t> members;
+    double cost = 0;
+    const auto close = [&] {
+      if (!members.empty())
+        batches.push_back(batch_of(keys, costs, std::exchange(members, {})));
+      cost = 0;
+    };
     for (std::size_t i = 0; i < keys.size(); ++i) {
       if (places_.contains(keys[i]))
         continue;
-      if (batches.empty() || batches.back().cost >= batch_cost)
-        batches.emplace_back();
-      batches.back().members.push_back(i);
-      batches.back().cost += costs[i];
+      members.push_back(i);
+      cost += costs[i];
+      if (cost >= batch_cost)
+        close();
     }
-    for (batch& each : batches) {
-      key_maker make;
-      for (const std::size_t i : each.members)
-        make(static_cast<std::int64_t>(keys[i].value));
-      each.key = make.key();
-    }
+    close();
     return batches;
   }
 
-  /// How the reply of a worker ends; before it is the blob, unless the worker has put that into the store
-  /// itself, or an error's text.
-  enum class reply_kind : std::uint8_t { found, made, cannot_store, bad_size };
-
-  /// In a worker.
-  byte_buffer make_batch(const batch& wanted, const maker& make) const {
-    try {
-      if (store_->is_shared() && store_->find(wanted.key))
-        return tagged({}, reply_kind::found);
-      byte_writer bytes;
-      for (const byte_buffer& member : make(wanted.members))
-        bytes.array(member);
-      if (!store_->is_shared())
-        return tagged(bytes.take(), reply_kind::made);
-      store_->keep(wanted.key, bytes.take());
-      return tagged({}, reply_kind::made);
-    } catch (const io_error& problem) {
-      return tagged(as_bytes(problem.what()), reply_kind::cannot_store);
-    } catch (const sizing_error& problem) {
-      return tagged(as_bytes(problem.what()), reply_kind::bad_size);
+  /// Keeps the batches that can be made, and calls `fail(batch, reason)` for each other one.
+  template <class Fail>
+  void make_all(const std::vector<batch>& batches, std::span<const content_key> keys, const maker& make,
+                const any_executor& run, run_options options, const Fail& fail) {
+    options.order.resize(batches.size());
+    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
+    stable_sort_all(options.order,
+                    [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
+    auto outcomes = run.run(
+        batches.size(),
+        [&](std::size_t b) {
+          return detail::with_final_errors([&] { return make_batch(batches[b], make); });
+        },
+        options);
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      const std::vector<std::size_t>& members = batches[b].members;
+      if (!outcomes[b].ok) {
+        fail(batches[b], std::move(outcomes[b].failure));
+        continue;
+      }
+      accept(batches[b], detail::without_final_errors(std::move(outcomes[b].result)));
+      for (std::size_t i = 0; i < members.size(); ++i)
+        places_[keys[members[i]]] = {batches[b].key, i};
     }
   }
 
-  static byte_buffer tagged(byte_buffer bytes, reply_kind kind) {
-    bytes.push_back(static_cast<std::byte>(kind));
-    return bytes;
-  }
-  static byte_buffer as_bytes(std::string_view text) {
-    const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    return {first, first + text.size()};
+  /// In a worker: the blob, unless the worker has put that into the store itself, and behind it whether it
+  /// was made and not found.
+  byte_buffer make_batch(const batch& wanted, const maker& make) const {
+    const bool found = store_->is_shared() && store_->find(wanted.key);
+    byte_writer bytes;
+    if (!found)
+      for (const byte_buffer& member : make(wanted.members))
+        bytes.array(member);
+    if (!found && store_->is_shared())
+      store_->keep(wanted.key, std::exchange(bytes, {}).take());
+    bytes.value<std::uint8_t>(!found);
+    return bytes.take();
   }
 
   void accept(const batch& finished, byte_buffer reply) {
-    const auto kind = static_cast<reply_kind>(reply.back());
-    reply.pop_back();
-    const std::string text(reinterpret_cast<const char*>(reply.data()),
-                           kind == reply_kind::made ? 0 : reply.size());
-    if (kind == reply_kind::cannot_store)
-      throw io_error(text);
-    if (kind == reply_kind::bad_size)
-      throw sizing_error(text);
-    if (kind == reply_kind::made)
+    if (reply.back() != std::byte{0})
       made_ += finished.members.size();
+    reply.pop_back();
     if (!store_->is_shared())
       store_->keep(finished.key, std::move(reply));
   }
@@ -177,27 +184,6 @@ private:
     for (byte_reader in(bytes); !in.at_end();)
       members.push_back(in.array<std::byte>());
     return members;
-  }
-
-  /// The first of them, for the reason of all `together`, when each by itself can be made.
-  static std::vector<entity_failure> failures_among(const std::vector<std::size_t>& members,
-                                                    const std::string& together, const maker& make,
-                                                    const any_executor& run, run_options options) {
-    options.order.clear();
-    const auto alone = run.run(
-        members.size(),
-        [&](std::size_t i) {
-          make({members[i]});
-          return byte_buffer{};
-        },
-        options);
-    std::vector<entity_failure> failures;
-    for (std::size_t i = 0; i < alone.size(); ++i)
-      if (!alone[i].ok)
-        failures.push_back({members[i], alone[i].failure});
-    if (failures.empty())
-      failures.push_back({members.front(), together});
-    return failures;
   }
 
   std::shared_ptr<entity_store> store_;

@@ -154,12 +154,21 @@ any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>&
     return within_bounds(keep_bounds(size), bounds, background::coarse_surface_parameters{}.growth);
 }
 
+namespace detail {
+
+/// The field with every value looked at; throws what is known to be wrong before anything is made.
 template <int D>
-mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_size,
-                          const std::type_identity_t<any_parameters<D>>& given) {
-  const erased_sizing size(checked_sizing{given_size});
+erased_sizing usable_size(const any_geometry& model, const erased_sizing& size,
+                          const any_parameters<D>& given) {
   require_policies(given.mesh_it, given.improve_it, given.run_tasks);
-  detail::require_usable_size(model, size);
+  erased_sizing checked(checked_sizing{size});
+  require_usable_size(model, checked);
+  return checked;
+}
+
+template <int D>
+mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
+                         const any_parameters<D>& given) {
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e6;
   options.on_progress("planning", 0, 0);
@@ -172,8 +181,16 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& given_
                    options.elements_per_subdomain > 0 ? options.elements_per_subdomain
                                                       : given.mesh_it.elements_per_subdomain(),
                    options);
-  detail::require_room(plan, options);
+  require_room(plan, options);
   return plan;
+}
+
+} // namespace detail
+
+template <int D>
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
+                          const std::type_identity_t<any_parameters<D>>& given) {
+  return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given);
 }
 
 template <int D>
@@ -183,17 +200,15 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   any_parameters<D> given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
-  const erased_sizing size(checked_sizing{given_size});
   const generate_options& options = given.options;
-  require_policies(given.mesh_it, given.improve_it, given.run_tasks);
-  detail::require_usable_size(model, size);
+  const erased_sizing size = detail::usable_size<D>(model, given_size, given);
   if (auto kept = find_background<D>(options.store, model, size)) {
     detail::require_room(kept->plan, options);
     return *std::move(kept);
   }
   background_result<D> result;
   result.summary.name = "background";
-  result.plan = plan_background<D>(model, size, given);
+  result.plan = detail::plan_of_usable<D>(model, size, given);
   make(result, coarse_size(size, result.plan.coarse_scale, model.bounds()), given);
   result.size = allowed_size<D>(size, result.bounds);
   result.summary.set("predicted_elements", result.plan.predicted_elements);
@@ -224,7 +239,6 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
           result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,
           given.run_tasks,
           {.on_failure = write_facets_of_failures(options.failure_folder),
-           .limit_seconds = options.limit_seconds,
            .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
       result.mesh.volume = std::move(volume.mesh);
       result.summary.children.push_back(std::move(volume.summary));

@@ -96,7 +96,6 @@ meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_bac
   options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
   options.store = store;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
-  options.limit_seconds = given.options.limit_seconds;
   options.on_progress = given.options.on_progress;
   const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();
   return mesh_subdomains<D>(skeleton.material_of_subdomain.size(),
