@@ -71,7 +71,7 @@ void add_output_options(CLI::App& command, mesh_options& options) {
                   "File formats, several allowed: " + joined(format_names(3)) +
                       "; for triangles: " + joined(format_names(2)) + " (default: the first)")
       ->delimiter(',');
-  command.add_option("--pieces", options.pieces, "Number of VTU files (default: one per subdomain)");
+  command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
   command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");

@@ -148,7 +148,7 @@ public:
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
         parameters_(make_generate_options(options)),
-        formats_(make_formats<D>(options.formats, options.pieces)) {}
+        formats_(make_formats<D>(options.formats, options.files)) {}
 
   int run() {
     if (!options_.report.empty())

@@ -55,13 +55,13 @@ void improvable_mesh<D>::join_subdomains() {
   std::vector<std::array<local_id, 2>> of_element(mesh.elements.size());
   for (std::size_t e = 0; e < of_element.size(); ++e)
     of_element[e] = {mesh.tags.empty() ? 0 : mesh.tags[e], rest_.subdomains[e]};
-  region_and_subdomain_ = of_element;
-  sort_unique(region_and_subdomain_);
+  material_and_subdomain_ = of_element;
+  sort_unique(material_and_subdomain_);
   mesh.tags.resize(mesh.elements.size());
   for (std::size_t e = 0; e < of_element.size(); ++e)
     mesh.tags[e] = static_cast<local_id>(
-        std::lower_bound(region_and_subdomain_.begin(), region_and_subdomain_.end(), of_element[e]) -
-        region_and_subdomain_.begin());
+        std::lower_bound(material_and_subdomain_.begin(), material_and_subdomain_.end(), of_element[e]) -
+        material_and_subdomain_.begin());
 }
 
 template <int D>
@@ -136,11 +136,11 @@ io::loaded_mesh improvable_mesh<D>::put_back() && {
   if (!whole.node_ids.empty())
     fill_up(whole.node_ids, mesh.points.size());
   if constexpr (D == 3) {
-    if (!region_and_subdomain_.empty()) {
+    if (!material_and_subdomain_.empty()) {
       whole.subdomains.resize(mesh.elements.size());
       for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-        const auto& [region, subdomain] = region_and_subdomain_[static_cast<std::size_t>(mesh.tags[e])];
-        mesh.tags[e] = region;
+        const auto& [material, subdomain] = material_and_subdomain_[static_cast<std::size_t>(mesh.tags[e])];
+        mesh.tags[e] = material;
         whole.subdomains[e] = subdomain;
       }
     }
@@ -150,7 +150,7 @@ io::loaded_mesh improvable_mesh<D>::put_back() && {
     whole.triangles = std::move(mesh.elements);
     whole.triangle_tags = std::move(mesh.tags);
     if (whole.triangle_names.empty())
-      whole.triangle_names = std::exchange(whole.region_names, {});
+      whole.triangle_names = std::exchange(whole.material_names, {});
   }
   return whole;
 }

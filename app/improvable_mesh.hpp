@@ -13,7 +13,7 @@ namespace dovetail::app {
 
 /// Takes the mesh of a file apart: what must stay is frozen, and, where the file numbers points or has
 /// triangles beside tetrahedra, points that stay come first. These are the points of the boundary, of
-/// interfaces of regions and, for D = 3, of subdomains and of triangles in the file.
+/// interfaces of materials and, for D = 3, of subdomains and of triangles in the file.
 template <int D>
 class improvable_mesh {
 public:
@@ -33,8 +33,8 @@ private:
   void bring_forward(std::vector<bool> stays);
 
   io::loaded_mesh rest_;
-  /// Per tag of `mesh`, where elements have subdomains: their region and subdomain.
-  std::vector<std::array<local_id, 2>> region_and_subdomain_;
+  /// Per tag of `mesh`, where elements have subdomains: their material and subdomain.
+  std::vector<std::array<local_id, 2>> material_and_subdomain_;
 };
 
 /// What is not in the file that `improvable_mesh` makes, in words; empty when all is.

@@ -33,7 +33,7 @@ struct mesh_options {
   std::string out = "out";
   std::vector<std::string> formats;
   std::string report;
-  int pieces = 0; ///< number of VTU pieces; 0: one per subdomain
+  int files = 0; ///< number of VTU files; 0: one per subdomain
   bool resume = false;
   bool force = false;
   bool quiet = false;

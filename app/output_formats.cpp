@@ -18,10 +18,10 @@ constexpr double spool_bytes_per_element = 22;
 
 /// All of them: a new format is one more line.
 template <int D>
-std::vector<output_format<D>> known_formats(int pieces) {
+std::vector<output_format<D>> known_formats(int files) {
   constexpr double msh_bytes = D == 3 ? 48 : 45;
   std::vector<output_format<D>> known;
-  known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.pieces = pieces}});
+  known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.files = files}});
   known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
@@ -38,8 +38,8 @@ std::vector<std::string> names_of_formats() {
 }
 
 template <int D>
-output_format<D> format_of(const std::string& name, int pieces) {
-  for (auto& format : known_formats<D>(pieces))
+output_format<D> format_of(const std::string& name, int files) {
+  for (auto& format : known_formats<D>(files))
     if (format.name == name)
       return format;
   throw command_line_error("--format: there is no '" + name + "' for --dimension " + std::to_string(D) +
@@ -53,15 +53,15 @@ std::vector<std::string> format_names(int dimension) {
 }
 
 template <int D>
-std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int pieces) {
-  if (pieces < 0)
-    throw command_line_error("--pieces: " + std::to_string(pieces) + " is negative");
+std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int files) {
+  if (files < 0)
+    throw command_line_error("--files: " + std::to_string(files) + " is negative");
   std::vector<output_format<D>> formats;
   for (const auto& name : names)
     if (name != "none")
-      formats.push_back(format_of<D>(name, pieces));
+      formats.push_back(format_of<D>(name, files));
   if (names.empty())
-    formats.push_back(known_formats<D>(pieces).front());
+    formats.push_back(known_formats<D>(files).front());
   return formats;
 }
 

@@ -23,9 +23,9 @@ struct output_format {
 std::vector<std::string> format_names(int dimension);
 
 /// The formats of the names; the default one when there are none; none for "none". Throws
-/// `command_line_error` for an unknown name and for a negative number of pieces.
+/// `command_line_error` for an unknown name and for a negative number of files.
 template <int D>
-std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int pieces);
+std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int files);
 
 /// Disk that a mesh takes per element, about, with its spool and in all the formats.
 template <int D>

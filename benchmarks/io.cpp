@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     std::filesystem::remove_all(folder);
   };
   write("vtu", io::vtu_writer{});
-  write("vtu, 2 pieces", io::vtu_writer{.pieces = 2});
+  write("vtu, 2 files", io::vtu_writer{.files = 2});
   write("msh, whole", io::msh_writer{});
   write("msh, partitioned", io::partitioned_msh_writer{.stem = "mesh"});
   write("msh, partitioned, ghosts", io::partitioned_msh_writer{.ghosts = true, .stem = "mesh"});

@@ -3,12 +3,12 @@
 #include "dovetail/dovetail.hpp"
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/io/concepts.hpp"
-#include "dovetail/io/patches.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 
 #include <cstdio>
 
-/// Writes mesh.su2 under a temporary name, and renames it when it is whole. Markers are the boundary patches.
+/// Writes mesh.su2 under a temporary name, and renames it when it is whole. Markers are the groups of faces.
 struct su2_writer {
   dovetail::report operator()(const dovetail::distributed_mesh& mesh,
                               const std::filesystem::path& folder) const {
@@ -36,18 +36,18 @@ struct su2_writer {
       for (std::size_t i = piece.skeleton_points.size(); i < piece.mesh.points.size(); ++i)
         line(piece.mesh.points[i].x, piece.mesh.points[i].y, piece.mesh.points[i].z);
     }
-    const auto patches = io::collect_patches(mesh);
-    std::vector<std::vector<simplex<2>>> of_patch(patches.names.size());
+    const auto groups = io::collect_face_groups(mesh);
+    std::vector<std::vector<simplex<2>>> of_group(groups.names.size());
     for (std::size_t t = 0; t < mesh.skeleton.sides.size(); ++t)
       if (mesh.skeleton.subdomains[t][1] == no_id) // the domain ends there
-        of_patch[static_cast<std::size_t>(
-                     patches.of_face[static_cast<std::size_t>(mesh.skeleton.side_hosts[t])])]
+        of_group[static_cast<std::size_t>(
+                     groups.of_face[static_cast<std::size_t>(mesh.skeleton.side_hosts[t])])]
             .push_back(mesh.skeleton.sides[t]);
-    file.text("NMARK= " + std::to_string(of_patch.size()) + "\n");
-    for (std::size_t m = 0; m < of_patch.size(); ++m) {
-      file.text("MARKER_TAG= " + patches.names[m] + "\nMARKER_ELEMS= " + std::to_string(of_patch[m].size()) +
+    file.text("NMARK= " + std::to_string(of_group.size()) + "\n");
+    for (std::size_t m = 0; m < of_group.size(); ++m) {
+      file.text("MARKER_TAG= " + groups.names[m] + "\nMARKER_ELEMS= " + std::to_string(of_group[m].size()) +
                 "\n");
-      for (const auto& [a, b, c] : of_patch[m])
+      for (const auto& [a, b, c] : of_group[m])
         line(5, a, b, c); // 5: a triangle
     }
     file.commit();

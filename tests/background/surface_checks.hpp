@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/mesher/checks.hpp"
 
 #include <map>
 
@@ -29,12 +30,7 @@ inline std::size_t open_edges(const surface_mesh& surface, const geometry_topolo
 }
 
 inline double volume_of(const surface_mesh& surface) {
-  double sum = 0;
-  for (const auto& t : surface.mesh.elements)
-    sum += signed_volume({}, surface.mesh.points[static_cast<std::size_t>(t[0])],
-                         surface.mesh.points[static_cast<std::size_t>(t[1])],
-                         surface.mesh.points[static_cast<std::size_t>(t[2])]);
-  return sum;
+  return enclosed_volume(surface.mesh.points, surface.mesh.elements);
 }
 
 /// The largest distance between a vertex and where its face's parameters put it (curve tolerances included).

@@ -5,6 +5,7 @@
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "mesher/shapes.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -154,14 +155,11 @@ TEST_CASE("Separate solids are all filled") {
 }
 
 TEST_CASE("What bounds no solid, or is open, or crosses itself, is named") {
-  const auto message = [](const model& m) -> std::string {
-    try {
-      background::coarse_volume(m.surface, m.topology, quarter, mesher::tetgen{}, no_improver{},
-                                parallel::processes{1});
-    } catch (const error& e) {
-      return e.what();
-    }
-    return "";
+  const auto message = [](const model& m) {
+    return testing::refusal_of<error>([&] {
+      return background::coarse_volume(m.surface, m.topology, quarter, mesher::tetgen{}, no_improver{},
+                                       parallel::processes{1});
+    });
   };
   model sheet;
   sheet.add_face(shapes::cube(2), 0, no_id);

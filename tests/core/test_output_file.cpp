@@ -1,4 +1,5 @@
 #include "dovetail/core/output_file.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,22 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct scratch {
-  fs::path folder = fs::temp_directory_path() / ("dovetail_output_" + std::to_string(::getpid()));
-  scratch() { fs::create_directories(folder); }
-  scratch(const scratch&) = delete;
-  scratch& operator=(const scratch&) = delete;
-  ~scratch() { fs::remove_all(folder); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
-  }
-};
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void write(const fs::path& path, std::string_view text) {
   output_file file(path);
   file.text(text);
@@ -38,45 +23,45 @@ void write(const fs::path& path, std::string_view text) {
 } // namespace
 
 TEST_CASE("a file has its final name when it is complete, and none before") {
-  const scratch here;
-  const fs::path path = here.folder / "figures.json";
+  const testing::scratch_folder here("output");
+  const fs::path path = here / "figures.json";
   write(path, "old");
   {
     output_file abandoned(path);
     abandoned.text("half");
-    CHECK(content(path) == "old");
+    CHECK(testing::file_content(path) == "old");
   }
-  CHECK(content(path) == "old");
+  CHECK(testing::file_content(path) == "old");
   write(path, "new");
-  CHECK(content(path) == "new");
-  CHECK(here.files() == 1);
+  CHECK(testing::file_content(path) == "new");
+  CHECK(testing::file_count(here) == 1);
 }
 
 TEST_CASE("what is no plain file is written to, not replaced") {
-  const scratch here;
-  const fs::path pipe = here.folder / "pipe";
+  const testing::scratch_folder here("output");
+  const fs::path pipe = here / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   std::string read;
-  std::thread reader([&] { read = content(pipe); });
+  std::thread reader([&] { read = testing::file_content(pipe); });
   write(pipe, "through the pipe");
   reader.join();
   CHECK(read == "through the pipe");
   CHECK(fs::is_fifo(pipe));
-  CHECK(here.files() == 1);
+  CHECK(testing::file_count(here) == 1);
 }
 
 TEST_CASE("a symbolic link stays, and the file that it names gets the content") {
-  const scratch here;
-  const fs::path target = here.folder / "target", link = here.folder / "link";
+  const testing::scratch_folder here("output");
+  const fs::path target = here / "target", link = here / "link";
   write(target, "old");
   fs::create_symlink(target, link);
   write(link, "new");
   CHECK(fs::is_symlink(link));
-  CHECK(content(target) == "new");
-  CHECK(here.files() == 2);
+  CHECK(testing::file_content(target) == "new");
+  CHECK(testing::file_count(here) == 2);
 }
 
 TEST_CASE("a file that cannot be made is an io_error that names it") {
-  const scratch here;
-  CHECK_THROWS_WITH_AS(write(here.folder / "none" / "file", ""), doctest::Contains("none/file"), io_error);
+  const testing::scratch_folder here("output");
+  CHECK_THROWS_WITH_AS(write(here / "none" / "file", ""), doctest::Contains("none/file"), io_error);
 }

@@ -1,7 +1,7 @@
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "support/adjacency.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -23,9 +23,9 @@ struct measured {
 /// part add up.
 measured wedges_from_elements(const simplicial_mesh<3>& mesh, const std::vector<local_id>& part,
                               double threshold) {
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   measured m;
-  for (std::size_t f = 0; f < adj.ridges.fan_count(); ++f) {
+  for (std::size_t f = 0; f < adj.fan_count(); ++f) {
     struct item {
       local_id part;
       double angle;

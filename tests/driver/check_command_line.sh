@@ -25,7 +25,7 @@ expect_error "--workers" mesh --model combustor --workers -1
 expect_error "--workers" mesh --model combustor --workers two
 expect_error "--subdomains" mesh --model combustor --subdomains 0
 expect_error "--subdomains" mesh --model combustor --subdomains -4
-expect_error "--pieces" mesh --model combustor --pieces -1
+expect_error "--files" mesh --model combustor --files -1
 expect_error "--coarsening" mesh --model combustor --coarsening 0
 expect_error "not both" mesh part.step --model combustor
 expect_error "excludes|sizing" mesh --model combustor --size 1 --sizing sizing.json

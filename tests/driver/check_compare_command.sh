@@ -5,13 +5,7 @@ driver=$1
 source "$(dirname "$0")/expectations.sh"
 limit=300
 
-# The unit cube as triangles.
-{
-  echo "OFF"
-  echo "8 12 0"
-  printf '%s\n' "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
-  printf '3 %s\n' "0 2 1" "0 3 2" "4 5 6" "4 6 7" "0 1 5" "0 5 4" "2 3 7" "2 7 6" "1 2 6" "1 6 5" "0 4 7" "0 7 3"
-} >"$inputs/cube.off"
+write_cube >"$inputs/cube.off"
 compare() { expect_success compare "$inputs/cube.off" --workers 1 --out out "$@"; }
 
 # Two partitioners and two improvers, with and without simplification.

@@ -5,13 +5,7 @@ driver=$1
 source "$(dirname "$0")/expectations.sh"
 limit=300
 
-# The unit cube as triangles.
-{
-  echo "OFF"
-  echo "8 12 0"
-  printf '%s\n' "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
-  printf '3 %s\n' "0 2 1" "0 3 2" "4 5 6" "4 6 7" "0 1 5" "0 5 4" "2 3 7" "2 7 6" "1 2 6" "1 6 5" "0 4 7" "0 7 3"
-} >"$inputs/cube.off"
+write_cube >"$inputs/cube.off"
 
 figure() { # key of the report
   sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
@@ -52,9 +46,25 @@ for file in mesh mesh_partitioned; do
 done
 
 # Every policy that has a name works.
-mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --pieces 1 --quiet
+mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --files 1 --quiet
 [[ ! -s $sandbox/stdout && ! -s $sandbox/stderr ]] || fault "not quiet"
-[[ $(cd "$sandbox/work/out" && echo mesh_*.vtu) == mesh_0000.vtu ]] || fault "more than one piece"
+[[ $(cd "$sandbox/work/out" && echo mesh_*.vtu) == mesh_0000.vtu ]] || fault "more than one file"
+
+# The names that --help offers for a mesher: its kind, its help.
+offered() {
+  local names
+  names=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n "s/.*$2: \\([a-z, ]*\\) --.*/\\1/p" | tr -d ,)
+  [[ $names == native* ]] && echo "$names" || echo "no_native_$1_mesher_among_$names" | tr ' ' _
+}
+
+# A valid mesh by a mesher of that kind, and another one than by the native one.
+mesh_by() { # name, kind
+  mesh --size 0.08 --subdomains 4 "--$2-mesher" "$1"
+  [[ $(figure "$2_mesher") == "$1" ]] || fault "the $2 mesher was $(figure "$2_mesher")"
+  [[ $1 == native || $(figure mesh_hash) != "$hash" ]] || fault "the same mesh as from the native one"
+  rm -rf "$inputs/made" && cp -r "$sandbox/work/out" "$inputs/made"
+  expect_success check "$inputs/made"
+}
 
 # A background mesh by every mesher of whole domains that is offered; the mesh is another one. Two solids are refused.
 {
@@ -66,15 +76,8 @@ mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --pieces 1 
     tail -n 12 "$inputs/cube.off" | awk -v first=$first '{ print 3, $2 + first, $3 + first, $4 + first }'
   done
 } >"$inputs/cubes.off"
-background_meshers=$("$driver" mesh --help | tr -s ' \n' ' ' |
-  sed -n 's/.*Mesher of the coarse mesh that is decomposed: \([a-z, ]*\) --.*/\1/p' | tr -d ,)
-[[ $background_meshers == native* ]] || fault "the background meshers are '$background_meshers'"
-for name in $background_meshers; do
-  mesh --size 0.08 --subdomains 4 --background-mesher "$name"
-  [[ $(figure background_mesher) == "$name" ]] || fault "the background mesher was $(figure background_mesher)"
-  [[ $name == native || $(figure mesh_hash) != "$hash" ]] || fault "the same mesh as from the native background"
-  rm -rf "$inputs/by_background" && cp -r "$sandbox/work/out" "$inputs/by_background"
-  expect_success check "$inputs/by_background"
+for name in $(offered background "Mesher of the coarse mesh that is decomposed"); do
+  mesh_by "$name" background
   [[ $name == native ]] ||
     expect_error "2 solids.*native" mesh "$inputs/cubes.off" --size 0.2 --background-mesher "$name"
   [[ $name == native ]] ||
@@ -84,15 +87,8 @@ expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --background-mesher nonsense
 
 # The surface by every mesher that is offered.
-surface_meshers=$("$driver" mesh --help | tr -s ' \n' ' ' |
-  sed -n 's/.*Mesher of the surface of --dimension 3: \([a-z, ]*\) --.*/\1/p' | tr -d ,)
-[[ $surface_meshers == native* ]] || fault "the surface meshers are '$surface_meshers'"
-for name in $surface_meshers; do
-  mesh --size 0.08 --subdomains 4 --surface-mesher "$name"
-  [[ $(figure surface_mesher) == "$name" ]] || fault "the surface mesher was $(figure surface_mesher)"
-  [[ $name == native || $(figure mesh_hash) != "$hash" ]] || fault "the same mesh as with the native surface"
-  rm -rf "$inputs/by_surface" && cp -r "$sandbox/work/out" "$inputs/by_surface"
-  expect_success check "$inputs/by_surface"
+for name in $(offered surface "Mesher of the surface of --dimension 3"); do
+  mesh_by "$name" surface
 done
 expect_error "--surface-mesher: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --surface-mesher nonsense

@@ -6,6 +6,14 @@ trap 'chmod -R u+w "$sandbox"; rm -rf "$sandbox"' EXIT
 inputs=$sandbox/inputs
 mkdir "$inputs"
 
+# The unit cube as triangles, OFF.
+write_cube() {
+  echo "OFF"
+  echo "8 12 0"
+  printf '%s\n' "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
+  printf '3 %s\n' "0 2 1" "0 3 2" "4 5 6" "4 6 7" "0 1 5" "0 5 4" "2 3 7" "2 7 6" "1 2 6" "1 6 5" "0 4 7" "0 7 3"
+}
+
 fault() {
   echo "FAULT in '$what': $1"
   sed 's/^/  stdout: /' "$sandbox/stdout" | head -n 20

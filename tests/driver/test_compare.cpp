@@ -4,6 +4,7 @@
 
 #include "dovetail/core/xml_tree.hpp"
 #include "io/scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -148,10 +149,6 @@ std::vector<std::string> answers_on(const drawn_page& page) {
   return answers;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST_CASE("without interfaces there are no angles") {
   comparison compared = example();
   compared.rows.resize(2);
@@ -166,10 +163,10 @@ TEST_CASE("without interfaces there are no angles") {
     return;
   const drawn_page page(page_html(compared, {}));
   CHECK(answers_on(page).front() == "There are no interfaces in the background mesh.");
-  CHECK_FALSE(contains(page.text, "nan"));
-  CHECK_FALSE(contains(page.text, "NaN"));
-  CHECK_FALSE(contains(page.text, "null"));
-  CHECK_FALSE(contains(page.text, "Infinity"));
+  CHECK_FALSE(testing::contains(page.text, "nan"));
+  CHECK_FALSE(testing::contains(page.text, "NaN"));
+  CHECK_FALSE(testing::contains(page.text, "null"));
+  CHECK_FALSE(testing::contains(page.text, "Infinity"));
 }
 
 TEST_CASE("the claim is answered with the measured figures, for each partitioner and mesher once") {
@@ -178,12 +175,12 @@ TEST_CASE("the claim is answered with the measured figures, for each partitioner
   const drawn_page page(page_html(example(), {}));
   const auto answers = answers_on(page);
   REQUIRE(answers.size() == 4);
-  CHECK(contains(answers[0], "30.5 degrees with simplification and 14.0 without"));
-  CHECK(contains(answers[0], "larger with it in 1 of 1 decompositions"));
-  CHECK(contains(answers[0], "0 with, 25 without"));
-  CHECK(contains(answers[1], "22.0 degrees with simplification and 13.0 without"));
-  CHECK(contains(answers[2], "20.0 percent"));
-  CHECK(contains(answers[3], "1.050 with and 1.020 without"));
+  CHECK(testing::has(answers[0], "30.5 degrees with simplification and 14.0 without"));
+  CHECK(testing::has(answers[0], "larger with it in 1 of 1 decompositions"));
+  CHECK(testing::has(answers[0], "0 with, 25 without"));
+  CHECK(testing::has(answers[1], "22.0 degrees with simplification and 13.0 without"));
+  CHECK(testing::has(answers[2], "20.0 percent"));
+  CHECK(testing::has(answers[3], "1.050 with and 1.020 without"));
   const auto plots = elements_called(page.root, "svg");
   REQUIRE(plots.size() == 4);
   CHECK(plots[0]->attribute("aria-label") == "Smallest interface angles with and without simplification");
@@ -200,9 +197,9 @@ TEST_CASE("each rule of simplification is held against none") {
   compared.rows.push_back(row_of("metis", "none", true));
   compared.rows.back().policies.simplifier = "shape";
   const drawn_page page(page_html(compared, {}));
-  CHECK(contains(answers_on(page)[0], "larger with it in 2 of 2 decompositions"));
-  CHECK(contains(page.text, ">metis + tetgen, shape<"));
-  CHECK(contains(page.text, "metis + tetgen + none, simplifier none:"));
+  CHECK(testing::has(answers_on(page)[0], "larger with it in 2 of 2 decompositions"));
+  CHECK(testing::has(page.text, ">metis + tetgen, shape<"));
+  CHECK(testing::has(page.text, "metis + tetgen + none, simplifier none:"));
 }
 
 TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
@@ -214,8 +211,8 @@ TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
   compared.model += " </script>";
   const std::string html = page_html(compared, pictures);
   CHECK(html.starts_with("<!DOCTYPE html>"));
-  CHECK_FALSE(contains(html, "http"));
-  CHECK_FALSE(contains(html, "src=\""));
+  CHECK_FALSE(testing::contains(html, "http"));
+  CHECK_FALSE(testing::contains(html, "src=\""));
   if (!has_node())
     return;
   const drawn_page page(html);
@@ -236,8 +233,8 @@ TEST_CASE("the page is well-formed, complete, and refers to nothing outside") {
   CHECK(tables[0]->children[5].attribute("class") == "failed");
   CHECK(tables[0]->children[5].children[4].text == "-");
   CHECK(elements_called(page.root, "dt").size() == result_columns(3).size() + time_columns().size());
-  CHECK(contains(page.text, "a &lt;odd&gt; &amp; &quot;quoted&quot; name &lt;/script&gt;"));
-  CHECK(contains(page.text, "partition_error: part 3 is empty"));
+  CHECK(testing::has(page.text, "a &lt;odd&gt; &amp; &quot;quoted&quot; name &lt;/script&gt;"));
+  CHECK(testing::has(page.text, "partition_error: part 3 is empty"));
 }
 
 TEST_CASE("a page about failures only is still a page") {
@@ -249,7 +246,7 @@ TEST_CASE("a page about failures only is still a page") {
   const drawn_page page(page_html(compared, {}));
   CHECK(elements_called(page.root, "tr").size() == 18);
   CHECK(answers_on(page).front().starts_with("metis + tetgen + none: mesher_error"));
-  CHECK(contains(page.text, "no answer"));
+  CHECK(testing::has(page.text, "no answer"));
 }
 
 } // namespace

@@ -47,7 +47,7 @@ io::loaded_mesh with_everything() {
     }
   for (local_id g = 0; g < groups; ++g)
     made.triangle_names.emplace_back(g, "group " + std::to_string(g));
-  made.region_names = {{0, "lower"}, {1, "upper"}};
+  made.material_names = {{0, "lower"}, {1, "upper"}};
   for (std::size_t v = 0; v < points.size(); ++v)
     made.node_ids.push_back(1000 - 2 * static_cast<global_id>(v));
   for (const simplex<3>& t : made.mesh.elements) {
@@ -105,7 +105,7 @@ void check_kept(const io::loaded_mesh& before, const io::loaded_mesh& after) {
   std::sort(names.begin(), names.end());
   CHECK(names.size() == 37);
   CHECK(names == before.triangle_names);
-  CHECK(after.region_names == before.region_names);
+  CHECK(after.material_names == before.material_names);
   const auto expected = volumes_of(before), found = volumes_of(after);
   REQUIRE(found.size() == 8);
   for (const auto& [key, volume] : expected)

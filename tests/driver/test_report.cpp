@@ -1,6 +1,7 @@
 #include "run_figures.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -12,17 +13,6 @@
 
 namespace dovetail::app {
 namespace {
-
-/// A folder of its own, removed at the end.
-struct temporary_folder {
-  temporary_folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dovetail_report_XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path = pattern;
-  }
-  ~temporary_folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 run_figures example() {
   run_figures figures;
@@ -53,9 +43,9 @@ run_figures example() {
 }
 
 TEST_CASE("the report has all promised fields with the figures' values") {
-  const temporary_folder folder;
-  write_report(example(), folder.path / "report.json");
-  std::ifstream file(folder.path / "report.json");
+  const testing::scratch_folder folder("report");
+  write_report(example(), folder / "report.json");
+  std::ifstream file(folder / "report.json");
   const auto document = nlohmann::json::parse(file);
 
   for (const char* key : {"elements", "vertices", "background_elements", "subdomains", "seconds", "quality",
@@ -98,15 +88,10 @@ TEST_CASE("the report has all promised fields with the figures' values") {
 }
 
 TEST_CASE("a report that cannot be written throws an error naming the file, and leaves nothing") {
-  const temporary_folder folder;
-  const auto file = folder.path / "no_such_folder" / "report.json";
-  try {
-    write_report(example(), file);
-    FAIL("no error");
-  } catch (const io_error& problem) {
-    CHECK(std::string(problem.what()).find(file.string()) != std::string::npos);
-  }
-  CHECK(std::filesystem::is_empty(folder.path));
+  const testing::scratch_folder folder("report");
+  const auto file = folder / "no_such_folder" / "report.json";
+  CHECK_THROWS_WITH_AS(write_report(example(), file), doctest::Contains(file.c_str()), io_error);
+  CHECK(std::filesystem::is_empty(folder));
 }
 
 TEST_CASE("the summary shows the figures under the paper's headings") {
@@ -119,13 +104,13 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
 }
 
 TEST_CASE("a mesh that the clock had a part in is called not repeatable") {
-  const temporary_folder folder;
+  const testing::scratch_folder folder("report");
   run_figures figures = example();
   CHECK(summary_text(figures).find("REPEATABLE") == std::string::npos);
   figures.repeatable = false;
   CHECK(summary_text(figures).find("NOT REPEATABLE") != std::string::npos);
-  write_report(figures, folder.path / "report.json");
-  std::ifstream file(folder.path / "report.json");
+  write_report(figures, folder / "report.json");
+  std::ifstream file(folder / "report.json");
   CHECK(nlohmann::json::parse(file)["repeatable"] == false);
 }
 

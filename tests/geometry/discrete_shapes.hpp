@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/discrete_soup.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -18,24 +19,6 @@
 
 namespace dovetail::testing {
 
-/// Removes the folder it made.
-class scratch_folder {
-public:
-  explicit scratch_folder(const std::string& name) : path_(std::filesystem::temp_directory_path() / name) {
-    std::filesystem::create_directories(path_);
-  }
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-  ~scratch_folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-private:
-  std::filesystem::path path_;
-};
-
 inline void append(triangle_soup& to, const triangle_soup& from, bool turned = false) {
   const auto first = static_cast<local_id>(to.points.size());
   to.points.insert(to.points.end(), from.points.begin(), from.points.end());
@@ -45,7 +28,7 @@ inline void append(triangle_soup& to, const triangle_soup& from, bool turned = f
     if (turned)
       std::swap(t[1], t[2]);
     to.triangles.push_back(t);
-    to.patches.push_back(no_id);
+    to.groups.push_back(no_id);
   }
 }
 
@@ -71,7 +54,7 @@ inline triangle_soup box_soup(vec3 a, vec3 b, int n = 1) {
           if (!upper)
             std::swap(t[1], t[2]);
           soup.triangles.push_back(t);
-          soup.patches.push_back(no_id);
+          soup.groups.push_back(no_id);
         }
   };
   for (int axis = 0; axis < 3; ++axis)
@@ -94,7 +77,7 @@ triangle_soup sheet_soup(int n, Height&& height) {
         soup.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
       }
     }
-  soup.patches.assign(soup.triangles.size(), no_id);
+  soup.groups.assign(soup.triangles.size(), no_id);
   return soup;
 }
 
@@ -105,7 +88,7 @@ inline triangle_soup open_box_soup(vec3 a, vec3 b, int n) {
     return std::all_of(t.begin(), t.end(),
                        [&](local_id v) { return soup.points[static_cast<std::size_t>(v)].z == b.z; });
   });
-  soup.patches.resize(soup.triangles.size());
+  soup.groups.resize(soup.triangles.size());
   return soup;
 }
 
@@ -136,7 +119,7 @@ inline triangle_soup torus_soup(double large, double small, int m, int n) {
       for (const auto& t : {simplex<2>{id(i, j), id(i + 1, j), id(i + 1, j + 1)},
                             simplex<2>{id(i, j), id(i + 1, j + 1), id(i, j + 1)}}) {
         soup.triangles.push_back(t);
-        soup.patches.push_back(no_id);
+        soup.groups.push_back(no_id);
       }
   return soup;
 }
@@ -172,10 +155,6 @@ inline void write_text_stl(const std::filesystem::path& file, const triangle_sou
     out << "  endloop\n endfacet\n";
   }
   out << "endsolid part\n";
-}
-
-inline void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
 }
 
 } // namespace dovetail::testing

@@ -14,11 +14,11 @@ using namespace dovetail;
 
 namespace {
 
-std::set<std::string> patches_of(const occt_model& model) {
-  std::set<std::string> patches;
+std::set<std::string> groups_of(const occt_model& model) {
+  std::set<std::string> groups;
   for (const auto& face : model.topology().faces)
-    patches.insert(face.patch);
-  return patches;
+    groups.insert(face.group);
+  return groups;
 }
 
 /// Everything that holds for all built-in models; returns the volume.
@@ -50,7 +50,7 @@ TEST_CASE("the aircraft is the flow domain around one body and two free stores")
   const double body = 75 * 60 * 60 - volume;
   CHECK(body > 30);
   CHECK(body < 45);
-  CHECK(patches_of(made.model) ==
+  CHECK(groups_of(made.model) ==
         std::set<std::string>{"farfield", "fuselage", "pylon", "store", "tail", "wing"});
   CHECK(made.sources.size() > 20);
   CHECK_NOTHROW(source_field(made.size, made.sources));
@@ -62,7 +62,7 @@ TEST_CASE("the left half of the aircraft mirrors the right one") {
   double left = 0, right = 0;
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const auto& face = made.model.topology().faces[f];
-    if (face.patch != "wing" && face.patch != "store" && face.patch != "pylon")
+    if (face.group != "wing" && face.group != "store" && face.group != "pylon")
       continue;
     const vec2 uv = made.model.curve_uv(static_cast<local_id>(f), 0, 0.0);
     const double y = made.model.face_point(static_cast<local_id>(f), uv).y;
@@ -79,7 +79,7 @@ TEST_CASE("the combustor liner has hundreds of holes") {
   const double annulus = pi * (100 * 100 - 96 * 96) * 240;
   const double holes = 4 * pi * (288 * 2.5 * 2.5 + 24 * 6 * 6); // as if the liner were flat
   CHECK(volume == doctest::Approx(annulus - holes).epsilon(0.001));
-  CHECK(patches_of(made.model) == std::set<std::string>{"ends", "holes", "inner", "outer"});
+  CHECK(groups_of(made.model) == std::set<std::string>{"ends", "holes", "inner", "outer"});
 }
 
 TEST_CASE("the orbiter is the flow domain around one body") {
@@ -87,7 +87,7 @@ TEST_CASE("the orbiter is the flow domain around one body") {
   const double body = 150 * 120 * 120 - check_soundness(made, 2);
   CHECK(body > 700);
   CHECK(body < 900);
-  CHECK(patches_of(made.model) == std::set<std::string>{"farfield", "fuselage", "pods", "tail", "wing"});
+  CHECK(groups_of(made.model) == std::set<std::string>{"farfield", "fuselage", "pods", "tail", "wing"});
   CHECK_NOTHROW(source_field(made.size, made.sources));
 }
 

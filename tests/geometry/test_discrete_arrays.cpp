@@ -38,7 +38,7 @@ void check_refused(triangle_soup soup, const std::string& message) {
 
 } // namespace
 
-TEST_CASE("ids of one's own come back on every triangle of the mesh, and as names of patches") {
+TEST_CASE("ids of one's own come back on every triangle of the mesh, and as names of groups") {
   const auto cube = box_soup({0, 0, 0}, {1, 1, 1}, 2);
   std::vector<local_id> ids;
   for (const auto& triangle : cube.triangles)
@@ -52,8 +52,8 @@ TEST_CASE("ids of one's own come back on every triangle of the mesh, and as name
     const local_id side = side_of(whole.mesh.points, whole.mesh.elements[t]);
     const local_id face = whole.mesh.tags[t];
     ids_on_side[side].insert(model.face_id(face));
-    const auto patch = static_cast<std::size_t>(whole.patch_of_face.at(static_cast<std::size_t>(face)));
-    names_on_side[side].insert(whole.patch_names.at(patch));
+    const auto group = static_cast<std::size_t>(whole.group_of_face.at(static_cast<std::size_t>(face)));
+    names_on_side[side].insert(whole.group_names.at(group));
   }
   REQUIRE(ids_on_side.size() == 6);
   for (const auto& [side, found] : ids_on_side) {
@@ -79,11 +79,11 @@ TEST_CASE("an edge between two ids is a feature, though the surface is flat ther
 
 TEST_CASE("patches with names keep the index of their name") {
   auto cube = box_soup({0, 0, 0}, {1, 1, 1});
-  cube.patches.assign(cube.triangles.size(), 1);
-  cube.patch_names = {"unused", "all"};
+  cube.groups.assign(cube.triangles.size(), 1);
+  cube.group_names = {"unused", "all"};
   const discrete_model model(repaired(cube));
   CHECK(model.face_id(0) == 1);
-  CHECK(model.topology().faces[0].patch == "all");
+  CHECK(model.topology().faces[0].group == "all");
 }
 
 TEST_CASE("arrays that do not fit together are refused, naming the place") {
@@ -94,12 +94,12 @@ TEST_CASE("arrays that do not fit together are refused, naming the place") {
   soup.triangles[5][1] = -1;
   check_refused(soup, "the surface: triangle 5 refers to point -1, but there are 24 points");
   soup = cube;
-  soup.patches.assign(3, 0);
-  check_refused(soup, "the surface: there are 3 patches of 12 triangles; give one per triangle, or none");
-  soup.patches.assign(12, 0);
-  soup.patches[7] = 2;
-  soup.patch_names = {"a", "b"};
-  check_refused(soup, "the surface: triangle 7 refers to patch 2, but there are 2 names of patches");
+  soup.groups.assign(3, 0);
+  check_refused(soup, "the surface: there are 3 groups of 12 triangles; give one per triangle, or none");
+  soup.groups.assign(12, 0);
+  soup.groups[7] = 2;
+  soup.group_names = {"a", "b"};
+  check_refused(soup, "the surface: triangle 7 refers to group 2, but there are 2 names of groups");
   soup = cube;
   soup.points[3].y = std::numeric_limits<double>::quiet_NaN();
   check_refused(soup, "the surface: point 3 is not finite");

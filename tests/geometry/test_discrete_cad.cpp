@@ -31,7 +31,7 @@ TEST_CASE("tessellated CAD parts become models of the same volume") {
     MESSAGE("SKIPPED: DOVETAIL_SHARED is not set");
     return;
   }
-  const scratch_folder folder("dovetail_test_discrete_cad");
+  const scratch_folder folder("test_discrete_cad");
   for (const char* name : {"linkrods.step", "SampleCrankshaft4A.stp", "U_Joint_2.stp"}) {
     const std::string part = name;
     CAPTURE(part);

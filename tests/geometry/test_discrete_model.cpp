@@ -145,7 +145,7 @@ TEST_CASE("a cylinder has two closed feature curves") {
     for (const auto& t : {simplex<2>{a, b, b + 1}, simplex<2>{a, b + 1, a + 1}, simplex<2>{b, a, 2 * n},
                           simplex<2>{a + 1, b + 1, 2 * n + 1}}) {
       soup.triangles.push_back(t);
-      soup.patches.push_back(no_id);
+      soup.groups.push_back(no_id);
     }
   }
   const auto model = model_of(soup);
@@ -177,32 +177,28 @@ TEST_CASE("several bodies and voids are solids with all their faces") {
   }
 }
 
-TEST_CASE("named solids of a file become patches, with curves between them") {
+TEST_CASE("named solids of a file become groups, with curves between them") {
   auto soup = box_soup({0, 0, 0}, {1, 1, 1}, 2);
-  soup.patch_names = {"inlet", "wall"};
+  soup.group_names = {"inlet", "wall"};
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    soup.patches[t] = t < 4 ? 0 : 1; // half of one side
+    soup.groups[t] = t < 4 ? 0 : 1; // half of one side
   const auto model = model_of(soup);
   CHECK(model.topology().faces.size() == 7);
   int inlets = 0;
   for (const auto& face : model.topology().faces)
-    inlets += face.patch == "inlet" ? 1 : 0;
+    inlets += face.group == "inlet" ? 1 : 0;
   CHECK(inlets == 1);
   check_model(model);
 }
 
 TEST_CASE("an STL file is a model, and errors name the file") {
-  const scratch_folder folder("dovetail_test_discrete_model");
+  const scratch_folder folder("test_discrete_model");
   write_binary_stl(folder / "ball.stl", sphere_soup({0, 0, 0}, 1, 8));
   const auto model = read_discrete_model(folder / "ball.stl");
   check_model(model);
   auto open = sphere_soup({0, 0, 0}, 1, 8);
   open.triangles.resize(100);
   write_text_stl(folder / "open.stl", open);
-  try {
-    (void)read_discrete_model(folder / "open.stl");
-    FAIL("not refused");
-  } catch (const geometry_error& e) {
-    CHECK(std::string(e.what()).find("open.stl: the surface is open") != std::string::npos);
-  }
+  CHECK_THROWS_WITH_AS(read_discrete_model(folder / "open.stl"),
+                       doctest::Contains("open.stl: the surface is open"), geometry_error);
 }

@@ -1,5 +1,6 @@
 #include "discrete_shapes.hpp"
 #include "dovetail/geometry/discrete_read.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 #include <sstream>
@@ -9,24 +10,12 @@ using namespace dovetail::testing;
 
 namespace {
 
-const scratch_folder folder("dovetail_test_discrete_read");
+const scratch_folder folder("test_discrete_read");
 
 /// Reads a file of this text; the message when that is refused.
 std::string refusal(const std::string& name, const std::string& text) {
-  write_text(folder / name, text);
-  try {
-    (void)read_triangles(folder / name);
-  } catch (const input_error& e) {
-    return e.what();
-  }
-  return "read";
-}
-
-bool has(const std::string& message, const std::string& part) {
-  const bool found = message.find(part) != std::string::npos;
-  if (!found)
-    MESSAGE("message: ", message);
-  return found;
+  write_content(folder / name, text);
+  return refusal_of<input_error>([&] { return read_triangles(folder / name); });
 }
 
 double area(const triangle_soup& soup) {
@@ -80,30 +69,31 @@ TEST_CASE("STL text and binary give the triangles written") {
   CHECK(binary.triangles.size() == 48);
   CHECK(area(text) == doctest::Approx(22));
   CHECK(area(binary) == doctest::Approx(22));
-  CHECK(text.patch_names == std::vector<std::string>{"part"});
-  CHECK(text.patches[7] == 0);
-  CHECK(binary.patches[7] == no_id);
+  CHECK(text.group_names == std::vector<std::string>{"part"});
+  CHECK(text.groups[7] == 0);
+  CHECK(binary.groups[7] == no_id);
 }
 
 TEST_CASE("OBJ, OFF and PLY give the square written") {
-  write_text(folder / "a.obj", "# square\nv 0 0 0\nv 2 0 0\nv 2 2 0\nvn 0 0 1\nv 0 2 0\ng lid one\n"
-                               "f 1/1 2/2/1 3//1 -1\n");
-  write_text(folder / "a.off", "OFF\n# counts\n4 1 0\n" + square_points + "4 0 1 2 3\n");
-  write_text(folder / "b.off", "OFF 4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3\n");
-  write_text(folder / "a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                               "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
-                               "end_header\n" +
-                                   square_points + "4 0 1 2 3\n");
-  write_text(folder / "b.ply", binary_ply(false));
-  write_text(folder / "c.ply", binary_ply(true));
+  write_content(folder / "a.obj", "# square\nv 0 0 0\nv 2 0 0\nv 2 2 0\nvn 0 0 1\nv 0 2 0\ng lid one\n"
+                                  "f 1/1 2/2/1 3//1 -1\n");
+  write_content(folder / "a.off", "OFF\n# counts\n4 1 0\n" + square_points + "4 0 1 2 3\n");
+  write_content(folder / "b.off", "OFF 4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3\n");
+  write_content(folder / "a.ply",
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+                "end_header\n" +
+                    square_points + "4 0 1 2 3\n");
+  write_content(folder / "b.ply", binary_ply(false));
+  write_content(folder / "c.ply", binary_ply(true));
   for (const char* name : {"a.obj", "a.off", "b.off", "a.ply", "b.ply", "c.ply"}) {
     CAPTURE(name);
     const auto soup = read_triangles(folder / name);
     CHECK(soup.triangles.size() == 2);
-    CHECK(soup.patches.size() == 2);
+    CHECK(soup.groups.size() == 2);
     CHECK(area(soup) == doctest::Approx(4));
   }
-  CHECK(read_triangles(folder / "a.obj").patch_names == std::vector<std::string>{"lid one"});
+  CHECK(read_triangles(folder / "a.obj").group_names == std::vector<std::string>{"lid one"});
 }
 
 TEST_CASE("bad files are refused with their names") {

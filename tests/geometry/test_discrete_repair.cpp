@@ -1,5 +1,6 @@
 #include "discrete_shapes.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 #include <random>
@@ -22,19 +23,7 @@ double volume_of(const oriented_surfaces& s, local_id solid) {
 }
 
 std::string refusal(const triangle_soup& soup) {
-  try {
-    (void)repaired(soup, "part.stl");
-  } catch (const geometry_error& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
-bool has(const std::string& message, const std::string& part) {
-  const bool found = message.find(part) != std::string::npos;
-  if (!found)
-    MESSAGE("message: ", message);
-  return found;
+  return refusal_of<geometry_error>([&] { return repaired(soup, "part.stl"); });
 }
 
 /// Every triangle with corners of its own, as STL has them.
@@ -45,7 +34,7 @@ triangle_soup exploded(const triangle_soup& soup) {
     for (const auto v : t)
       out.points.push_back(soup.points[static_cast<std::size_t>(v)]);
     out.triangles.push_back({first, first + 1, first + 2});
-    out.patches.push_back(no_id);
+    out.groups.push_back(no_id);
   }
   return out;
 }
@@ -81,7 +70,7 @@ TEST_CASE("degenerate and repeated triangles go, and caps are flipped") {
   auto soup = box_soup({0, 0, 0}, {1, 1, 1});
   soup.triangles.push_back(soup.triangles[3]);
   soup.triangles.push_back({0, 0, 1});
-  soup.patches.assign(soup.triangles.size(), no_id);
+  soup.groups.assign(soup.triangles.size(), no_id);
   const auto s = repaired(soup);
   CHECK(s.mesh.elements.size() == 12);
   CHECK(s.repairs.get("duplicates") == 1);
@@ -91,7 +80,7 @@ TEST_CASE("degenerate and repeated triangles go, and caps are flipped") {
   triangle_soup tetrahedron;
   tetrahedron.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
   tetrahedron.triangles = {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  tetrahedron.patches.assign(6, no_id);
+  tetrahedron.groups.assign(6, no_id);
   const auto flipped = repaired(tetrahedron);
   CHECK(flipped.repairs.get("flipped_caps") == 1);
   CHECK(volume_of(flipped, 0) == doctest::Approx(8.0 / 6));
@@ -118,7 +107,7 @@ TEST_CASE("nested shells are voids and solids in turn, separate ones are solids"
 TEST_CASE("open, crowded, one-sided and crossing surfaces are refused with a place") {
   auto open = box_soup({0, 0, 0}, {1, 1, 1}, 4);
   open.triangles.erase(open.triangles.begin() + 5);
-  open.patches.resize(open.triangles.size());
+  open.groups.resize(open.triangles.size());
   CHECK(has(refusal(open), "part.stl: the surface is open: 3 edges"));
 
   triangle_soup crowded;
@@ -136,12 +125,12 @@ TEST_CASE("open, crowded, one-sided and crossing surfaces are refused with a pla
   projective.points = {{0, 0, 1}, {1, 0, 0}, {0.3, 1, 0}, {-0.8, 0.6, 0.1}, {-0.8, -0.6, 0}, {0.3, -1, 0.2}};
   projective.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
                           {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
-  projective.patches.assign(10, no_id);
+  projective.groups.assign(10, no_id);
   CHECK(has(refusal(projective), "one side only"));
 
   triangle_soup flat;
   flat.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
   flat.triangles = {{0, 1, 2}};
-  flat.patches = {no_id};
+  flat.groups = {no_id};
   CHECK(has(refusal(flat), "degenerate"));
 }

@@ -1,6 +1,7 @@
 #include "discrete_shapes.hpp"
 #include "dovetail/geometry/discrete_model.hpp"
 #include "model_checks.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -38,12 +39,7 @@ double rim_length(const discrete_model& model) {
 }
 
 std::string refusal(const triangle_soup& soup, const repair_options& options) {
-  try {
-    (void)repaired(soup, "sheet.stl", options);
-  } catch (const geometry_error& e) {
-    return e.what();
-  }
-  return "accepted";
+  return refusal_of<geometry_error>([&] { return repaired(soup, "sheet.stl", options); });
 }
 
 /// A strip of n squares, turned by half a turn before its ends meet.
@@ -62,7 +58,7 @@ triangle_soup moebius_soup(int n) {
     soup.triangles.push_back({a, c, d});
     soup.triangles.push_back({a, d, b});
   }
-  soup.patches.assign(soup.triangles.size(), no_id);
+  soup.groups.assign(soup.triangles.size(), no_id);
   return soup;
 }
 
@@ -127,13 +123,13 @@ TEST_CASE("a sheet with a hole, and one with corners that touch") {
     const vec3 center = (at(t[0]) + at(t[1]) + at(t[2])) / 3;
     return std::abs(center.x) < 0.33 && std::abs(center.y) < 0.33;
   });
-  soup.patches.resize(soup.triangles.size());
+  soup.groups.resize(soup.triangles.size());
   const auto holed = model_of(soup);
   CHECK(holed.topology().faces[0].loops.size() == 2);
 
   auto bow = sheet_soup(2, [](double, double) { return 0.0; });
   bow.triangles = {bow.triangles[0], bow.triangles[1], bow.triangles[6], bow.triangles[7]};
-  bow.patches.resize(4);
+  bow.groups.resize(4);
   const auto touching = model_of(bow);
   CHECK(touching.topology().faces.size() == 2);
   CHECK(rim_length(touching) == doctest::Approx(8));

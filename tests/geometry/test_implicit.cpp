@@ -1,6 +1,7 @@
 #include "dovetail/geometry/implicit_model.hpp"
 #include "dovetail/geometry/implicit_shapes.hpp"
 #include "geometry/model_checks.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -108,14 +109,7 @@ TEST_CASE("united and separate bodies") {
 }
 
 TEST_CASE("what cannot be a body is a typed error that says what to do") {
-  const auto message = [](const auto& make) -> std::string {
-    try {
-      make();
-    } catch (const geometry_error& e) {
-      return e.what();
-    }
-    return {};
-  };
+  const auto message = [](const auto& make) { return testing::refusal_of<geometry_error>(make); };
   const implicit::sphere ball;
   CHECK(message([&] { implicit_model(ball, box_of(0.9)); }).find("larger box") != std::string::npos);
   CHECK(message([&] { implicit_model([](vec3) { return 1.0; }, box_of(1)); }).find("no point") !=

@@ -3,6 +3,7 @@
 #include "dovetail/geometry/occt_repair.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
 #include "dovetail/parallel/processes.hpp"
+#include "io/scratch_folder.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -23,34 +24,11 @@
 #include <unistd.h>
 
 using namespace dovetail;
+using testing::file_content;
+using testing::scratch_folder;
+using testing::write_content;
 
 namespace {
-
-/// A folder for the files of one test case, removed at its end.
-class scratch_folder {
-public:
-  explicit scratch_folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("dovetail_occt_" + name)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~scratch_folder() { std::filesystem::remove_all(path_); }
-  scratch_folder(const scratch_folder&) = delete;
-  scratch_folder& operator=(const scratch_folder&) = delete;
-  std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
-
-private:
-  std::filesystem::path path_;
-};
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-std::string read_text(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// A box of width 50.8 with a name, its faces coloured and the first one named too.
 void write_named_step(const std::filesystem::path& path, const char* unit) {
@@ -87,9 +65,9 @@ TEST_CASE("files that are missing, no file, empty or foreign are refused by name
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "none.step"),
                        doctest::Contains("none.step: there is no such file"), input_error);
   CHECK_THROWS_AS(read_occt_model(folder / ""), input_error);
-  write_text(folder / "empty.step", "");
+  write_content(folder / "empty.step", "");
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "empty.step"), doctest::Contains("empty"), input_error);
-  write_text(folder / "foreign.step", "solid cube\nfacet normal 0 0 1\n");
+  write_content(folder / "foreign.step", "solid cube\nfacet normal 0 0 1\n");
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "foreign.step"), doctest::Contains("neither STEP"),
                        input_error);
   CHECK_FALSE(is_occt_file(folder / "foreign.step"));
@@ -126,10 +104,10 @@ TEST_CASE("a STEP file cut at any byte is refused") {
   STEPControl_Writer writer;
   writer.Transfer(BRepPrimAPI_MakeSphere(1).Shape(), STEPControl_AsIs);
   REQUIRE(writer.Write((folder / "whole.step").c_str()) == IFSelect_RetDone);
-  const std::string whole = read_text(folder / "whole.step");
+  const std::string whole = file_content(folder / "whole.step");
   const std::size_t mark = whole.rfind("END-ISO-10303-21;") + 17;
   const auto refused = [&](std::size_t length) {
-    write_text(folder / "cut.step", whole.substr(0, length));
+    write_content(folder / "cut.step", whole.substr(0, length));
     try {
       occt::read_directly(folder / "cut.step", occt::length_unit::millimetre, occt::file_format::step, "");
     } catch (const input_error&) {
@@ -143,7 +121,8 @@ TEST_CASE("a STEP file cut at any byte is refused") {
     if (!refused(length))
       ++read;
   CHECK(read == 0);
-  write_text(folder / "hollow.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
+  write_content(folder / "hollow.step",
+                "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
   CHECK_THROWS_AS(read_occt_model(folder / "hollow.step"), input_error);
 }
 
@@ -151,7 +130,7 @@ TEST_CASE(
     "files are read whatever the case of their marks, with comments, blank lines and line ends of any kind") {
   const scratch_folder folder("styles");
   write_named_step(folder / "whole.step", "MM");
-  const std::string step = read_text(folder / "whole.step");
+  const std::string step = file_content(folder / "whole.step");
   std::ostringstream text;
   BRepTools::Write(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), text);
   const std::string brep = text.str();
@@ -179,7 +158,7 @@ TEST_CASE(
         std::pair("asterisks", brep + "\n* * *\n"), std::pair("BREP, blank lines", "\n\n" + brep + "\n\n")}) {
     const std::string name = kind;
     CAPTURE(name);
-    write_text(folder / "file", content);
+    write_content(folder / "file", content);
     CHECK(is_occt_file(folder / "file"));
     CHECK_NOTHROW(CHECK(read_occt_model(folder / "file").model.topology().faces.size() == 6));
   }
@@ -193,15 +172,15 @@ TEST_CASE("what a worker does not survive is a damaged file") {
   CHECK(there.topology().solids.at(0).name == "block");
 
   // OCCT crashes on points whose keyword it does not know.
-  std::string damaged = read_text(folder / "block.step");
+  std::string damaged = file_content(folder / "block.step");
   for (std::size_t at = damaged.find("CARTESIAN_POINT"); at != std::string::npos;
        at = damaged.find("CARTESIAN_POINT", at))
     damaged[at] = 'c';
-  write_text(folder / "crash.step", damaged);
+  write_content(folder / "crash.step", damaged);
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "crash.step", {.first_reader = worker}),
                        doctest::Contains("crash.step: Open CASCADE crashed while reading it"), input_error);
   // An error's text comes back as it was.
-  write_text(folder / "cut.step", damaged.substr(0, 900));
+  write_content(folder / "cut.step", damaged.substr(0, 900));
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.step", {.first_reader = worker}),
                        doctest::Contains("cut.step: the STEP file is truncated"), input_error);
 }
@@ -247,8 +226,8 @@ TEST_CASE("an IGES file of faces is sewn to a solid") {
   CHECK(is_occt_file(folder / "box.igs"));
   const occt_read_result result = read_occt_model(folder / "box.igs");
   CHECK(occt::volume_of(result.model.shape()) == doctest::Approx(6));
-  const std::string whole = read_text(folder / "box.igs");
-  write_text(folder / "cut.igs", whole.substr(0, whole.size() / 2));
+  const std::string whole = file_content(folder / "box.igs");
+  write_content(folder / "cut.igs", whole.substr(0, whole.size() / 2));
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.igs"), doctest::Contains("no terminate section"),
                        input_error);
   const std::size_t mark = whole.rfind('T') + 1; // its column is the 73rd of the last card
@@ -258,7 +237,7 @@ TEST_CASE("an IGES file of faces is sewn to a solid") {
     CHECK_NOTHROW(occt::require_terminated("whole.igs", whole + tail));
 }
 
-TEST_CASE("STEP names, layers and colours become names and patches") {
+TEST_CASE("STEP names, layers and colours become names and groups") {
   const scratch_folder folder("names");
   write_named_step(folder / "block.step", "MM");
   const occt_model model = read_occt_model(folder / "block.step").model;
@@ -266,10 +245,10 @@ TEST_CASE("STEP names, layers and colours become names and patches") {
   const auto& faces = model.topology().faces;
   REQUIRE(faces.size() == 6);
   CHECK(faces[0].name == "inlet");
-  CHECK(faces[0].patch == "inlet");
+  CHECK(faces[0].group == "inlet");
   CHECK(faces[1].name == "");
-  CHECK(faces[1].patch == "walls");
-  CHECK(faces[2].patch == "color_FF0000");
+  CHECK(faces[1].group == "walls");
+  CHECK(faces[2].group == "color_FF0000");
 }
 
 TEST_CASE("coordinates come in millimetres, or in the file's unit when asked") {

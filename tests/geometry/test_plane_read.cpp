@@ -1,5 +1,6 @@
 #include "dovetail/geometry/plane_read.hpp"
 #include "io/scratch_folder.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -36,13 +37,8 @@ TEST_CASE("an SVG file's paths are read wherever they stand in it, and whatever 
 }
 
 TEST_CASE("what is not read is refused, and so is what is no SVG; the file is named") {
-  const auto refusal = [](const std::string& content) -> std::string {
-    try {
-      svg(content);
-    } catch (const input_error& problem) {
-      return problem.what();
-    }
-    return "nothing";
+  const auto refusal = [](const std::string& content) {
+    return testing::refusal_of<input_error>([&] { return svg(content); });
   };
   const auto says = [](const std::string& text, const std::string& part) {
     CAPTURE(text);
@@ -57,7 +53,7 @@ TEST_CASE("what is not read is refused, and so is what is no SVG; the file is na
   says(refusal("<svg>\n<path d=\"M0 0 H4"), "line 2: the file ends in an attribute");
   says(refusal("M0 0 H4 V4 H0 Z"), "this is not an XML file");
   says(refusal("<svg/>"), "there is no closed path");
-  CHECK(refusal("<svg>" + std::string(square) + "</svg>") == "nothing");
+  CHECK(refusal("<svg>" + std::string(square) + "</svg>") == "accepted");
 }
 
 TEST_CASE("points in a list") {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,8 @@ struct stacked_cubes {
   distributed_mesh distributed() const;
   /// The whole mesh with the given subdomain of each element; no subdomain may have two materials.
   distributed_mesh distributed(const std::vector<local_id>& parts) const;
+  /// With one piece changed.
+  distributed_mesh spoilt(local_id which, const std::function<void(mesh_piece&)>& spoil) const;
 
   grid_place place_of(local_id v) const {
     const int side = cells + 1;
@@ -129,9 +132,21 @@ inline distributed_mesh stacked_cubes::distributed(const std::vector<local_id>& 
   const int faces = solids + 1 + 4 * solids;
   for (int f = 0; f < faces; ++f) {
     result.face_names.push_back("cad face " + std::to_string(f));
-    result.patch_names.push_back(f == 0 ? "floor" : f == solids ? "roof" : f < solids ? "" : "side walls");
+    result.group_names.push_back(f == 0 ? "floor" : f == solids ? "roof" : f < solids ? "" : "side walls");
   }
   return result;
+}
+
+inline distributed_mesh stacked_cubes::spoilt(local_id which,
+                                              const std::function<void(mesh_piece&)>& spoil) const {
+  auto mesh = distributed();
+  mesh.load = [load = mesh.load, which, spoil](local_id p) {
+    auto piece = load(p);
+    if (p == which)
+      spoil(piece);
+    return piece;
+  };
+  return mesh;
 }
 
 } // namespace dovetail::testing

@@ -13,18 +13,6 @@ namespace {
 
 const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-/// The cubes with one piece changed.
-distributed_mesh spoilt(local_id which, const std::function<void(mesh_piece&)>& spoil) {
-  auto mesh = cubes.distributed();
-  mesh.load = [load = mesh.load, which, spoil](local_id p) {
-    auto piece = load(p);
-    if (p == which)
-      spoil(piece);
-    return piece;
-  };
-  return mesh;
-}
-
 std::vector<io::seam_fault> seam_kinds(const io::distributed_validity& found) {
   std::vector<io::seam_fault> kinds;
   for (const auto& faults : found.subdomains)
@@ -95,7 +83,7 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
 }
 
 TEST_CASE("a skeleton point moved by one bit in one piece is found") {
-  const auto mesh = spoilt(
+  const auto mesh = cubes.spoilt(
       3, [](mesh_piece& piece) { piece.mesh.points[7].y = std::nextafter(piece.mesh.points[7].y, 2.0); });
   const auto found = io::check_distributed(mesh);
   REQUIRE(found.subdomains.size() == 1);
@@ -105,7 +93,7 @@ TEST_CASE("a skeleton point moved by one bit in one piece is found") {
 
 TEST_CASE("a missing element opens the boundary of its piece") {
   auto mesh =
-      spoilt(5, [](mesh_piece& piece) { piece.mesh.elements.pop_back(), piece.mesh.tags.pop_back(); });
+      cubes.spoilt(5, [](mesh_piece& piece) { piece.mesh.elements.pop_back(), piece.mesh.tags.pop_back(); });
   --mesh.counts[5].elements;
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
@@ -146,14 +134,14 @@ TEST_CASE("a skeleton triangle turned inside out is found") {
 }
 
 TEST_CASE("an element of a foreign material is found") {
-  const auto mesh = spoilt(0, [](mesh_piece& piece) { piece.mesh.tags[4] = 1; });
+  const auto mesh = cubes.spoilt(0, [](mesh_piece& piece) { piece.mesh.tags[4] = 1; });
   CHECK(seam_kinds(io::check_distributed(mesh)) == std::vector{io::seam_fault::wrong_material});
 }
 
 TEST_CASE("pieces that cannot be indexed are refused with the subdomain's number") {
-  const auto wrong_index = spoilt(6, [](mesh_piece& piece) { piece.mesh.elements[0][2] = 100000; });
+  const auto wrong_index = cubes.spoilt(6, [](mesh_piece& piece) { piece.mesh.elements[0][2] = 100000; });
   CHECK_THROWS_WITH_AS(io::check_distributed(wrong_index), doctest::Contains("subdomain 6"), mesh_error);
-  const auto wrong_count = spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
+  const auto wrong_count = cubes.spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
   CHECK_THROWS_WITH_AS(io::mesh_hash(wrong_count), doctest::Contains("subdomain 6"), mesh_error);
   auto wrong_skeleton = cubes.distributed();
   wrong_skeleton.skeleton.subdomains[0][0] = 8;
@@ -161,7 +149,7 @@ TEST_CASE("pieces that cannot be indexed are refused with the subdomain's number
 }
 
 TEST_CASE("the hash does not depend on the order of elements and of their vertices") {
-  const auto mesh = spoilt(2, [](mesh_piece& piece) {
+  const auto mesh = cubes.spoilt(2, [](mesh_piece& piece) {
     std::reverse(piece.mesh.elements.begin(), piece.mesh.elements.end());
     for (auto& e : piece.mesh.elements)
       std::rotate(e.begin(), e.begin() + 1, e.begin() + 3);
@@ -171,13 +159,13 @@ TEST_CASE("the hash does not depend on the order of elements and of their vertic
 
 TEST_CASE("the hash changes with any coordinate, any connection and any orientation") {
   const auto original = io::mesh_hash(cubes.distributed());
-  CHECK(io::mesh_hash(spoilt(4, [](mesh_piece& piece) {
+  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
           piece.mesh.points.back().z = std::nextafter(piece.mesh.points.back().z, 9.0);
         })) != original);
-  CHECK(io::mesh_hash(spoilt(4, [](mesh_piece& piece) {
+  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
           std::swap(piece.mesh.elements[3][0], piece.mesh.elements[3][1]);
         })) != original);
-  CHECK(io::mesh_hash(spoilt(4, [](mesh_piece& piece) {
+  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
           piece.mesh.elements[3][0] = piece.mesh.elements[4][1];
         })) != original);
   auto moved = cubes.distributed();

@@ -28,8 +28,8 @@ namespace {
 
 const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-io::vtu_writer vtu(int pieces = 0, const std::string& stem = "mesh") {
-  return {.pieces = pieces, .stem = stem};
+io::vtu_writer vtu(int files = 0, const std::string& stem = "mesh") {
+  return {.files = files, .stem = stem};
 }
 
 /// Writes where there is no folder.
@@ -45,18 +45,6 @@ std::map<std::string, std::string> content_of(const std::filesystem::path& folde
     content[entry.path().filename().string()] =
         entry.is_directory() ? "a folder" : testing::file_content(entry.path());
   return content;
-}
-
-/// The cubes with one piece changed.
-distributed_mesh spoilt(local_id which, const std::function<void(mesh_piece&)>& spoil) {
-  auto mesh = cubes.distributed();
-  mesh.load = [load = mesh.load, which, spoil](local_id p) {
-    auto piece = load(p);
-    if (p == which)
-      spoil(piece);
-    return piece;
-  };
-  return mesh;
 }
 
 /// Pieces that can be given up, as in a spool.
@@ -95,12 +83,12 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
   quality_statistics expected;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p)
     expected.merge(measure_quality(mesh.load(static_cast<local_id>(p)).mesh), numbers.first_element[p]);
-  for (const int pieces : {0, 3, 1}) {
-    const auto name = std::to_string(pieces);
-    io::vtu_writer{.pieces = pieces}(mesh, folder / name);
+  for (const int count : {0, 3, 1}) {
+    const auto name = std::to_string(count);
+    io::vtu_writer{.files = count}(mesh, folder / name);
     const auto files = content_of(folder / name);
     const auto check = [&](const any_executor& run_tasks) {
-      const auto finished = io::finish_mesh<3>(mesh, {vtu(pieces)}, folder / (name + "by tasks"), run_tasks);
+      const auto finished = io::finish_mesh<3>(mesh, {vtu(count)}, folder / (name + "by tasks"), run_tasks);
       CHECK(finished.hash == io::mesh_hash(mesh));
       CHECK(finished.quality.elements == whole.elements);
       CHECK(finished.quality.min_wedge_deg == whole.min_wedge_deg);
@@ -155,7 +143,7 @@ TEST_CASE("a piece is loaded once, whatever is written of it") {
 
 TEST_CASE("a piece that does not fit is an error that names it, and the files stay as they were") {
   const testing::scratch_folder folder("finish_faults");
-  io::vtu_writer{.pieces = 2}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 2}(cubes.distributed(), folder);
   const auto before = content_of(folder);
   const auto refused = [&](const distributed_mesh& mesh, const char* place) {
     CAPTURE(place);
@@ -168,14 +156,15 @@ TEST_CASE("a piece that does not fit is an error that names it, and the files st
       CHECK(content_of(folder) == before);
     }
   };
-  refused(spoilt(3, [](mesh_piece& p) { p.mesh.points[7].y = std::nextafter(p.mesh.points[7].y, 2.0); }),
-          "moved skeleton point (first: ");
-  auto open = spoilt(3, [](mesh_piece& p) { p.mesh.elements.pop_back(), p.mesh.tags.pop_back(); });
+  refused(
+      cubes.spoilt(3, [](mesh_piece& p) { p.mesh.points[7].y = std::nextafter(p.mesh.points[7].y, 2.0); }),
+      "moved skeleton point (first: ");
+  auto open = cubes.spoilt(3, [](mesh_piece& p) { p.mesh.elements.pop_back(), p.mesh.tags.pop_back(); });
   --open.counts[3].elements;
   refused(open, "boundary side that is not in the skeleton (first: ");
-  refused(spoilt(3, [](mesh_piece& p) { std::swap(p.mesh.elements[17][0], p.mesh.elements[17][1]); }),
+  refused(cubes.spoilt(3, [](mesh_piece& p) { std::swap(p.mesh.elements[17][0], p.mesh.elements[17][1]); }),
           "inverted element (17)");
-  refused(spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
+  refused(cubes.spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
   auto lost = cubes.distributed();
   for (std::size_t t = 0; t < lost.skeleton.sides.size(); ++t)
     if (lost.skeleton.subdomains[t] == std::array<local_id, 2>{3, no_id}) {
@@ -199,7 +188,7 @@ TEST_CASE("a folder that cannot be written is an io_error from every executor") 
 
 TEST_CASE("pieces are given up once their files are complete, and a second run goes on from there") {
   const testing::scratch_folder folder("finish_resumed");
-  io::vtu_writer{.pieces = 4}(cubes.distributed(), folder / "expected");
+  io::vtu_writer{.files = 4}(cubes.distributed(), folder / "expected");
   store pieces;
   auto mesh = pieces.mesh();
   mesh.load = [load = mesh.load](local_id p) {

@@ -74,7 +74,7 @@ TEST_CASE("gathering gives the whole mesh again, with its materials and subdomai
   CHECK(gathered.material_names.size() == 2);
 }
 
-TEST_CASE("sides on CAD faces are there once, between their elements, facing outwards, with their patches") {
+TEST_CASE("sides on CAD faces are there once, between their elements, facing outwards, with their groups") {
   const testing::stacked_cubes cubes{.cells = 4, .cuts = 2, .solids = 2};
   const auto whole = io::gather(cubes.distributed());
   const std::size_t squares = 4 * 4;
@@ -97,8 +97,8 @@ TEST_CASE("sides on CAD faces are there once, between their elements, facing out
       const auto& element = whole.mesh.elements[static_cast<std::size_t>(behind)];
       CHECK(std::find(element.begin(), element.end(), v) != element.end());
     }
-    const auto patch = whole.patch_of_face.at(static_cast<std::size_t>(whole.side_hosts[s]));
-    met.insert(whole.patch_names.at(static_cast<std::size_t>(patch)));
+    const auto group = whole.group_of_face.at(static_cast<std::size_t>(whole.side_hosts[s]));
+    met.insert(whole.group_names.at(static_cast<std::size_t>(group)));
   }
   CHECK(between_solids == 2 * squares);
   CHECK(met == std::set<std::string>{"floor", "cad face 1", "roof", "side walls"});
@@ -154,7 +154,7 @@ TEST_CASE("triangles: a generated plane domain in one piece, its boundary edges 
                    whole.mesh.points[static_cast<std::size_t>(from)]);
   }
   CHECK(length == doctest::Approx(2 * (3 + 2) + 4 * 0.5));
-  CHECK(whole.patch_of_face.size() == 1);
+  CHECK(whole.group_of_face.size() == 1);
 }
 
 TEST_CASE("triangles: an edge where three sheets meet is there once, with its first two triangles") {
@@ -178,7 +178,7 @@ TEST_CASE("triangles: an edge where three sheets meet is there once, with its fi
   CHECK(whole.sides == std::vector<simplex<1>>{{0, 1}});
   CHECK(whole.side_hosts == std::vector<local_id>{6});
   CHECK(whole.side_elements == std::vector<std::array<local_id, 2>>{{0, 1}});
-  CHECK(whole.patch_names == std::vector<std::string>{"face 1", "face 2", "face 3"});
+  CHECK(whole.group_names == std::vector<std::string>{"face 1", "face 2", "face 3"});
 }
 
 TEST_CASE("rows of neighbours: points that share an element, and no others") {

@@ -285,8 +285,8 @@ TEST_CASE("gmsh -check finds no fault") {
 TEST_CASE("long and odd names survive as far as Gmsh allows") {
   const testing::scratch_folder folder("msh_names");
   auto mesh = cubes.distributed();
-  mesh.patch_names[0] = std::string(400, 'x');
-  mesh.patch_names[2] = "line\nbreak \"quoted\" \xc3\xa4";
+  mesh.group_names[0] = std::string(400, 'x');
+  mesh.group_names[2] = "line\nbreak \"quoted\" \xc3\xa4";
   io::msh_writer{}(mesh, folder);
   const gmsh_session session(folder / "mesh.msh");
   CHECK(session.complaints() == std::string());
@@ -317,7 +317,7 @@ TEST_CASE("what Gmsh writes is read: versions 2.2 and 4.1, text and binary, whol
         CHECK(read.mesh.elements.size() == 6 * 6 * 6 * 6);
         CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
         CHECK(read.subdomains.size() == (partitioned ? read.mesh.elements.size() : 0));
-        CHECK(read.region_names.size() == 2);
+        CHECK(read.material_names.size() == 2);
         // Text has 16 digits, and Gmsh renumbers nodes for version 2.2.
         if (binary == 1 && version == 4.1)
           CHECK(io::mesh_hash(read) == io::mesh_hash(mesh));
@@ -358,7 +358,7 @@ TEST_CASE("a mesh that Gmsh made is read, with names and node data, and quadrati
       CHECK(read.mesh.elements.size() > 100);
       CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 41) ==
             static_cast<std::ptrdiff_t>(read.mesh.elements.size()));
-      CHECK(read.region_names == std::vector{std::pair(local_id{41}, std::string("a ball"))});
+      CHECK(read.material_names == std::vector{std::pair(local_id{41}, std::string("a ball"))});
       const auto sizes = io::read_mesh(folder / "size.msh");
       REQUIRE(sizes.scalars("size") != nullptr);
       REQUIRE(sizes.scalars("size")->size() == nodes.size());

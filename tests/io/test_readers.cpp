@@ -10,6 +10,7 @@
 #include "io/msh_kinds.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -29,13 +30,9 @@ const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter =
 std::string refusal(const std::string& content, const std::string& name = "bad") {
   const testing::scratch_folder folder("refused");
   testing::write_content(folder / name, content);
-  try {
-    io::read_mesh(folder / name);
-  } catch (const input_error& problem) {
-    CHECK(std::string(problem.what()).find((folder / name).string()) == 0);
-    return problem.what();
-  }
-  return "";
+  const auto says = testing::refusal_of<input_error>([&] { return io::read_mesh(folder / name); });
+  CHECK(says.starts_with((folder / name).string()));
+  return says;
 }
 
 void check_says(const std::string& message, const std::string& expected) {
@@ -99,19 +96,19 @@ const std::string ascii_points = R"(<DataArray type="Float32" NumberOfComponents
 
 } // namespace
 
-TEST_CASE("a distributed mesh reads back from VTU with the same hash, for any number of pieces") {
+TEST_CASE("a distributed mesh reads back from VTU with the same hash, for any number of files") {
   const auto mesh = cubes.distributed();
-  for (const int pieces : {0, 1, 3}) {
+  for (const int files : {0, 1, 3}) {
     const testing::scratch_folder folder("reread_vtu");
-    io::vtu_writer{.pieces = pieces}(mesh, folder);
+    io::vtu_writer{.files = files}(mesh, folder);
     const auto read = io::read_mesh(folder);
     CHECK(read.mesh.elements.size() == 6 * 6 * 6 * 6);
     CHECK(read.mesh.points.size() == 7 * 7 * 7);
     REQUIRE(read.subdomains.size() == read.mesh.elements.size());
     CHECK(std::count(read.subdomains.begin(), read.subdomains.end(), 7) == 6 * 27);
     CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
-    REQUIRE(read.region_names.size() == 2);
-    CHECK(read.region_names[1].second == "solid \"1\" <&>");
+    REQUIRE(read.material_names.size() == 2);
+    CHECK(read.material_names[1].second == "solid \"1\" <&>");
     CHECK(io::mesh_hash(read) == io::mesh_hash(mesh));
   }
 }
@@ -130,9 +127,9 @@ TEST_CASE("a distributed mesh reads back from MSH with the same hash, whole and 
         CHECK(std::count(read.subdomains.begin(), read.subdomains.end(), 7) == 6 * 27);
       // The material interface, and in a partitioned file all interfaces, are among the triangles.
       CHECK(read.triangles.size() == (partitioned ? 8 : 7) * 2U * 36U + (partitioned ? 2U * 36U : 0U));
-      REQUIRE(read.region_names.size() == 2);
-      CHECK(read.region_names[0].first == 0);
-      CHECK(read.region_names[0].second == "solid '0' <&>");
+      REQUIRE(read.material_names.size() == 2);
+      CHECK(read.material_names[0].first == 0);
+      CHECK(read.material_names[0].second == "solid '0' <&>");
     }
 }
 
@@ -150,14 +147,14 @@ TEST_CASE("a mesh in memory reads back from every format that it can be written 
   REQUIRE(vtu.scalars("target <size>") != nullptr);
   CHECK(*vtu.scalars("target <size>") == sizes);
   CHECK(vtu.scalars("other") == nullptr);
-  CHECK(vtu.region_names == io::tag_names{{0, "lower"}, {1, "upper"}});
+  CHECK(vtu.material_names == io::tag_names{{0, "lower"}, {1, "upper"}});
   for (const bool binary : {false, true}) {
     io::write_msh(mesh, folder / "a.msh", {{0, "lower"}, {1, "upper"}}, binary);
     const auto msh = io::read_mesh(folder / "a.msh");
     CHECK(io::mesh_hash(msh) == io::mesh_hash(mesh));
     CHECK(std::count(msh.mesh.tags.begin(), msh.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
-    REQUIRE(msh.region_names.size() == 2);
-    CHECK(msh.region_names[1] == std::pair(local_id{1}, std::string("upper")));
+    REQUIRE(msh.material_names.size() == 2);
+    CHECK(msh.material_names[1] == std::pair(local_id{1}, std::string("upper")));
   }
 }
 

@@ -56,8 +56,8 @@ std::string faults_of(const std::function<void(mesh_piece&)>& spoil, const std::
 
 TEST_CASE("a mesh in several files is checked as if it were in one") {
   const testing::scratch_folder folder("streamed_valid");
-  for (const int pieces : {0, 3}) {
-    io::vtu_writer{.pieces = pieces}(cubes.distributed(), folder);
+  for (const int files : {0, 3}) {
+    io::vtu_writer{.files = files}(cubes.distributed(), folder);
     const auto found = streamed(folder);
     CHECK(found.faults == "");
     CHECK(found.elements == 6 * 6 * 6 * 6);

@@ -39,12 +39,12 @@ const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter =
 
 } // namespace
 
-TEST_CASE("VTK reads a valid mesh, for any number of pieces") {
+TEST_CASE("VTK reads a valid mesh, for any number of files") {
   if (!has_vtk())
     return;
-  for (const int pieces : {0, 1, 3, 100}) {
+  for (const int files : {0, 1, 3, 100}) {
     const testing::scratch_folder folder("vtk_check");
-    io::vtu_writer{.pieces = pieces}(cubes.distributed(), folder);
+    io::vtu_writer{.files = files}(cubes.distributed(), folder);
     const auto [status, log] = check(folder);
     INFO(log);
     CHECK(status == 0);

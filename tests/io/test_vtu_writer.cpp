@@ -66,12 +66,12 @@ TEST_CASE("a mesh becomes one PVTU, a VTU per subdomain and two VTP files") {
   CHECK(summary.get("bytes") == static_cast<double>(bytes));
 }
 
-TEST_CASE("pieces of an earlier mesh in the folder disappear, other files stay") {
+TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") {
   const testing::scratch_folder folder("vtu_stale");
   io::vtu_writer{}(cubes.distributed(), folder);
   testing::write_content(folder / "mesh_mine.vtu", "x");
   testing::write_content(folder / "notes.txt", "x");
-  io::vtu_writer{.pieces = 3}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 3}(cubes.distributed(), folder);
   CHECK(names_in(folder) == std::set<std::string>{"mesh.pvtu", "mesh_0000.vtu", "mesh_0001.vtu",
                                                   "mesh_0002.vtu", "mesh_mine.vtu", "notes.txt",
                                                   "surface.vtp", "interfaces.vtp"});
@@ -107,7 +107,7 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it") {
 
 TEST_CASE("a failure leaves an older mesh as it was") {
   const testing::scratch_folder folder("vtu_old");
-  io::vtu_writer{.pieces = 2}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 2}(cubes.distributed(), folder);
   const auto names = names_in(folder);
   const auto piece = testing::file_content(folder / "mesh_0001.vtu");
   auto broken = cubes.distributed();

@@ -1,4 +1,4 @@
-#include "dovetail/mesh/adjacency.hpp"
+#include "support/adjacency.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -49,7 +49,7 @@ void check_sides(const simplicial_mesh<D>& mesh) {
 /// Every wedge is in exactly one fan, consecutive wedges share an interior side, and fans are maximal.
 template <int D>
 void check_ridges(const simplicial_mesh<D>& mesh) {
-  const adjacency<D> adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   std::set<std::pair<local_id, int>> seen;
   for (std::size_t r = 0; r < adj.ridges.size(); ++r)
     for (std::size_t f = adj.ridges.fan_begins[r]; f < adj.ridges.fan_begins[r + 1]; ++f) {
@@ -100,11 +100,11 @@ TEST_CASE("fans cover all wedges in order around their ridges") {
 
 TEST_CASE("counts of a cube of tetrahedra satisfy Euler's formula") {
   const auto mesh = dovetail_test::jittered_cubes(5);
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   const auto euler = static_cast<long>(mesh.points.size()) - static_cast<long>(adj.ridges.size()) +
                      static_cast<long>(adj.sides.size()) - static_cast<long>(mesh.elements.size());
   CHECK(euler == 1);
-  CHECK(adj.ridges.fan_count() == adj.ridges.size());
+  CHECK(adj.fan_count() == adj.ridges.size());
 }
 
 TEST_CASE("sides of the first element point outwards") {
@@ -127,7 +127,7 @@ TEST_CASE("three sheets meeting at a line give a non-manifold side and open fans
   mesh.elements = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
   check_sides(mesh);
   check_ridges(mesh);
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   CHECK(adj.sides.is_non_manifold(0));
   CHECK_FALSE(adj.sides.is_interior(0));
   CHECK(adj.sides.all_elements(0) == std::vector<local_id>{0, 1, 2});
@@ -139,7 +139,7 @@ TEST_CASE("two tetrahedra that touch in an edge only have two fans there") {
   mesh.points = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   mesh.elements = {{0, 2, 3, 1}, {0, 4, 5, 1}};
   check_ridges(mesh);
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   CHECK(adj.ridges.fan_begins[1] == 2);
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("a closed surface has only closed fans, whatever its orientation") {
   for (const auto& side : numbering::sides<3>)
     tetrahedron.elements.push_back({local_id(side[0]), local_id(side[1]), local_id(side[2])});
   check_ridges(tetrahedron);
-  for (const bool closed : build_adjacency(tetrahedron).ridges.closed)
+  for (const bool closed : dovetail_test::build_adjacency(tetrahedron).ridges.closed)
     CHECK(closed);
 }
 

@@ -11,6 +11,7 @@
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "mesher/shapes.hpp"
+#include "pipeline/solid_meshes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,14 +25,7 @@
 namespace contract {
 
 using namespace dovetail;
-
-inline double volume_of(const simplicial_mesh<3>& mesh) {
-  double sum = 0;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
-  for (const auto& [a, b, c, d] : mesh.elements)
-    sum += signed_volume(at(a), at(b), at(c), at(d));
-  return sum;
-}
+using dovetail::testing::volume_of;
 
 inline std::vector<std::array<local_id, 2>> unique_edges(const simplicial_mesh<3>& mesh) {
   std::vector<std::array<local_id, 2>> edges;

@@ -4,6 +4,7 @@
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "io/scratch_folder.hpp"
 #include "mesher/shapes.hpp"
 
 #include <doctest/doctest.h>
@@ -87,10 +88,10 @@ subdomain_input cube_number(local_id s) {
 const any_sizing unit_size = [](vec3) { return 1.0; };
 constexpr std::size_t piece_count = 6;
 
+/// A folder that is not there yet.
 struct scratch_folder {
-  fs::path path = fs::temp_directory_path() / ("dovetail_pieces_" + std::to_string(::getpid()));
-  scratch_folder() { fs::remove_all(path); }
-  ~scratch_folder() { fs::remove_all(path); }
+  testing::scratch_folder around{"pieces"};
+  fs::path path = around / "folder";
 };
 
 std::shared_ptr<entity_store> in_spool(spool disk) {

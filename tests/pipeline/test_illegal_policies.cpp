@@ -9,6 +9,7 @@
 #include "mesher/shapes.hpp"
 #include "pipeline/plane_meshes.hpp"
 #include "support/jittered_meshes.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
@@ -177,10 +178,6 @@ const std::vector<harm> harms{
     {wrong::inverts_elements, "flat or inverted"},
 };
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// On a surface that is no plane, elements that are turned by a moved point are left to who finds crossings.
 template <int D>
 bool is_found(wrong how) {
@@ -201,8 +198,8 @@ void check_meshers() {
       CHECK(reasons.size() == (improves ? 3 : 2)); // each rung, and without the improver
       for (const std::string& reason : reasons) {
         CAPTURE(reason);
-        CHECK(contains(reason, h.reason));
-        CHECK((h.how == wrong::never_ends || contains(reason, "mesher 'wrong': ")));
+        CHECK(testing::has(reason, h.reason));
+        CHECK((h.how == wrong::never_ends || testing::contains(reason, "mesher 'wrong': ")));
       }
     }
   }
@@ -222,9 +219,9 @@ void check_improvers() {
     REQUIRE_FALSE(result.summary.warnings.empty());
     const std::string& warning = result.summary.warnings.back();
     CAPTURE(warning);
-    CHECK(contains(warning, "left unimproved after attempts 1, 2: "));
-    CHECK(contains(warning, h.reason));
-    CHECK((h.how == wrong::never_ends || contains(warning, "improver 'bad': ")));
+    CHECK(testing::has(warning, "left unimproved after attempts 1, 2: "));
+    CHECK(testing::has(warning, h.reason));
+    CHECK((h.how == wrong::never_ends || testing::contains(warning, "improver 'bad': ")));
   }
 }
 
@@ -320,33 +317,33 @@ TEST_CASE("What is wrong with a mesher's result is found before an improver hide
 
 TEST_CASE("A partitioner that breaks its promises is refused by name") {
   CHECK(complaint_of_partition([](auto&) {}).empty());
-  CHECK(contains(complaint_of_partition([](auto& part) { part.front() = 99; }),
-                 "'mine' put node 0 into part 99"));
-  CHECK(contains(complaint_of_partition([](auto& part) { part.back() = -1; }), "into part -1"));
-  CHECK(contains(complaint_of_partition([](auto& part) { part.pop_back(); }),
-                 "nodes into parts, the graph has"));
-  CHECK(contains(complaint_of_partition([](auto& part) { part.push_back(0); }),
-                 "nodes into parts, the graph has"));
-  CHECK(contains(complaint_of_partition([](auto& part) { part.clear(); }), "put 0 nodes"));
-  CHECK(contains(complaint_of_partition([](auto& part) { std::replace(part.begin(), part.end(), 2, 1); }),
-                 "left part 2 of 4 without a node"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { part.front() = 99; }),
+                     "'mine' put node 0 into part 99"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { part.back() = -1; }), "into part -1"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { part.pop_back(); }),
+                     "nodes into parts, the graph has"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { part.push_back(0); }),
+                     "nodes into parts, the graph has"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { part.clear(); }), "put 0 nodes"));
+  CHECK(testing::has(complaint_of_partition([](auto& part) { std::replace(part.begin(), part.end(), 2, 1); }),
+                     "left part 2 of 4 without a node"));
 }
 
 TEST_CASE("A rule of simplification that says what is no number is refused") {
   CHECK(complaint_of_rule({}).empty());
   changed_rule rule;
   rule.change = [](side_judgement& judged) { judged.quality.assign(judged.quality.size(), no_number); };
-  CHECK(contains(complaint_of_rule(rule), "quality nan"));
+  CHECK(testing::has(complaint_of_rule(rule), "quality nan"));
   rule.change = [](side_judgement& judged) { judged.quality.assign(judged.quality.size(), -1.0); };
-  CHECK(contains(complaint_of_rule(rule), "quality -1"));
+  CHECK(testing::has(complaint_of_rule(rule), "quality -1"));
   rule.change = [](side_judgement& judged) { judged.quality.pop_back(); };
-  CHECK(contains(complaint_of_rule(rule), "it must give one quality each"));
+  CHECK(testing::has(complaint_of_rule(rule), "it must give one quality each"));
   rule.change = [](side_judgement& judged) { judged.wanted_angle_deg = no_number; };
-  CHECK(contains(complaint_of_rule(rule), "wedges of nan"));
+  CHECK(testing::has(complaint_of_rule(rule), "wedges of nan"));
   for (const double price : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
     changed_rule priced;
     priced.other_price = price;
-    CHECK(contains(complaint_of_rule(priced), "the price"));
+    CHECK(testing::has(complaint_of_rule(priced), "the price"));
   }
 }
 
@@ -367,8 +364,8 @@ TEST_CASE("Sizes that are no sizes somewhere are refused, with the place") {
   for (const double bad : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
     CAPTURE(bad);
     const any_sizing size = [bad](vec3 p) { return p.x > 0.8 && p.y > 0.8 ? bad : 0.05; };
-    CHECK(contains(complaint<sizing_error>(parameters<>{}, size), "the size at ("));
-    CHECK(contains(complaint<sizing_error>(parameters<>{}.with_executor(parallel::processes{2}), size),
-                   "the size at ("));
+    CHECK(testing::has(complaint<sizing_error>(parameters<>{}, size), "the size at ("));
+    CHECK(testing::has(complaint<sizing_error>(parameters<>{}.with_executor(parallel::processes{2}), size),
+                       "the size at ("));
   }
 }

@@ -13,6 +13,7 @@
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "support/refusal.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -82,10 +83,6 @@ suppression_plan plan_for(const fine_skeleton& skeleton, bool planar = false) {
 }
 
 using pairs = std::vector<std::array<local_id, 2>>;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Fails on the piece at the origin, whatever its size.
 struct fails_at_origin {
@@ -195,8 +192,8 @@ TEST_CASE("Where too many subdomains would have to be merged fewer are made, and
   CHECK(result.plan.subdomains < 16);
   CHECK(result.mesh.counts.size() <= static_cast<std::size_t>(result.plan.subdomains));
   REQUIRE_FALSE(result.summary.warnings.empty());
-  CHECK(contains(result.summary.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
-  CHECK(contains(result.summary.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
+  CHECK(testing::has(result.summary.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
+  CHECK(testing::has(result.summary.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
 }
 
 TEST_CASE("Sheets that lie upon each other end in an error after work in proportion to the model") {
@@ -301,8 +298,9 @@ TEST_CASE(
   CHECK(result.summary.children[4].get("merges") == 0);
   CHECK(result.summary.children[4].get("largest_merged") == 3);
   REQUIRE(result.failures.size() == 1);
-  CHECK(contains(joined_reasons(result.failures.front().reasons), "not here"));
+  CHECK(testing::has(joined_reasons(result.failures.front().reasons), "not here"));
   REQUIRE(meshing.warnings.size() == 3);
-  CHECK(contains(meshing.warnings[0], "merged with a neighbour: attempts 1, 2: mesher: not here"));
-  CHECK(contains(meshing.warnings[2], "3 of 8 subdomains would have to be merged, 2 may be: attempts 1, 2"));
+  CHECK(testing::has(meshing.warnings[0], "merged with a neighbour: attempts 1, 2: mesher: not here"));
+  CHECK(testing::has(meshing.warnings[2],
+                     "3 of 8 subdomains would have to be merged, 2 may be: attempts 1, 2"));
 }

@@ -6,6 +6,7 @@
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "solid_meshes.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -36,18 +37,6 @@ generated<3> mesh_by(const any_surface_mesher& mesher) {
                          .with_options({.subdomains = 4}));
 }
 
-double volume_of(const distributed_mesh& mesh) {
-  double sum = 0;
-  for (std::size_t s = 0; s < mesh.counts.size(); ++s) {
-    const auto piece = mesh.load(static_cast<local_id>(s)).mesh;
-    for (const auto& e : piece.elements) {
-      const auto at = corners(span_of(piece.points), e);
-      sum += dot(at[1] - at[0], cross(at[2] - at[0], at[3] - at[0])) / 6;
-    }
-  }
-  return sum;
-}
-
 /// Leaves out a triangle where x is 0.
 struct leaves_a_hole {
   patch_mesh operator()(const any_surface& s, const patch_boundary& b, const any_sizing& size) const {
@@ -71,7 +60,7 @@ TEST_CASE("tetrahedra inside a surface by every surface mesher: a valid mesh, wh
     const auto result = mesh_by(mesher);
     CHECK(result.failures.empty());
     CHECK(io::check_distributed(result.mesh).valid());
-    CHECK(volume_of(result.mesh) == doctest::Approx(expected).epsilon(5e-3));
+    CHECK(testing::volume_of(result.mesh) == doctest::Approx(expected).epsilon(5e-3));
     CHECK((io::mesh_hash(result.mesh) == io::mesh_hash(native.mesh)) == (mesher.name() == "native"));
     CHECK(io::mesh_hash(result.mesh) == io::mesh_hash(mesh_by(mesher).mesh));
   }

@@ -6,6 +6,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "solid_meshes.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -22,21 +23,13 @@ namespace {
 
 const auto given = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 3});
 
-double volume_of(const simplicial_mesh<3>& mesh) {
-  double sum = 0;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
-  for (const auto& [a, b, c, d] : mesh.elements)
-    sum += signed_volume(at(a), at(b), at(c), at(d));
-  return sum;
-}
-
 /// Generates a mesh from a background mesh of Mesh_3; the background's boundary lies on the model.
 void check_from_mesh_3(const TopoDS_Shape& shape, double h, double volume) {
   const auto model = occt_shape_from(shape).model;
   auto background = make_background_by(mesher::cgal_mesh_3{}, model, uniform_size(h), given);
   const surface_mesh& surface = background.mesh.surface;
   CHECK(check_validity(background.mesh.volume).valid());
-  CHECK(volume_of(background.mesh.volume) == doctest::Approx(volume).epsilon(0.05));
+  CHECK(testing::volume_of(background.mesh.volume) == doctest::Approx(volume).epsilon(0.05));
   for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       REQUIRE(distance(model.face_point(surface.mesh.tags[t], surface.corner_uv[t][k]),

@@ -3,10 +3,10 @@
 /// the ridge table. Slow, short, and independent of the data structures under test.
 #pragma once
 
-#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/simplification/side_shape.hpp"
+#include "support/adjacency.hpp"
 
 #include <map>
 #include <set>
@@ -23,10 +23,11 @@ struct naive_wedge {
 
 template <int D>
 std::vector<naive_wedge> remaining_wedges(const dovetail::simplicial_mesh<D>& mesh,
-                                          const dovetail::adjacency<D>& adj, const std::vector<bool>& gone) {
+                                          const dovetail_test::adjacency<D>& adj,
+                                          const std::vector<bool>& gone) {
   using namespace dovetail;
   std::vector<naive_wedge> wedges;
-  for (std::size_t f = 0; f < adj.ridges.fan_count(); ++f) {
+  for (std::size_t f = 0; f < adj.fan_count(); ++f) {
     std::vector<naive_wedge> parts;
     for (const std::uint32_t code : adj.ridges.fan(f)) {
       const wedge w = ridge_table<D>::decode(code);
@@ -65,9 +66,10 @@ struct naive_result {
 };
 
 template <int D>
-naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh, const dovetail::adjacency<D>& adj,
-                               const std::vector<bool>& fixed, const std::vector<double>& weights,
-                               double bound, double shape_threshold, double wedge_threshold) {
+naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
+                               const dovetail_test::adjacency<D>& adj, const std::vector<bool>& fixed,
+                               const std::vector<double>& weights, double bound, double shape_threshold,
+                               double wedge_threshold) {
   using namespace dovetail;
   const auto shapes = side_shapes(mesh, adj.sides);
   std::vector<local_id> super(mesh.elements.size());

@@ -7,6 +7,7 @@
 #include "dovetail/simplification/simplify_coupled.hpp"
 #include "simplification/naive_simplify.hpp"
 #include "simplification/squeezed_meshes.hpp"
+#include "support/adjacency.hpp"
 
 #include <doctest/doctest.h>
 
@@ -40,7 +41,7 @@ template <int D>
 void check_wishes(const dovetail::simplicial_mesh<D>& mesh, const dovetail::side_judgement& judged,
                   const dovetail::simplification& result) {
   using namespace dovetail;
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   std::vector<bool> gone(adj.sides.size());
   std::size_t refused = 0;
   for (std::size_t s = 0; s < gone.size(); ++s) {

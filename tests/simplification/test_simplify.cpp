@@ -3,6 +3,7 @@
 #include "dovetail/simplification/simplify_coupled.hpp"
 #include "simplification/naive_simplify.hpp"
 #include "simplification/squeezed_meshes.hpp"
+#include "support/adjacency.hpp"
 
 #include <doctest/doctest.h>
 
@@ -36,7 +37,7 @@ std::vector<double> random_weights(std::size_t count, std::uint64_t seed) {
 
 template <int D>
 void compare_with_naive(const simplicial_mesh<D>& mesh, double bound_fraction, std::uint64_t seed) {
-  const auto adj = build_adjacency(mesh);
+  const auto adj = dovetail_test::build_adjacency(mesh);
   const auto weights = random_weights(mesh.elements.size(), seed);
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   const simplifier::paper rule;

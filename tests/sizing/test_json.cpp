@@ -1,4 +1,5 @@
 #include "dovetail/sizing/json.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 #include <fstream>
@@ -6,25 +7,14 @@
 
 using namespace dovetail;
 using sizing::parse_sizing;
+using testing::has;
 
 namespace {
 
 /// The message of the typed error that a text must provoke.
 template <class Error = sizing_error>
 std::string message_of(const std::string& text, const sizing::json_options& options = {}) {
-  try {
-    (void)parse_sizing(text, "sizes.json", options);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
-bool has(const std::string& message, const std::string& part) {
-  const bool found = message.find(part) != std::string::npos;
-  if (!found)
-    MESSAGE("message: ", message);
-  return found;
+  return testing::refusal_of<Error>([&] { return parse_sizing(text, "sizes.json", options); });
 }
 
 const char* const everything = R"({

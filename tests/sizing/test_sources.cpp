@@ -185,12 +185,8 @@ TEST_CASE("values out of range are refused with the source's name") {
   CHECK_THROWS_AS(minimum_of(std::vector<erased_sizing>{}), sizing_error);
   grid_source named = point_source({}, 0, 1, -1);
   named.name = "leading edge";
-  try {
-    source_field(1, {point_source({}, 0, 1, 1), named});
-    FAIL("not refused");
-  } catch (const sizing_error& e) {
-    CHECK(std::string(e.what()).find("source 1 (leading edge)") != std::string::npos);
-  }
+  CHECK_THROWS_WITH_AS(source_field(1, {point_source({}, 0, 1, 1), named}),
+                       doctest::Contains("source 1 (leading edge)"), sizing_error);
 }
 
 TEST_CASE("compositions evaluate and keep their bounds") {

@@ -53,8 +53,8 @@ struct geometry_topology {
                                    no_id}; ///< [0] behind the oriented normal (inside), [1] in front of it
     double tolerance = 0;
     std::string name = {};
-    std::string patch =
-        {}; ///< the boundary patch: name, layer or colour it carries in the file; may be empty
+    std::string group = {}; ///< the group of faces that it belongs to: name, layer or colour it carries in
+                            ///< the file; may be empty
   };
   struct solid {
     std::string name = {};

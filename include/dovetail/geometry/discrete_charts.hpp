@@ -1,5 +1,5 @@
 /// @file
-/// Cuts surfaces into smooth patches along feature edges, and patches into charts, clusters that can be
+/// Cuts surfaces into smooth areas along feature edges, and areas into charts, clusters that can be
 /// projected onto a plane without a fold.
 #pragma once
 
@@ -35,10 +35,10 @@ namespace discrete {
 class chart_cutter {
 public:
   chart_cutter(const oriented_surfaces& surfaces, const chart_options& options)
-      : s_{surfaces.mesh, {}, {}, surfaces.patches, surfaces.solid_of, {}}, measures_(s_.mesh),
+      : s_{surfaces.mesh, {}, {}, surfaces.groups, surfaces.solid_of, {}}, measures_(s_.mesh),
         cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
     connect();
-    find_smooth_patches(options.feature_angle_deg * radians_per_degree);
+    find_smooth_areas(options.feature_angle_deg * radians_per_degree);
     s_.chart_of = s_.smooth_of;
   }
 
@@ -115,9 +115,9 @@ private:
     return cluster;
   }
 
-  void find_smooth_patches(double feature_angle) {
+  void find_smooth_areas(double feature_angle) {
     s_.smooth_of = clusters([&](std::size_t t, std::size_t next) {
-      if (s_.patch_of[t] != s_.patch_of[next])
+      if (s_.group_of[t] != s_.group_of[next])
         return false;
       return is_sliver(t) || is_sliver(next) ||
              angle_between(area_vector(t), area_vector(next)) <= feature_angle;

@@ -17,9 +17,9 @@ namespace dovetail {
 /// The surfaces with triangles split where charts end, and the charts.
 struct charted_surface {
   simplicial_mesh<2> mesh;
-  std::vector<local_id> smooth_of; ///< per triangle: the smooth patch; it changes across feature edges
+  std::vector<local_id> smooth_of; ///< per triangle: the smooth area; it changes across feature edges
   std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
-  std::vector<local_id> patch_of;  ///< per triangle: named patch of the file, or no_id
+  std::vector<local_id> group_of;  ///< per triangle: named group of the file, or no_id
   std::vector<local_id> solid_of;  ///< per triangle; no_id in sheets
   std::vector<discrete::chart_frame> frames; ///< per chart
 };
@@ -124,7 +124,7 @@ private:
       } else {
         triangles().push_back({a.v, b.v, c.v});
         values_.push_back(values);
-        for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.patch_of, &s_.solid_of}) {
+        for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of}) {
           const local_id tag = (*tags)[t];
           tags->push_back(tag);
         }

@@ -1,5 +1,5 @@
 /// @file
-/// Joins charts again where cuts through a whole smooth patch made more of them than needed.
+/// Joins charts again where cuts through a whole smooth area made more of them than needed.
 #pragma once
 
 #include "dovetail/geometry/discrete_charts.hpp"
@@ -15,7 +15,7 @@
 namespace dovetail {
 namespace discrete {
 
-/// Greedy, in rounds: neighbours in one smooth patch that share the largest part of a boundary first, as long
+/// Greedy, in rounds: neighbours in one smooth area that share the largest part of a boundary first, as long
 /// as the union can still be projected. Ties by chart number.
 class chart_merger {
 public:
@@ -141,7 +141,7 @@ private:
 
 } // namespace discrete
 
-/// Feature edges by angle and by named patches, and charts. About O(n log n) per round of cuts and of merges.
+/// Feature edges by angle and by named groups, and charts. About O(n log n) per round of cuts and of merges.
 inline charted_surface charted(const oriented_surfaces& surfaces, const chart_options& options = {}) {
   auto cut = discrete::chart_cutter(surfaces, options).run();
   auto merged = discrete::chart_merger(std::move(cut), options.merge_angle_deg).run();

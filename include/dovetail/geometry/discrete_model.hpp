@@ -26,7 +26,7 @@ struct discrete_options {
   bool allow_sheets = false; ///< surfaces may be open, for meshes of triangles
 };
 
-/// A model of `geometry_model` made of triangles. Smooth patches between feature edges are cut into charts
+/// A model of `geometry_model` made of triangles. Smooth areas between feature edges are cut into charts
 /// whose normals lie in a cone, so that each is the graph of a height over its mean plane: a face of the
 /// model, whose parameters are coordinates in that plane, in the unit of length. Charts end at extra curves
 /// that are no features. Immutable and shared: copies are cheap. Queries are thread-safe, O(log n);
@@ -39,21 +39,21 @@ public:
     made->repairs = surfaces.repairs;
     made->surface = charted(surfaces, {.feature_angle_deg = options.feature_angle_deg});
     auto network =
-        discrete::topology_builder(made->surface, surfaces.patch_names, options.feature_angle_deg).run();
+        discrete::topology_builder(made->surface, surfaces.group_names, options.feature_angle_deg).run();
     made->topology = std::move(network.topology);
     made->curves = std::move(network.curves);
     add_charts(*made);
     made->face_ids.assign(made->topology.faces.size(), no_id);
     for (std::size_t t = 0; t < made->surface.chart_of.size(); ++t)
-      if (const local_id patch = made->surface.patch_of[t]; patch != no_id)
-        made->face_ids[index(made->surface.chart_of[t])] = surfaces.patch_numbers[index(patch)];
+      if (const local_id group = made->surface.group_of[t]; group != no_id)
+        made->face_ids[index(made->surface.chart_of[t])] = surfaces.group_numbers[index(group)];
     for (const vec3& p : made->surface.mesh.points)
       made->bounds.include(p);
     data_ = std::move(made);
   }
 
   /// From arrays of one's own: triangles on points, in any orientation, and per triangle a number that comes
-  /// back as `face_id`, and in files as the name of a patch (empty: none). An edge between two numbers is a
+  /// back as `face_id`, and in files as the name of a group (empty: none). An edge between two numbers is a
   /// feature. Throws `geometry_error` for arrays that do not fit together and for a surface that `repaired`
   /// refuses.
   discrete_model(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<local_id> ids = {},
@@ -166,11 +166,11 @@ private:
     }
   }
 
-  /// Per triangle, the largest turn of the smooth patch's vertex normals along an edge, over the edge's
+  /// Per triangle, the largest turn of the smooth area's vertex normals along an edge, over the edge's
   /// length.
   static std::vector<double> triangle_curvatures(const charted_surface& s) {
     struct corner {
-      local_id patch;
+      local_id group;
       local_id vertex;
       std::size_t triangle;
       std::size_t which;
@@ -180,7 +180,7 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
         corners.push_back({s.smooth_of[t], s.mesh.elements[t][i], t, i});
     std::sort(corners.begin(), corners.end(), [](const corner& a, const corner& b) {
-      return std::tie(a.patch, a.vertex, a.triangle) < std::tie(b.patch, b.vertex, b.triangle);
+      return std::tie(a.group, a.vertex, a.triangle) < std::tie(b.group, b.vertex, b.triangle);
     });
     const auto corner_points = [&](std::size_t t) {
       const auto& v = s.mesh.elements[t];
@@ -191,7 +191,7 @@ private:
     for (std::size_t i = 0; i < corners.size();) {
       std::size_t end = i;
       vec3 normal;
-      for (; end < corners.size() && corners[end].patch == corners[i].patch &&
+      for (; end < corners.size() && corners[end].group == corners[i].group &&
              corners[end].vertex == corners[i].vertex;
            ++end) {
         const auto p = corner_points(corners[end].triangle);

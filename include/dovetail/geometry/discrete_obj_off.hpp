@@ -26,26 +26,26 @@ inline local_id obj_corner(std::string_view word, std::size_t points, const text
   return static_cast<local_id>(zero_based);
 }
 
-/// Vertices and faces; groups and objects become patches; everything else is ignored.
+/// Vertices and faces; the 'g' and 'o' of the file become groups; everything else is ignored.
 inline triangle_soup parse_obj(std::string_view data, const std::string& file) {
   triangle_soup soup;
   text_scanner in(data, file);
-  patch_numbering patch_of(soup);
-  local_id patch = no_id;
+  group_numbering group_of(soup);
+  local_id group = no_id;
   std::vector<local_id> corners;
   while (in.next_line()) {
     const std::string_view key = in.word();
     if (key == "v") {
       soup.points.push_back(in.point());
     } else if (key == "g" || key == "o") {
-      patch = patch_of(in.rest());
+      group = group_of(in.rest());
     } else if (key == "f") {
       corners.clear();
       while (!in.at_line_end())
         corners.push_back(obj_corner(in.word(), soup.points.size(), in));
       if (corners.size() < 3)
         in.fail("a face with " + std::to_string(corners.size()) + " corners");
-      append_polygon(soup, corners, patch);
+      append_polygon(soup, corners, group);
     }
   }
   if (soup.triangles.empty())

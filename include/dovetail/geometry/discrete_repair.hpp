@@ -27,9 +27,9 @@ namespace dovetail {
 /// to the side that most of its triangles were listed with.
 struct oriented_surfaces {
   simplicial_mesh<2> mesh;
-  std::vector<local_id> patches; ///< per triangle: index into `patch_names`, or no_id
-  std::vector<std::string> patch_names;
-  std::vector<local_id> patch_numbers; ///< per patch: its number in the soup
+  std::vector<local_id> groups; ///< per triangle: index into `group_names`, or no_id
+  std::vector<std::string> group_names;
+  std::vector<local_id> group_numbers; ///< per group: its number in the soup
   std::vector<local_id> solid_of;      ///< per triangle: the solid behind it; no_id in sheets
   local_id solids = 0;
   report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
@@ -51,7 +51,7 @@ public:
     check_soup(soup, name_);
     result_.mesh.points = soup.points;
     result_.mesh.elements = soup.triangles;
-    take_patches(soup);
+    take_groups(soup);
     result_.repairs.name = "repair";
     box3 box;
     for (const vec3& p : soup.points)
@@ -76,24 +76,24 @@ public:
   }
 
 private:
-  /// Patches without names are called by their numbers.
-  void take_patches(const triangle_soup& soup) {
-    result_.patches = soup.patches;
-    result_.patches.resize(soup.triangles.size(), no_id);
-    result_.patch_names = soup.patch_names;
-    result_.patch_numbers = own_patch_numbers(soup);
-    if (!soup.patch_names.empty()) {
-      result_.patch_numbers.resize(soup.patch_names.size());
-      std::iota(result_.patch_numbers.begin(), result_.patch_numbers.end(), local_id{0});
+  /// Groups without names are called by their numbers.
+  void take_groups(const triangle_soup& soup) {
+    result_.groups = soup.groups;
+    result_.groups.resize(soup.triangles.size(), no_id);
+    result_.group_names = soup.group_names;
+    result_.group_numbers = own_group_numbers(soup);
+    if (!soup.group_names.empty()) {
+      result_.group_numbers.resize(soup.group_names.size());
+      std::iota(result_.group_numbers.begin(), result_.group_numbers.end(), local_id{0});
       return;
     }
-    for (const local_id number : result_.patch_numbers)
-      result_.patch_names.push_back(std::to_string(number));
-    for (local_id& patch : result_.patches)
-      if (patch != no_id)
-        patch = static_cast<local_id>(
-            std::lower_bound(result_.patch_numbers.begin(), result_.patch_numbers.end(), patch) -
-            result_.patch_numbers.begin());
+    for (const local_id number : result_.group_numbers)
+      result_.group_names.push_back(std::to_string(number));
+    for (local_id& group : result_.groups)
+      if (group != no_id)
+        group = static_cast<local_id>(
+            std::lower_bound(result_.group_numbers.begin(), result_.group_numbers.end(), group) -
+            result_.group_numbers.begin());
   }
 
   std::vector<vec3>& points() { return result_.mesh.points; }
@@ -180,10 +180,10 @@ private:
     for (std::size_t t = 0; t < triangles().size(); ++t)
       if (!dropped[t]) {
         triangles()[kept] = triangles()[t];
-        result_.patches[kept++] = result_.patches[t];
+        result_.groups[kept++] = result_.groups[t];
       }
     triangles().resize(kept);
-    result_.patches.resize(kept);
+    result_.groups.resize(kept);
     if (kept == 0)
       throw geometry_error(name_ + ": all triangles are degenerate; give a closed surface");
   }
@@ -264,7 +264,7 @@ private:
     while (second[j] == from || second[j] == to)
       ++j;
     const local_id other = second[j];
-    if (other == apex || result_.patches[t] != result_.patches[static_cast<std::size_t>(across)] ||
+    if (other == apex || result_.groups[t] != result_.groups[static_cast<std::size_t>(across)] ||
         distance(point(apex), point(other)) == 0)
       return false;
     const bool turned = second[(j + 1) % 3] == from; // the neighbour is oriented the other way

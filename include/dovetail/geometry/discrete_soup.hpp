@@ -23,17 +23,17 @@ namespace dovetail {
 struct triangle_soup {
   std::vector<vec3> points;
   std::vector<simplex<2>> triangles;
-  /// Per triangle: its patch, an index into `patch_names`; without names any number of one's own; or no_id.
-  /// Empty: none has a patch.
-  std::vector<local_id> patches = {};
-  std::vector<std::string> patch_names = {}; ///< named solids or groups of the file
+  /// Per triangle: its group, an index into `group_names`; without names any number of one's own; or no_id.
+  /// Empty: none has a group.
+  std::vector<local_id> groups = {};
+  std::vector<std::string> group_names = {}; ///< named solids or groups of the file
 };
 
 /// Throws `geometry_error` naming `name` and the triangle or point when arrays disagree in length, a triangle
-/// refers to a point or patch that does not exist, or a point is not finite. O(n).
+/// refers to a point or group that does not exist, or a point is not finite. O(n).
 inline void check_soup(const triangle_soup& soup, const std::string& name) {
-  if (!soup.patches.empty() && soup.patches.size() != soup.triangles.size())
-    throw geometry_error(name + ": there are " + std::to_string(soup.patches.size()) + " patches of " +
+  if (!soup.groups.empty() && soup.groups.size() != soup.triangles.size())
+    throw geometry_error(name + ": there are " + std::to_string(soup.groups.size()) + " groups of " +
                          std::to_string(soup.triangles.size()) +
                          " triangles; give one per triangle, or none");
   for (std::size_t i = 0; i < soup.points.size(); ++i)
@@ -48,22 +48,22 @@ inline void check_soup(const triangle_soup& soup, const std::string& name) {
         throw geometry_error(name + ": triangle " + std::to_string(t) + " refers to point " +
                              std::to_string(v) + ", but there are " + std::to_string(soup.points.size()) +
                              " points");
-  if (!soup.patch_names.empty())
-    for (std::size_t t = 0; t < soup.patches.size(); ++t)
-      if (soup.patches[t] != no_id && !is_index(soup.patches[t], soup.patch_names.size()))
-        throw geometry_error(name + ": triangle " + std::to_string(t) + " refers to patch " +
-                             std::to_string(soup.patches[t]) + ", but there are " +
-                             std::to_string(soup.patch_names.size()) + " names of patches");
+  if (!soup.group_names.empty())
+    for (std::size_t t = 0; t < soup.groups.size(); ++t)
+      if (soup.groups[t] != no_id && !is_index(soup.groups[t], soup.group_names.size()))
+        throw geometry_error(name + ": triangle " + std::to_string(t) + " refers to group " +
+                             std::to_string(soup.groups[t]) + ", but there are " +
+                             std::to_string(soup.group_names.size()) + " names of groups");
 }
 
-/// The numbers that stand for patches without names, ascending; none where there are names.
-inline std::vector<local_id> own_patch_numbers(const triangle_soup& soup) {
+/// The numbers that stand for groups without names, ascending; none where there are names.
+inline std::vector<local_id> own_group_numbers(const triangle_soup& soup) {
   std::vector<local_id> numbers;
-  if (!soup.patch_names.empty())
+  if (!soup.group_names.empty())
     return numbers;
-  for (const local_id patch : soup.patches)
-    if (patch != no_id)
-      numbers.push_back(patch);
+  for (const local_id group : soup.groups)
+    if (group != no_id)
+      numbers.push_back(group);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
@@ -154,26 +154,26 @@ private:
 };
 
 /// Appends a polygon as a fan of triangles; indices are checked by the caller.
-inline void append_polygon(triangle_soup& soup, const std::vector<local_id>& corners, local_id patch) {
+inline void append_polygon(triangle_soup& soup, const std::vector<local_id>& corners, local_id group) {
   for (std::size_t i = 2; i < corners.size(); ++i) {
     soup.triangles.push_back({corners[0], corners[i - 1], corners[i]});
-    soup.patches.push_back(patch);
+    soup.groups.push_back(group);
   }
 }
 
-/// Numbers the patches of a soup by their names; O(log n) each, since a file may have as many as triangles.
-class patch_numbering {
+/// Numbers the groups of a soup by their names; O(log n) each, since a file may have as many as triangles.
+class group_numbering {
 public:
-  explicit patch_numbering(triangle_soup& soup) : soup_(soup) {}
+  explicit group_numbering(triangle_soup& soup) : soup_(soup) {}
 
   /// The index of a name, which is added when it is new; none for no name.
   local_id operator()(std::string_view name) {
     if (name.empty())
       return no_id;
     const auto [place, added] =
-        known_.try_emplace(std::string(name), static_cast<local_id>(soup_.patch_names.size()));
+        known_.try_emplace(std::string(name), static_cast<local_id>(soup_.group_names.size()));
     if (added)
-      soup_.patch_names.emplace_back(name);
+      soup_.group_names.emplace_back(name);
     return place->second;
   }
 

@@ -52,23 +52,23 @@ inline triangle_soup parse_binary_stl(std::string_view data, const std::string& 
       soup.points.push_back(p);
     }
     soup.triangles.push_back({first, first + 1, first + 2});
-    soup.patches.push_back(no_id);
+    soup.groups.push_back(no_id);
   }
   return soup;
 }
 
-/// Several solids in one text file become patches by their names.
+/// Several solids in one text file become groups by their names.
 inline triangle_soup parse_text_stl(std::string_view data, const std::string& file) {
   triangle_soup soup;
   text_scanner in(data, file);
-  patch_numbering patch_of(soup);
-  local_id patch = no_id;
+  group_numbering group_of(soup);
+  local_id group = no_id;
   bool open = false;
   int corners = 0;
   while (in.next_line()) {
     const std::string_view key = in.word();
     if (key == "solid") {
-      patch = patch_of(in.rest());
+      group = group_of(in.rest());
       open = true;
     } else if (!open) {
       in.fail("this is not an STL file: \"solid\" is expected first");
@@ -82,7 +82,7 @@ inline triangle_soup parse_text_stl(std::string_view data, const std::string& fi
         in.fail("the facet has " + std::to_string(corners) + " vertices instead of 3");
       const auto end = static_cast<local_id>(soup.points.size());
       soup.triangles.push_back({end - 3, end - 2, end - 1});
-      soup.patches.push_back(patch);
+      soup.groups.push_back(group);
       corners = 0;
     } else if (key == "endsolid") {
       open = false;

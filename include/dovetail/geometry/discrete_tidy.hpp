@@ -15,7 +15,7 @@
 
 namespace dovetail::discrete {
 
-/// Collapses, edge by edge, borders within smooth patches that are short against the triangles at their ends
+/// Collapses, edge by edge, borders within smooth areas that are short against the triangles at their ends
 /// and join two junctions. No feature edge is touched, no triangle turns by more than 60 degrees.
 class border_collapser {
 public:
@@ -100,7 +100,7 @@ private:
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
-  /// Is the edge a border between two charts of one smooth patch?
+  /// Is the edge a border between two charts of one smooth area?
   bool is_inner_border(local_id a, local_id b) const {
     const auto pair = triangles_at_edge(a, b);
     return pair.size() == 2 && s_.chart_of[pair[0]] != s_.chart_of[pair[1]] &&
@@ -196,12 +196,12 @@ private:
       if (removed_[t])
         continue;
       triangles()[kept] = triangles()[t];
-      for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.patch_of, &s_.solid_of})
+      for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of})
         (*tags)[kept] = (*tags)[t];
       ++kept;
     }
     triangles().resize(kept);
-    for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.patch_of, &s_.solid_of})
+    for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of})
       tags->resize(kept);
     s_.mesh.tags = s_.chart_of;
   }
@@ -235,7 +235,7 @@ inline bool charts_can_be_projected(const charted_surface& s) {
   return true;
 }
 
-/// Gives triangles that stick out of their chart to a neighbour in the same smooth patch: thin corners
+/// Gives triangles that stick out of their chart to a neighbour in the same smooth area: thin corners
 /// between two borders, and teeth between two borders with one neighbour. A chart never loses its shape as
 /// one plane domain by it.
 class corner_relabeler {

@@ -19,7 +19,7 @@ namespace dovetail::discrete {
 struct polyline {
   std::vector<local_id> vertices;
   std::vector<double> lengths;
-  bool feature = false; ///< false: only the end of a chart within a smooth patch
+  bool feature = false; ///< false: only the end of a chart within a smooth area
 };
 
 /// What `topology_builder` makes: curve i of the topology is `curves[i]`, face i is chart i.
@@ -31,9 +31,9 @@ struct curve_network {
 /// Joins the edges between charts to curves and charts' boundaries to loops of coedges.
 class topology_builder {
 public:
-  topology_builder(const charted_surface& surface, const std::vector<std::string>& patch_names,
+  topology_builder(const charted_surface& surface, const std::vector<std::string>& group_names,
                    double corner_angle_deg)
-      : s_(surface), patch_names_(patch_names), corner_angle_(corner_angle_deg * radians_per_degree),
+      : s_(surface), group_names_(group_names), corner_angle_(corner_angle_deg * radians_per_degree),
         neighbours_(element_neighbours(build_sides<2>(surface.mesh))) {}
 
   curve_network run() {
@@ -175,8 +175,8 @@ private:
     for (const auto& chart : members) {
       geometry_topology::face face;
       face.solids = {s_.solid_of[chart.front()], no_id};
-      const local_id patch = s_.patch_of[chart.front()];
-      face.patch = patch == no_id ? "" : patch_names_[index(patch)];
+      const local_id group = s_.group_of[chart.front()];
+      face.group = group == no_id ? "" : group_names_[index(group)];
       face.name = "surface " + std::to_string(s_.smooth_of[chart.front()]);
       for (const auto& loop : boundary_loops(s_.mesh.elements, s_.chart_of, chart,
                                              [&](std::size_t t, std::size_t i) { return across(t, i); }))
@@ -206,7 +206,7 @@ private:
   }
 
   const charted_surface& s_;
-  const std::vector<std::string>& patch_names_;
+  const std::vector<std::string>& group_names_;
   double corner_angle_;
   std::vector<std::array<local_id, 3>> neighbours_;
   std::vector<chart_edge> edges_; ///< sorted by their ends

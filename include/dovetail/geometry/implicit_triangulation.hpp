@@ -42,7 +42,7 @@ public:
         for (int i = 0; i < cells_[0]; ++i)
           march_cell({i, j, k});
     even_out();
-    soup_.patches.assign(soup_.triangles.size(), no_id);
+    soup_.groups.assign(soup_.triangles.size(), no_id);
     return std::move(soup_);
   }
 

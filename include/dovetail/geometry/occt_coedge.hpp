@@ -21,7 +21,7 @@ namespace dovetail::occt {
 ///
 /// Files keep consecutive parameter curves together only up to a tolerance, and sometimes only up to a period
 /// of the surface: shifts at the two ends, fading out over a short range, close the loop exactly. Many
-/// parameter curves are interpolants that stray from the 3D curve between their nodes: where `is_projected`,
+/// parameter curves are interpolants that stray from the 3D curve between their nodes: where `set_projected`,
 /// they only seed a projection of the 3D curve's point.
 class coedge_curve {
 public:
@@ -35,7 +35,6 @@ public:
 
   bool reversed() const { return reversed_; }
   const std::array<double, 2>& edge_range() const { return edge_range_; }
-  bool is_projected() const { return projected_; }
   void set_projected(bool on) { projected_ = on; }
   /// A copy with caches of its own.
   coedge_curve independent_copy() const {

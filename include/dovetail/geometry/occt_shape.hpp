@@ -92,8 +92,8 @@ struct attributes {
   std::string color; ///< "color_RRGGBB"
 
   bool empty() const { return name.empty() && layer.empty() && color.empty(); }
-  /// The boundary patch: name, else layer, else colour.
-  const std::string& patch() const { return !name.empty() ? name : !layer.empty() ? layer : color; }
+  /// The group: name, else layer, else colour.
+  const std::string& group() const { return !name.empty() ? name : !layer.empty() ? layer : color; }
 };
 
 /// Attributes by shape, whatever its place in an assembly or orientation: all instances of a part share them.

@@ -77,7 +77,7 @@ private:
       item.tolerance = BRep_Tool::Tolerance(face);
       if (const attributes* found = names_.find(face)) {
         item.name = found->name;
-        item.patch = found->patch();
+        item.group = found->group();
       }
       result_.topology.faces.push_back(item);
       result_.faces.push_back(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));

@@ -118,7 +118,7 @@ csr_graph make_csr_graph(const G& graph) {
   return contract(graph, itself, static_cast<local_id>(itself.size()));
 }
 
-/// A piece of a graph with the numbers its nodes have in the whole.
+/// A part of a graph with the numbers its nodes have in the whole.
 struct subgraph {
   csr_graph graph;
   std::vector<local_id> nodes; ///< of the whole, growing
@@ -127,27 +127,27 @@ struct subgraph {
 /// The graph induced by the nodes whose `label` equals `wanted`. Linear in the size of the whole graph.
 template <weighted_graph G>
 subgraph induced_subgraph(const G& graph, std::span<const local_id> label, local_id wanted) {
-  subgraph piece;
+  subgraph part;
   std::vector<local_id> number(label.size(), no_id);
   for (std::size_t v = 0; v < label.size(); ++v)
     if (label[v] == wanted) {
-      number[v] = static_cast<local_id>(piece.nodes.size());
-      piece.nodes.push_back(static_cast<local_id>(v));
+      number[v] = static_cast<local_id>(part.nodes.size());
+      part.nodes.push_back(static_cast<local_id>(v));
     }
   const std::span<const vec3> positions = positions_of(graph);
-  for (const local_id v : piece.nodes) {
-    piece.graph.node_weights.push_back(graph.node_weight(v));
+  for (const local_id v : part.nodes) {
+    part.graph.node_weights.push_back(graph.node_weight(v));
     if (!positions.empty())
-      piece.graph.positions.push_back(positions[static_cast<std::size_t>(v)]);
+      part.graph.positions.push_back(positions[static_cast<std::size_t>(v)]);
     graph.for_each_edge(v, [&](local_id w, double weight) {
       if (const local_id other = number[static_cast<std::size_t>(w)]; other != no_id) {
-        piece.graph.neighbours.push_back(other);
-        piece.graph.edge_weights.push_back(weight);
+        part.graph.neighbours.push_back(other);
+        part.graph.edge_weights.push_back(weight);
       }
     });
-    piece.graph.offsets.push_back(static_cast<std::int64_t>(piece.graph.neighbours.size()));
+    part.graph.offsets.push_back(static_cast<std::int64_t>(part.graph.neighbours.size()));
   }
-  return piece;
+  return part;
 }
 
 /// Connected components restricted to nodes of equal `label`, numbered in order of their smallest nodes.

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/global_numbering.hpp"
-#include "dovetail/io/patches.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
@@ -32,8 +32,8 @@ struct gathered_mesh {
   std::vector<std::array<local_id, 2>> side_elements;
 
   std::vector<std::string> material_names; ///< per material, none empty; D = 3
-  std::vector<std::string> patch_names;    ///< of the boundary patches, distinct
-  std::vector<local_id> patch_of_face;     ///< per CAD face: its patch
+  std::vector<std::string> group_names;    ///< of the groups of faces, distinct
+  std::vector<local_id> group_of_face;     ///< per CAD face: its group
 };
 
 namespace detail {
@@ -165,9 +165,9 @@ private:
     else
       for (const local_id face : result_.mesh.tags)
         faces = std::max(faces, static_cast<std::size_t>(face) + 1);
-    auto patches = collect_patches(source_, faces);
-    result_.patch_names = std::move(patches.names);
-    result_.patch_of_face = std::move(patches.of_face);
+    auto groups = collect_face_groups(source_, faces);
+    result_.group_names = std::move(groups.names);
+    result_.group_of_face = std::move(groups.of_face);
   }
 
   const distributed_simplicial_mesh<D>& source_;

@@ -23,13 +23,13 @@ inline constexpr std::size_t most_point_arrays = 256;
 
 /// The simplices of a file, on one set of points.
 struct loaded_mesh {
-  simplicial_mesh<3> mesh; ///< tags: the region (material) of each tetrahedron, 0 when the file has none
-  std::vector<simplex<2>> triangles;      ///< in the file's orientation; indices into mesh.points
-  std::vector<local_id> triangle_tags;    ///< per triangle: its CAD face, patch or entity
-  std::vector<global_id> node_ids;        ///< per point: its global number in the file
-  std::vector<local_id> subdomains;       ///< per tetrahedron; empty when the file has no subdomains
-  std::vector<point_array> point_scalars; ///< all one-component point arrays
-  std::vector<std::pair<local_id, std::string>> region_names;   ///< of the tags of the mesh
+  simplicial_mesh<3> mesh;             ///< tags: the material of each tetrahedron, 0 when the file has none
+  std::vector<simplex<2>> triangles;   ///< in the file's orientation; indices into mesh.points
+  std::vector<local_id> triangle_tags; ///< per triangle: its CAD face, group or entity
+  std::vector<global_id> node_ids;     ///< per point: its global number in the file
+  std::vector<local_id> subdomains;    ///< per tetrahedron; empty when the file has no subdomains
+  std::vector<point_array> point_scalars;                       ///< all one-component point arrays
+  std::vector<std::pair<local_id, std::string>> material_names; ///< of the tags of the mesh
   std::vector<std::pair<local_id, std::string>> triangle_names; ///< of the tags of the triangles
   std::vector<std::string> passed_over; ///< what else is in the file, such as "12 lines"; each once
 

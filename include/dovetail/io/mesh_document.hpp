@@ -24,12 +24,12 @@ struct mesh_document {
   std::span<const vec3> points;
   std::span<const global_id> ids = {};
   std::span<const simplex<3>> tetrahedra = {};
-  std::span<const local_id> regions = {};
+  std::span<const local_id> materials = {};
   std::span<const local_id> subdomains = {};
   std::span<const simplex<2>> triangles = {};
-  std::span<const local_id> patches = {};
-  tag_names region_names = {};
-  tag_names patch_names = {};
+  std::span<const local_id> groups = {};
+  tag_names material_names = {};
+  tag_names group_names = {};
 };
 
 /// Throws `mesh_error` when there is not one tag per element.
@@ -40,23 +40,23 @@ mesh_document document_of(const simplicial_mesh<D>& mesh, const tag_names& names
   mesh_document document{.points = mesh.points};
   if constexpr (D == 3) {
     document.tetrahedra = mesh.elements;
-    document.regions = mesh.tags;
-    document.region_names = names;
+    document.materials = mesh.tags;
+    document.material_names = names;
   } else {
     static_assert(D == 2, "meshes of triangles and of tetrahedra are written");
     document.triangles = mesh.elements;
-    document.patches = mesh.tags;
-    document.patch_names = names;
+    document.groups = mesh.tags;
+    document.group_names = names;
   }
   return document;
 }
 inline mesh_document document_of(const loaded_mesh& mesh) {
-  mesh_document document = document_of(mesh.mesh, mesh.region_names);
+  mesh_document document = document_of(mesh.mesh, mesh.material_names);
   document.ids = mesh.node_ids;
   document.subdomains = mesh.subdomains;
   document.triangles = mesh.triangles;
-  document.patches = mesh.triangle_tags;
-  document.patch_names = mesh.triangle_names;
+  document.groups = mesh.triangle_tags;
+  document.group_names = mesh.triangle_names;
   return document;
 }
 } // namespace detail

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/msh_encoder.hpp"
 #include "dovetail/io/partition_entities.hpp"
-#include "dovetail/io/patches.hpp"
 #include "dovetail/io/skeleton_entities.hpp"
 
 #include <algorithm>
@@ -133,17 +133,17 @@ inline msh_entities number_partition_entities(const distributed_mesh& mesh, cons
   return out;
 }
 
-/// Writes the physical group of an entity: the patch of a face of the model, the material of a volume.
-inline void write_physical_tag(msh_encoder& out, const boundary_patches& patches, int dimension, host on) {
+/// Writes the physical group of an entity: the group of a face of the model, the material of a volume.
+inline void write_physical_tag(msh_encoder& out, const face_groups& groups, int dimension, host on) {
   const bool on_face = dimension == 2 && on.dimension == 2;
   if (!on_face && dimension != 3)
     return out.count(0);
   out.count(1);
-  out.integer(1 + (on_face ? patches.of_face[static_cast<std::size_t>(on.id)] : on.id));
+  out.integer(1 + (on_face ? groups.of_face[static_cast<std::size_t>(on.id)] : on.id));
 }
 
 /// Writes the counts and the records of all entities. Records of a partition also name parent and sharers.
-inline void write_entity_records(msh_encoder& out, const msh_entities& all, const boundary_patches& patches,
+inline void write_entity_records(msh_encoder& out, const msh_entities& all, const face_groups& groups,
                                  bool partitioned) {
   for (const auto& dimension : all.tags)
     out.count(dimension.size());
@@ -163,7 +163,7 @@ inline void write_entity_records(msh_encoder& out, const msh_entities& all, cons
       out.point(box.lower);
       if (d > 0)
         out.point(box.upper);
-      write_physical_tag(out, patches, static_cast<int>(d), entity.on);
+      write_physical_tag(out, groups, static_cast<int>(d), entity.on);
       if (d > 0) {
         out.count(entity.boundary.size());
         for (const auto& side : entity.boundary) {
@@ -176,9 +176,8 @@ inline void write_entity_records(msh_encoder& out, const msh_entities& all, cons
 }
 
 /// The section $PartitionedEntities; `ghost_tags` per partition, or empty.
-inline void write_partitioned_entities(msh_encoder& out, const msh_entities& parts,
-                                       const boundary_patches& patches, std::size_t partitions,
-                                       const std::vector<local_id>& ghost_tags) {
+inline void write_partitioned_entities(msh_encoder& out, const msh_entities& parts, const face_groups& groups,
+                                       std::size_t partitions, const std::vector<local_id>& ghost_tags) {
   out.begin("PartitionedEntities");
   out.count(partitions);
   out.line();
@@ -189,7 +188,7 @@ inline void write_partitioned_entities(msh_encoder& out, const msh_entities& par
     out.integer(partition_tag(static_cast<local_id>(s)));
     out.line();
   }
-  write_entity_records(out, parts, patches, true);
+  write_entity_records(out, parts, groups, true);
   out.end("PartitionedEntities");
 }
 

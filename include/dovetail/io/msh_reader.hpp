@@ -117,8 +117,8 @@ private:
       if (first == std::string_view::npos || last == first)
         at_.fail("the name of a physical group is not in quotes");
       if (dimension == 2 || dimension == 3)
-        (dimension == 3 ? mesh_.region_names : mesh_.triangle_names)
-            .emplace_back(region_of(tag), std::string(text.substr(first + 1, last - first - 1)));
+        (dimension == 3 ? mesh_.material_names : mesh_.triangle_names)
+            .emplace_back(tag_of(tag), std::string(text.substr(first + 1, last - first - 1)));
     }
   }
 
@@ -256,7 +256,7 @@ private:
   }
 
   /// Groups and entities count from 1 in MSH files, tags from 0.
-  static local_id region_of(local_id number) { return number > 0 ? number - 1 : 0; }
+  static local_id tag_of(local_id number) { return number > 0 ? number - 1 : 0; }
 
   [[noreturn]] void refuse(int type) {
     at_.fail("there are elements of type " + std::to_string(type) +
@@ -265,10 +265,10 @@ private:
   void add_element(int type, const std::array<std::uint64_t, 4>& vertices, local_id tag, local_id partition) {
     if (type == static_cast<int>(msh_type::triangle)) {
       triangles_.push_back({vertices[0], vertices[1], vertices[2]});
-      mesh_.triangle_tags.push_back(region_of(tag));
+      mesh_.triangle_tags.push_back(tag_of(tag));
     } else if (type == static_cast<int>(msh_type::tetrahedron)) {
       tetrahedra_.push_back(vertices);
-      mesh_.mesh.tags.push_back(region_of(tag));
+      mesh_.mesh.tags.push_back(tag_of(tag));
       partitions_.push_back(partition);
     } else {
       mesh_.pass_over("points and lines as elements");

@@ -11,7 +11,7 @@
 
 namespace dovetail::io {
 
-/// Writes `<stem>.msh`. Physical groups are boundary patches and materials. In D = 2 the nodes are all in the
+/// Writes `<stem>.msh`. Physical groups are groups of faces, and materials. In D = 2 the nodes are all in the
 /// block of the first CAD face.
 struct msh_writer {
   bool binary = true;

@@ -6,12 +6,12 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/msh_encoder.hpp"
 #include "dovetail/io/msh_entities.hpp"
 #include "dovetail/io/msh_piece_file.hpp"
 #include "dovetail/io/msh_writer.hpp"
-#include "dovetail/io/patches.hpp"
 
 #include <array>
 #include <filesystem>
@@ -83,7 +83,7 @@ template <int D>
 struct msh_document {
   const distributed_simplicial_mesh<D>& mesh;
   const global_numbering& numbers;
-  boundary_patches patches;
+  face_groups groups;
   std::vector<std::string> materials; ///< of D = 3
   msh_entities cad;
   msh_entities parts; ///< only of a partitioned file
@@ -110,7 +110,7 @@ enum class msh_partitions { none, plain, with_ghosts };
 inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_numbering& numbers,
                                    const std::vector<msh_piece_table>&, msh_partitions partitions) {
   const bool partitioned = partitions != msh_partitions::none;
-  msh_document<3> document{mesh, numbers,    collect_patches(mesh), collect_material_names(mesh), {},
+  msh_document<3> document{mesh, numbers,    collect_face_groups(mesh), collect_material_names(mesh), {},
                            {},   partitioned};
   const point_sharers sharers(mesh.skeleton);
   document.cad = number_cad_entities(mesh, sharers, document.materials.size());
@@ -141,7 +141,7 @@ inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh,
     throw mesh_error("there are no triangles to write");
   msh_document<2> document{mesh,
                            numbers,
-                           collect_patches(mesh, static_cast<std::size_t>(*faces.rbegin()) + 1),
+                           collect_face_groups(mesh, static_cast<std::size_t>(*faces.rbegin()) + 1),
                            {},
                            number_cad_entities(mesh, faces),
                            {}};
@@ -157,7 +157,7 @@ inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh,
 template <int D>
 std::vector<physical_name> physical_names(const msh_document<D>& document) {
   std::vector<physical_name> names;
-  for (const auto& name : document.patches.names)
+  for (const auto& name : document.groups.names)
     names.push_back({2, static_cast<local_id>(names.size() + 1), name});
   local_id tag = 1;
   for (const auto& name : document.materials)
@@ -321,10 +321,10 @@ std::uint64_t write_msh_file(const std::filesystem::path& path, const msh_docume
   out.format();
   write_physical_names(file, physical_names(document));
   out.begin("Entities");
-  write_entity_records(out, document.cad, document.patches, false);
+  write_entity_records(out, document.cad, document.groups, false);
   out.end("Entities");
   if (document.partitioned)
-    write_partitioned_entities(out, document.parts, document.patches, document.mesh.counts.size(),
+    write_partitioned_entities(out, document.parts, document.groups, document.mesh.counts.size(),
                                document.ghost_tags);
   write_nodes(file, out, document, pieces);
   write_elements(file, out, document, pieces);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/io/patches.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
@@ -49,13 +49,13 @@ skeleton_extract<D> extract(const simplicial_skeleton<D>& skeleton, skeleton_par
   return result;
 }
 
-/// Point data GlobalNodeIds; cell data cad_face and patch, or cad_curve (-1 where there is none), subdomain
-/// and, unless it is the boundary, front_subdomain; for faces field data with the names.
+/// Point data GlobalNodeIds; cell data cad_face and patch (its group), or cad_curve (-1 where there is none),
+/// subdomain and, unless it is the boundary, front_subdomain; for faces field data with the names.
 template <int D>
 void write_skeleton_vtp(output_file& file, const distributed_simplicial_mesh<D>& mesh, skeleton_part part) {
   const auto& skeleton = mesh.skeleton;
   const auto chosen = extract(skeleton, part);
-  const auto patches = collect_patches(mesh);
+  const auto groups = collect_face_groups(mesh);
   const auto points = chosen.points.size();
   const auto cells = chosen.sides.size();
   const bool two_sided = part != skeleton_part::boundary;
@@ -67,7 +67,7 @@ void write_skeleton_vtp(output_file& file, const distributed_simplicial_mesh<D>&
   appended_layout layout(file);
   file.text(vtk_xml_opening("PolyData") + "<PolyData>\n");
   if (D == 3)
-    file.text(vtk_field_data({{"patch_names", patches.names}, {"face_names", mesh.face_names}}));
+    file.text(vtk_field_data({{"patch_names", groups.names}, {"face_names", mesh.face_names}}));
   file.text("<Piece NumberOfPoints=\"" + std::to_string(points) + "\"" + count_of("Verts") +
             count_of("Lines") + count_of("Strips") + count_of("Polys") + ">\n<Points>\n");
   layout.array<double>("Points", points, 3);
@@ -95,7 +95,7 @@ void write_skeleton_vtp(output_file& file, const distributed_simplicial_mesh<D>&
   if (D == 3)
     append_computed<local_id>(file, cells, [&](auto i) {
       const auto f = skeleton.side_hosts[side(i)];
-      return f == no_id ? no_id : patches.of_face[static_cast<std::size_t>(f)];
+      return f == no_id ? no_id : groups.of_face[static_cast<std::size_t>(f)];
     });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[side(i)][0]; });
   if (two_sided)

@@ -172,7 +172,7 @@ private:
       throw input_error("cell offsets are negative");
     const auto connectivity = read_vtk_array<std::int64_t>(required_array(section, "connectivity"), encoding_,
                                                            static_cast<std::uint64_t>(corners));
-    const auto regions = cell_values({"region", "material", "gmsh:physical", "CellEntityIds"});
+    const auto materials = cell_values({"region", "material", "gmsh:physical", "CellEntityIds"});
     const auto subdomains = cell_values({"subdomain"});
     const auto ghosts = cell_values({"vtkGhostType"});
     const auto cad_faces = cell_values({"cad_face", "patch", "region", "gmsh:physical", "CellEntityIds"});
@@ -191,7 +191,7 @@ private:
         continue;
       if (types[c] == static_cast<int>(vtk_cell::tetrahedron)) {
         mesh_.mesh.elements.push_back(simplex_of<3>(vertices, c));
-        mesh_.mesh.tags.push_back(regions.empty() ? 0 : regions[c]);
+        mesh_.mesh.tags.push_back(materials.empty() ? 0 : materials[c]);
         if (!subdomains.empty())
           mesh_.subdomains.push_back(subdomains[c]);
       } else if (types[c] == static_cast<int>(vtk_cell::triangle)) {
@@ -271,8 +271,8 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
       }
     if (!found)
       throw input_error("there is no <Piece>");
-    for (const auto& [array, names] :
-         {std::pair("region_names", &mesh.region_names), std::pair(names_of_triangles, &mesh.triangle_names)})
+    for (const auto& [array, names] : {std::pair("region_names", &mesh.material_names),
+                                       std::pair(names_of_triangles, &mesh.triangle_names)})
       if (names->empty())
         for (auto& name : field_strings(grid, array))
           names->emplace_back(static_cast<local_id>(names->size()), std::move(name));

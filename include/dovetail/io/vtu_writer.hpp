@@ -12,12 +12,12 @@
 
 namespace dovetail::io {
 
-/// Writes `<stem>.pvtu` and its pieces `<stem>_0000.vtu`, ..., `surface.vtp` (the boundary of the domain) and
+/// Writes `<stem>.pvtu` and its parts `<stem>_0000.vtu`, ..., `surface.vtp` (the boundary of the domain) and
 /// `interfaces.vtp` (faces between subdomains, where there are several);
 /// in D = 2 `lines.vtp` instead, the edges of CAD curves and of lines between subdomains. See docs/formats.md
 /// for the arrays.
 struct vtu_writer {
-  int pieces = 0; ///< number of VTU files; 0: one per subdomain, never more than subdomains
+  int files = 0; ///< number of VTU files; 0: one per subdomain, never more than subdomains
   std::string stem = "mesh";
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton, twice its size in work arrays, and one loaded

@@ -5,8 +5,8 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/global_numbering.hpp"
-#include "dovetail/io/patches.hpp"
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/io/skeleton_index.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
@@ -28,11 +28,11 @@ namespace detail {
 /// then the inner points of each subdomain. What follows from counts and skeleton is written at once; each
 /// piece then adds its points and its elements.
 template <int D>
-class vtu_piece_file {
+class vtu_file {
 public:
-  vtu_piece_file(const std::filesystem::path& path, const distributed_simplicial_mesh<D>& mesh,
-                 const global_numbering& numbers, const sides_by_subdomain<D>& sides,
-                 const std::string& field_data, local_id first, local_id last)
+  vtu_file(const std::filesystem::path& path, const distributed_simplicial_mesh<D>& mesh,
+           const global_numbering& numbers, const sides_by_subdomain<D>& sides, const std::string& field_data,
+           local_id first, local_id last)
       : mesh_(mesh), next_(first), last_(last), file_(path) {
     for (auto s = first; s < last; ++s)
       for (const auto t : sides[s])
@@ -46,7 +46,7 @@ public:
     points_ = shared_.size() + inner;
     elements_ = static_cast<std::uint64_t>(numbers.first_element[to] - numbers.first_element[from]);
     if (points_ > static_cast<std::uint64_t>(std::numeric_limits<local_id>::max()))
-      throw io_error("a VTU piece would have more than 2^31 points: ask for more pieces");
+      throw io_error("a VTU file would have more than 2^31 points: ask for more files");
     inner_ = static_cast<local_id>(shared_.size());
     write_head(field_data);
     write_point_arrays(first_id, inner);
@@ -72,9 +72,9 @@ public:
     }
     connectivity_at_ += piece.mesh.elements.size() * sizeof(simplex<D>);
     if constexpr (D == 2) {
-      file_.seek(regions_at_);
+      file_.seek(tags_at_);
       file_.array(span_of(piece.mesh.tags));
-      regions_at_ += piece.mesh.tags.size() * sizeof(local_id);
+      tags_at_ += piece.mesh.tags.size() * sizeof(local_id);
     }
   }
 
@@ -104,10 +104,10 @@ private:
     layout.array<std::uint8_t>("types", elements_);
     file_.text("</Cells>\n<CellData Scalars=\"subdomain\">\n");
     layout.array<local_id>("subdomain", elements_);
-    regions_at_ = layout.array<local_id>("region", elements_);
+    tags_at_ = layout.array<local_id>("region", elements_);
     file_.text("</CellData>\n");
     file_.text("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-    for (auto* at : {&points_at_, &ids_at_, &connectivity_at_, &offsets_at_, &regions_at_})
+    for (auto* at : {&points_at_, &ids_at_, &connectivity_at_, &offsets_at_, &tags_at_})
       *at += file_.size();
   }
 
@@ -125,7 +125,7 @@ private:
       file_.value(first_id + static_cast<global_id>(i));
   }
 
-  /// All cell arrays but the connectivity, and in D = 2 the regions.
+  /// All cell arrays but the connectivity, and in D = 2 the tags.
   void write_cell_arrays(local_id first) {
     file_.value<std::uint64_t>(elements_ * sizeof(simplex<D>));
     file_.seek(offsets_at_ - sizeof(std::uint64_t));
@@ -142,7 +142,7 @@ private:
                            [&](local_id s) { return mesh_.counts[static_cast<std::size_t>(s)].material; });
     } else {
       file_.value<std::uint64_t>(elements_ * sizeof(local_id));
-      file_.seek(regions_at_ + elements_ * sizeof(local_id));
+      file_.seek(tags_at_ + elements_ * sizeof(local_id));
     }
     file_.text("\n</AppendedData>\n</VTKFile>\n");
   }
@@ -191,10 +191,10 @@ private:
   std::uint64_t ids_at_ = 0;
   std::uint64_t connectivity_at_ = 0;
   std::uint64_t offsets_at_ = 0;
-  std::uint64_t regions_at_ = 0;
+  std::uint64_t tags_at_ = 0;
 };
 
-/// The file that names the pieces.
+/// The file that names the others.
 inline void write_pvtu(output_file& file, const std::string& field_data,
                        const std::vector<std::string>& sources) {
   file.text(vtk_xml_opening("PUnstructuredGrid"));
@@ -211,16 +211,16 @@ inline void write_pvtu(output_file& file, const std::string& field_data,
 }
 
 /// "<stem>_<number>.vtu" with as many digits as the largest number needs, at least four.
-inline std::string vtu_piece_name(const std::string& stem, local_id number, local_id count) {
+inline std::string vtu_file_name(const std::string& stem, local_id number, local_id count) {
   const auto width = std::max<std::size_t>(4, std::to_string(count - 1).size());
   auto digits = std::to_string(number);
   return stem + "_" + std::string(width - std::min(width, digits.size()), '0') + digits + ".vtu";
 }
 
-/// Removes pieces that an earlier mesh of more pieces left in the folder, so that they are not mistaken for
+/// Removes files that an earlier mesh of more files left in the folder, so that they are not mistaken for
 /// part of this one.
-inline void remove_stale_pieces(const std::filesystem::path& folder, const std::string& stem,
-                                const std::vector<std::string>& sources) {
+inline void remove_stale_files(const std::filesystem::path& folder, const std::string& stem,
+                               const std::vector<std::string>& sources) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const auto name = entry.path().filename().string();
@@ -236,11 +236,11 @@ inline void remove_stale_pieces(const std::filesystem::path& folder, const std::
 
 } // namespace detail
 
-/// Names of the regions that elements are in: materials, or in D = 2 CAD faces.
-inline std::vector<std::string> region_names(const distributed_simplicial_mesh<3>& mesh) {
+/// Names of the tags of elements: materials, or in D = 2 CAD faces.
+inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<3>& mesh) {
   return collect_material_names(mesh);
 }
-inline std::vector<std::string> region_names(const distributed_simplicial_mesh<2>& mesh) {
+inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<2>& mesh) {
   return mesh.face_names;
 }
 
@@ -254,19 +254,19 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
   };
   const auto shared =
       std::make_shared<const tables>(tables{number_globally(mesh), sides_by_subdomain<D>(mesh),
-                                            vtk_field_data({{"region_names", region_names(mesh)}})});
+                                            vtk_field_data({{"region_names", names_of_tags(mesh)}})});
   const auto subdomains = static_cast<local_id>(mesh.counts.size());
-  const auto files = pieces <= 0 ? subdomains : std::min<local_id>(pieces, subdomains);
+  const auto count = files <= 0 ? subdomains : std::min<local_id>(files, subdomains);
   piecewise_output<D> output;
-  for (local_id f = 0; f <= files; ++f)
+  for (local_id f = 0; f <= count; ++f)
     output.bounds.push_back(
-        static_cast<local_id>(static_cast<global_id>(f) * subdomains / std::max<local_id>(files, 1)));
-  for (local_id f = 0; f < files; ++f)
-    output.names.push_back(detail::vtu_piece_name(stem, f, files));
+        static_cast<local_id>(static_cast<global_id>(f) * subdomains / std::max<local_id>(count, 1)));
+  for (local_id f = 0; f < count; ++f)
+    output.names.push_back(detail::vtu_file_name(stem, f, count));
   output.open = [&mesh, unfinished, shared, bounds = output.bounds, names = output.names](std::size_t f) {
-    const auto file = std::make_shared<detail::vtu_piece_file<D>>(
-        unfinished / names[f], mesh, shared->numbers, shared->sides, shared->field_data, bounds[f],
-        bounds[f + 1]);
+    const auto file =
+        std::make_shared<detail::vtu_file<D>>(unfinished / names[f], mesh, shared->numbers, shared->sides,
+                                              shared->field_data, bounds[f], bounds[f + 1]);
     return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
                          [file] { return file->close(); }};
   };
@@ -290,7 +290,7 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     output_file index(unfinished / (stem + ".pvtu"));
     detail::write_pvtu(index, shared->field_data, sources);
     index.commit();
-    // Between these lines the folder has no PVTU, rather than one that names pieces of two meshes.
+    // Between these lines the folder has no PVTU, rather than one that names files of two meshes.
     std::error_code ignored;
     std::filesystem::remove(folder / (stem + ".pvtu"), ignored);
     if (mesh.counts.size() == 1)
@@ -301,7 +301,7 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     std::uint64_t bytes = 0;
     for (const auto& name : summary.files)
       bytes += move_file(unfinished / name, folder / name);
-    detail::remove_stale_pieces(folder, stem, sources);
+    detail::remove_stale_files(folder, stem, sources);
     sync_to_disk(folder);
 
     summary.set("elements", static_cast<double>(shared->numbers.elements()));

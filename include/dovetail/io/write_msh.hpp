@@ -70,8 +70,8 @@ class part_sections {
 public:
   part_sections(msh_encoder& out, const mesh_document& mesh) : out_(out), mesh_(mesh) {
     part_sorter sorter(mesh.points);
-    sorter.add(mesh.triangles, mesh.patches, {});
-    sorter.add(mesh.tetrahedra, mesh.regions, mesh.subdomains);
+    sorter.add(mesh.triangles, mesh.groups, {});
+    sorter.add(mesh.tetrahedra, mesh.materials, mesh.subdomains);
     parts_ = sorter.take();
     for (const auto& [key, part] : parts_) {
       auto& whole = wholes_[{key[0], key[1]}];
@@ -194,9 +194,9 @@ inline void write_msh_document(const mesh_document& mesh, const std::filesystem:
   out.format();
   part_sections sections(out, mesh);
   std::vector<physical_name> groups;
-  for (const auto& [tag, name] : mesh.patch_names)
+  for (const auto& [tag, name] : mesh.group_names)
     groups.push_back({2, tag + 1, name});
-  for (const auto& [tag, name] : mesh.region_names)
+  for (const auto& [tag, name] : mesh.material_names)
     groups.push_back({3, tag + 1, name});
   write_physical_names(file, groups);
   sections.entities();

@@ -47,9 +47,9 @@ inline void write_vtu_document(const mesh_document& mesh, const std::filesystem:
   };
   std::vector<cell_array> tags;
   for (const cell_array& each :
-       {cell_array{"region", mesh.regions, flat ? mesh.patches : mesh.patches.first(0)},
+       {cell_array{"region", mesh.materials, flat ? mesh.groups : mesh.groups.first(0)},
         cell_array{"subdomain", mesh.subdomains, {}},
-        cell_array{"patch", {}, flat ? mesh.patches.first(0) : mesh.patches}})
+        cell_array{"patch", {}, flat ? mesh.groups.first(0) : mesh.groups}})
     if (!each.of_tetrahedra.empty() || !each.of_triangles.empty())
       tags.push_back(each);
 
@@ -57,8 +57,8 @@ inline void write_vtu_document(const mesh_document& mesh, const std::filesystem:
   appended_layout layout(file);
   file.text(vtk_xml_opening("UnstructuredGrid"));
   file.text("<UnstructuredGrid>\n" +
-            vtk_field_data({{"region_names", names_by_tag(flat ? mesh.patch_names : mesh.region_names)},
-                            {"patch_names", names_by_tag(flat ? tag_names{} : mesh.patch_names)}}));
+            vtk_field_data({{"region_names", names_by_tag(flat ? mesh.group_names : mesh.material_names)},
+                            {"patch_names", names_by_tag(flat ? tag_names{} : mesh.group_names)}}));
   file.text("<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" +
             std::to_string(cells) + "\">\n<Points>\n");
   layout.array<double>("Points", mesh.points.size(), 3);
@@ -109,8 +109,8 @@ void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path
   detail::write_vtu_document(detail::document_of(mesh, names), path, arrays);
 }
 /// All that was read: also point data `GlobalNodeIds`, cell data `subdomain`, and triangles with cell data
-/// `patch` and field data `patch_names` (where there are no tetrahedra: `region`). A cell that an array says
-/// nothing of has -1 there.
+/// `patch` (groups) and field data `patch_names` (where there are no tetrahedra: `region`). A cell that an
+/// array says nothing of has -1 there.
 inline void write_vtu(const loaded_mesh& mesh, const std::filesystem::path& path) {
   detail::write_vtu_document(detail::document_of(mesh), path, mesh.point_scalars);
 }

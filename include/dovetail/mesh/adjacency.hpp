@@ -81,7 +81,6 @@ struct ridge_table {
   std::vector<bool> closed;               ///< per fan: cyclic?
 
   std::size_t size() const { return vertices.size(); }
-  std::size_t fan_count() const { return closed.size(); }
   /// The codes of the wedges of a fan, in order around the ridge.
   std::span<const std::uint32_t> fan(std::size_t f) const {
     return std::span(wedge_codes).subspan(wedge_begins[f], wedge_begins[f + 1] - wedge_begins[f]);
@@ -97,13 +96,6 @@ struct ridge_table {
       std::swap(sides[0], sides[1]);
     return {static_cast<local_id>(flat / per_element), ridge, sides};
   }
-};
-
-/// Sides, neighbours and ridges of one mesh.
-template <int D>
-struct adjacency {
-  side_table<D> sides;
-  ridge_table<D> ridges;
 };
 
 namespace detail {
@@ -307,14 +299,6 @@ ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t po
 template <int D>
 ridge_table<D> build_ridges(const simplicial_mesh<D>& mesh, const side_table<D>& sides) {
   return build_ridges<D>(mesh.elements, mesh.points.size(), sides);
-}
-
-template <int D>
-adjacency<D> build_adjacency(const simplicial_mesh<D>& mesh) {
-  adjacency<D> result;
-  result.sides = build_sides(mesh);
-  result.ridges = build_ridges(mesh, result.sides);
-  return result;
 }
 
 /// The side with these vertices in any order, or no_id. O(log sides).

@@ -105,7 +105,7 @@ struct distributed_simplicial_mesh {
 
   std::vector<std::string> material_names; ///< per material
   std::vector<std::string> face_names;     ///< per CAD face; may be empty strings
-  std::vector<std::string> patch_names;    ///< per CAD face: the boundary patch it belongs to; may be empty
+  std::vector<std::string> group_names;    ///< per CAD face: the group of faces it belongs to; may be empty
 };
 
 using distributed_mesh = distributed_simplicial_mesh<3>;

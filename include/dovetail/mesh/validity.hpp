@@ -63,7 +63,6 @@ struct validity_options {
   bool closed_boundary = true;     ///< false: a surface may have a boundary
   bool non_manifold_sides = false; ///< true: a shell may have sheets that meet (D = 2 only)
   bool isolated_points = false;    ///< true: points without elements are fine
-  bool coincident_points = false;  ///< true: several points may be at one place
 };
 
 /// The kinds of fault found, in the order of `mesh_fault`; empty for a valid mesh.
@@ -140,7 +139,7 @@ void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowe
     if (!used[v] && !allowed.isolated_points)
       faults.add(mesh_fault::isolated_point, static_cast<local_id>(v));
   }
-  if (allowed.coincident_points || faults.has(mesh_fault::non_finite_point))
+  if (faults.has(mesh_fault::non_finite_point))
     return;
   std::vector<local_id> order(points.size());
   std::iota(order.begin(), order.end(), 0);

@@ -10,7 +10,7 @@
 
 namespace dovetail {
 
-/// One connected piece of what is inside a boundary.
+/// One connected body inside a boundary.
 struct bounded_body {
   std::vector<simplex<2>> outer;
   std::vector<std::vector<simplex<2>>> voids;

@@ -105,8 +105,8 @@ struct spectral {
                                          refinement_passes > 0 ? coarse_nodes_per_part : graph.node_count(),
                                      .refinement_passes = refinement_passes};
     return partition_by_levels(graph, parts, options, [this](const csr_graph& small, int all) {
-      return recursive_bisection(small, all, [this](const csr_graph& piece, int left, int right) {
-        return bisect(piece, left, right);
+      return recursive_bisection(small, all, [this](const csr_graph& part, int left, int right) {
+        return bisect(part, left, right);
       });
     });
   }
@@ -134,9 +134,9 @@ private:
     for (double before = weights[0]; cut_one + 1 < weights.size() && before < target;)
       before += weights[++cut_one];
     std::vector<double> keys(components.of_node.begin(), components.of_node.end());
-    const subgraph piece = induced_subgraph(graph, components.of_node, static_cast<local_id>(cut_one));
-    if (piece.nodes.size() > 2)
-      spread_over_unit(detail::fiedler_vector(piece.graph), piece.nodes, keys);
+    const subgraph part = induced_subgraph(graph, components.of_node, static_cast<local_id>(cut_one));
+    if (part.nodes.size() > 2)
+      spread_over_unit(detail::fiedler_vector(part.graph), part.nodes, keys);
     return order_by(keys);
   }
 

@@ -34,7 +34,7 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
     mesh.material_names.push_back(solid.name);
   for (const auto& face : model.topology().faces) {
     mesh.face_names.push_back(face.name);
-    mesh.patch_names.push_back(face.patch);
+    mesh.group_names.push_back(face.group);
   }
   return mesh;
 }

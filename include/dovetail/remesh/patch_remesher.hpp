@@ -20,7 +20,6 @@ struct patch_remesher {
   int cycles = 3;            ///< rounds of collapses, splits, flips and smoothing
   int smoothing_passes = 3;  ///< smoothing passes in a round
   int repair_rounds = 4;     ///< rounds that only work on triangles below 30 degrees
-  bool insert_points = true; ///< false: triangulate the loops and improve by flips only
 
   /// Meshes one patch. Complexity: about linear in the number of triangles made. Never throws on bad loops:
   /// see `patch_mesh::ok`; passes on what the surface and the sizing field throw.

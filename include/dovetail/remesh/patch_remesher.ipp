@@ -25,10 +25,7 @@ struct patch_filling : remesh::patch_remesher {
     patch_state<Surface> state(surface, sizing);
     if (start_patch(state, boundary, mesh)) {
       flip_queue flips;
-      if (insert_points)
-        fill(state, flips);
-      else
-        flip_all(state, flips);
+      fill(state, flips);
       separate_repeated_edges(state, boundary, flips, mesh);
       export_mesh(state, mesh);
     }

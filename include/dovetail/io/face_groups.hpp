@@ -1,5 +1,5 @@
 /// @file
-/// The named boundary patches of a mesh: what a solver hangs its boundary conditions on.
+/// The named groups of a mesh's boundary faces: what a solver hangs its boundary conditions on.
 #pragma once
 
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -10,43 +10,43 @@
 
 namespace dovetail::io {
 
-/// Patches in the order of their first CAD face.
-struct boundary_patches {
+/// Groups in the order of their first CAD face.
+struct face_groups {
   std::vector<std::string> names; ///< distinct, none empty
-  std::vector<local_id> of_face;  ///< per CAD face: its patch
+  std::vector<local_id> of_face;  ///< per CAD face: its group
 };
 
-/// Groups CAD faces by patch name, those with names or sides and at least `faces`. A face without a patch
-/// makes a patch of its own, called by the face's name, or "face N" (N counted from 1) when it has none.
-/// O(faces log faces).
+/// Puts CAD faces of one name into one group, those with names or sides and at least `faces`. A face without
+/// a group makes a group of its own, called by the face's name, or "face N" (N counted from 1) when it has
+/// none. O(faces log faces).
 template <int D>
-boundary_patches collect_patches(const distributed_simplicial_mesh<D>& mesh, std::size_t faces = 0) {
-  faces = std::max({faces, mesh.patch_names.size(), mesh.face_names.size()});
+face_groups collect_face_groups(const distributed_simplicial_mesh<D>& mesh, std::size_t faces = 0) {
+  faces = std::max({faces, mesh.group_names.size(), mesh.face_names.size()});
   if constexpr (D == 3) // in D = 2 sides lie on curves
     for (const auto f : mesh.skeleton.side_hosts)
       faces = std::max(faces, static_cast<std::size_t>(f + 1));
-  boundary_patches patches;
-  std::vector<local_id> by_name; // the patches in the order of their names
+  face_groups groups;
+  std::vector<local_id> by_name; // the groups in the order of their names
   for (std::size_t f = 0; f < faces; ++f) {
-    std::string name = f < mesh.patch_names.size() ? mesh.patch_names[f] : "";
+    std::string name = f < mesh.group_names.size() ? mesh.group_names[f] : "";
     if (name.empty() && f < mesh.face_names.size())
       name = mesh.face_names[f];
     if (name.empty())
       name = "face " + std::to_string(f + 1);
     const auto at =
         std::lower_bound(by_name.begin(), by_name.end(), name, [&](local_id p, const std::string& n) {
-          return patches.names[static_cast<std::size_t>(p)] < n;
+          return groups.names[static_cast<std::size_t>(p)] < n;
         });
-    if (at != by_name.end() && patches.names[static_cast<std::size_t>(*at)] == name) {
-      patches.of_face.push_back(*at);
+    if (at != by_name.end() && groups.names[static_cast<std::size_t>(*at)] == name) {
+      groups.of_face.push_back(*at);
       continue;
     }
-    const auto made = static_cast<local_id>(patches.names.size());
+    const auto made = static_cast<local_id>(groups.names.size());
     by_name.insert(at, made);
-    patches.names.push_back(name);
-    patches.of_face.push_back(made);
+    groups.names.push_back(name);
+    groups.of_face.push_back(made);
   }
-  return patches;
+  return groups;
 }
 
 /// The name of every material: the given one, or "region N" (N counted from 1).
