@@ -254,6 +254,64 @@ TEST_CASE("a sheet that comes back over itself is no single one, though all of i
   CHECK_FALSE(is_sheet(first(20))); // beyond the start
 }
 
+TEST_CASE("no single sheet: a fold, edges passed twice, parts over each other, an outline that goes back "
+          "over itself") {
+  const auto is_sheet = [](const std::vector<vec3>& points, const std::vector<simplex<2>>& triangles) {
+    std::vector<local_id> all(triangles.size());
+    std::iota(all.begin(), all.end(), local_id{0});
+    return single_sheet(points, triangles)(all);
+  };
+
+  // A strip that climbs and comes down: all of it is turned by less than a right angle from its first
+  // triangles, but not from the whole.
+  const auto strip = [&](const std::vector<vec2>& profile) {
+    std::vector<vec3> points;
+    std::vector<simplex<2>> triangles;
+    for (const vec2& p : profile) {
+      points.push_back({p.x, 0, p.y});
+      points.push_back({p.x, 1, p.y});
+    }
+    for (local_id k = 0; k + 2 < static_cast<local_id>(points.size()); k += 2) {
+      triangles.push_back({k, k + 2, k + 3});
+      triangles.push_back({k, k + 3, k + 1});
+    }
+    return is_sheet(points, triangles);
+  };
+  CHECK(strip({{0, 0}, {1, 0}, {1.2, 3}}));
+  CHECK_FALSE(strip({{0, 0}, {1, 0}, {1.2, 3}, {1.3, 2}}));
+
+  // A hood whose apex hangs over its rim: its last triangle shows its back, turned from the first as it is.
+  CHECK_FALSE(is_sheet({{0, 0, 0}, {-4, -1, -4}, {4, 4, -1}, {1, 3, 1}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
+
+  // Two hoods on one rim, through each other, beside another triangle.
+  const std::vector<vec3> hoods{{0, 0, 0},       {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1},
+                                {0.4, 0.3, 0.1}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}};
+  CHECK(is_sheet(hoods, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
+  CHECK_FALSE(is_sheet(hoods, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 1, 4}, {1, 2, 4}, {2, 0, 4}, {5, 6, 7}}));
+
+  // Two triangles through each other, without a common point or with one.
+  const std::vector<vec3> apart{{0, 0, 0},        {2, 0, 0},       {0, 2, 0},
+                                {0.5, 0.5, -0.1}, {2.5, 0.5, 0.1}, {0.5, 2.5, 0}};
+  CHECK(triangles_cross(apart, {0, 1, 2}, {3, 4, 5}));
+  CHECK_FALSE(is_sheet(apart, {{0, 1, 2}, {3, 4, 5}}));
+  CHECK_FALSE(is_sheet(apart, {{0, 1, 2}, {0, 4, 5}}));
+
+  // A fan that closes: its last side lies along its first one, which is as long, shorter or longer.
+  for (const double last : {0.5, 1.0, 2.0}) {
+    std::vector<vec3> points{{0, 0, 0}};
+    std::vector<simplex<2>> fan;
+    for (const vec2 p : {vec2{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {last, 0}}) {
+      points.push_back({p.x, p.y, 0});
+      if (points.size() > 2)
+        fan.push_back(
+            {0, static_cast<local_id>(points.size()) - 2, static_cast<local_id>(points.size()) - 1});
+    }
+    CHECK_FALSE(is_sheet(points, fan));
+    fan.pop_back();
+    CHECK(is_sheet(points, fan));
+  }
+}
+
 TEST_CASE("neighbours in a smooth surface are separated by a plane; crossing triangles never are") {
   std::mt19937 engine(13);
   const rough_sheet smooth(8, 0.05, engine);

@@ -121,7 +121,8 @@ private:
     }
   }
 
-  /// Puts the outline's edges in the order in which they follow each other.
+  /// Puts the outline's edges in the order in which they follow each other. Where two leave a point, one is
+  /// never reached.
   bool is_one_loop() {
     loop_.clear();
     std::array<local_id, 2> edge = outline_.front();
@@ -130,8 +131,7 @@ private:
       const auto next =
           std::lower_bound(outline_.begin(), outline_.end(),
                            std::array<local_id, 2>{edge[1], std::numeric_limits<local_id>::min()});
-      if (next == outline_.end() || (*next)[0] != edge[1] ||
-          (next + 1 != outline_.end() && (*(next + 1))[0] == edge[1])) // a point passed twice
+      if (next == outline_.end() || (*next)[0] != edge[1])
         return false;
       edge = *next;
     } while (edge != outline_.front() && loop_.size() <= outline_.size());
@@ -158,20 +158,15 @@ private:
     return true;
   }
 
+  /// Of two that follow each other nothing is asked: where one goes back over the other, the next after it
+  /// begins or ends on that one as well.
   bool are_apart(const segment& s, const segment& t) const {
-    if (s.ends[1] == t.ends[0])
-      return turns(s.a, s.b, t.b);
-    if (t.ends[1] == s.ends[0])
-      return turns(t.a, t.b, s.b);
+    if (s.ends[1] == t.ends[0] || t.ends[1] == s.ends[0])
+      return true;
     if (std::min(s.a.y, s.b.y) > std::max(t.a.y, t.b.y) + rounding_ ||
         std::min(t.a.y, t.b.y) > std::max(s.a.y, s.b.y) + rounding_)
       return true;
     return beside(s, t) || beside(t, s);
-  }
-
-  /// The way a, b, c does not go back on itself.
-  bool turns(vec2 a, vec2 b, vec2 c) const {
-    return dot(b - a, c - b) > 0 || std::abs(cross(b - a, c - b)) > rounding_ * (norm(b - a) + norm(c - b));
   }
 
   /// Both ends of t are on one side of the line of s.
