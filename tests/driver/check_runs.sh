@@ -12,6 +12,26 @@ figure() { # key of the report
 }
 mesh() { expect_success mesh "$inputs/cube.off" --report report.json "$@"; }
 
+# Meanwhile one whose improver does not come back: CGAL's child process stops, until its half minute is over.
+sharp=(0 0 0  3 0 0  3 1 0  0 0 20  3 0 20  3 1 20) # a prism with an edge of 18 degrees
+{
+  printf '%s\n' OFF "6 8 0"
+  printf '%s %s %s\n' "${sharp[@]}"
+  printf '3 %s\n' "0 2 1" "3 4 5" "0 1 4" "0 4 3" "1 2 5" "1 5 4" "2 0 3" "2 3 5"
+} >"$inputs/sharp.off"
+late=
+if "$driver" mesh --help | grep -q "Mesh improver:.* cgal"; then
+  mkdir "$sandbox/late"
+  (cd "$sandbox/late" && exec "$driver" mesh "$inputs/sharp.off" --size 0.12 --subdomains 2 --workers 1 --improver cgal \
+    --format none --report report.json >stdout 2>stderr </dev/null) &
+  late=$!
+  for ((tries = 0; tries < 600; ++tries)); do
+    work=$(pgrep -P $late) && worker=$(pgrep -P "$work") && child=$(pgrep -P "$worker") && break
+    sleep 0.05
+  done
+  kill -STOP "$child" || fault "CGAL was never seen"
+fi
+
 # A run, its files and its figures.
 mesh --size 0.08 --subdomains 4 --workers 2
 hash=$(figure mesh_hash)
@@ -44,6 +64,15 @@ for file in mesh mesh_partitioned; do
   expect_success check "$inputs/$file.msh"
   grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "$file.msh has other counts"
 done
+
+# An edge so sharp that interfaces cannot end there without small angles: they are listed with what forces them.
+expect_success mesh "$inputs/sharp.off" --size 0.15 --subdomains 8 --simplifier none --improver none --format none \
+  --report report.json
+(($(figure forced) > 0)) || fault "no angle is forced"
+tr -d ' \n' <"$sandbox/work/report.json" >"$sandbox/listing"
+grep -qE '"cause":"forced","at":\[[^]]*\],"cad":\["curve[^]]*"face[^]]*"face' "$sandbox/listing" ||
+  fault "no forced angle is listed with its curve and faces"
+[[ $(figure repeatable) == true ]] || fault "not repeatable"
 
 # Every policy that has a name works.
 mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --files 1 --quiet
@@ -352,4 +381,16 @@ status=$?
 ((status == 1)) || fault "exit code is $status"
 (($(grep -c '^dovetail: ' "$sandbox/stderr") == 1)) || fault "not one line of complaint"
 [[ -z $(find "$sandbox/work" -name '*.vtu' -o -name '*.pvtu' -o -name '*.part') ]] || fault "half a mesh is left"
+
+# The run that was left alone has ended: a clock has decided on its mesh, and it says so.
+if [[ $late ]]; then
+  what="a piece that is not improved in time"
+  wait $late
+  status=$?
+  mv "$sandbox/late/"{stdout,stderr} "$sandbox"
+  mv "$sandbox/late/report.json" "$sandbox/work"
+  ((status == 0)) || fault "exit code is $status"
+  [[ $(figure repeatable) == false ]] || fault "the report says that it is repeatable"
+  grep -q "^NOT REPEATABLE" "$sandbox/stdout" || fault "the summary does not say that it is not repeatable"
+fi
 finish

@@ -132,6 +132,14 @@ mesh disc.svg --sizing "$inputs/near.json"
 expect_success plan "$inputs/domain.svg" --dimension 2 --size 0.3
 grep -q "No. of triangles" "$sandbox/stdout" || fault "no prediction"
 
+# Curved faces: how far triangles are from them, in units of the local size, per face and the largest of all.
+expect_success mesh --model orbiter --dimension 2 --size 20 --format none --report report.json
+deviations=$(sed -n '/^  "deviation"/,/^  }/s/.*"\(points\|centres\)": \([0-9.e+-]*\),\?$/\1 \2/p' "$sandbox/work/report.json")
+awk '$2 > largest[$1] { largest[$1] = $2 } NR <= 2 { said[$1] = $2 }
+  END { exit !(said["points"] > 0 && said["points"] < 1e-3 && said["centres"] > 0.05 && said["centres"] < 0.5 &&
+               largest["points"] == said["points"] && largest["centres"] == said["centres"] && NR == 2 + 2 * 23) }' \
+  <<<"$deviations" || fault "the deviations are $deviations"
+
 # A sheet: the unit cube without its lid.
 {
   printf '%s\n' OFF "8 10 0" "0 0 0" "1 0 0" "1 1 0" "0 1 0" "0 0 1" "1 0 1" "1 1 1" "0 1 1"
