@@ -104,7 +104,7 @@ TEST_CASE("automatic sizes are the smallest of both, and deterministic") {
   for (double x = -1.1; x < 1.2; x += 0.13) {
     const vec3 p{x, 0.37 * x, 0.15};
     CHECK(h(p) == again(p));
-    CHECK(h(p) == doctest::Approx(std::min(curved(p), near(p))).epsilon(1e-12));
+    CHECK(h.field()(p) == doctest::Approx(std::min(curved(p), near(p))).epsilon(1e-12));
   }
 }
 

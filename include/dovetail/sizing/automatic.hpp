@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dovetail/sizing/proximity.hpp"
+#include "dovetail/sizing/tabulated.hpp"
 
 #include <vector>
 
@@ -19,10 +20,10 @@ struct automatic_options {
   model_size_range range = {};
 };
 
-/// The smallest of what curvature and proximity ask for, as one field of limited growth. Throws
-/// `sizing_error` for options out of range.
+/// The smallest of what curvature and proximity ask for, as one field of limited growth, precomputed in the
+/// model's box. Throws `sizing_error` for options out of range.
 template <geometry_model G>
-point_sizes automatic_size(const G& model, const automatic_options& options = {}) {
+tabulated_size automatic_size(const G& model, const automatic_options& options = {}) {
   const model_size_range range = sizing::range_for(model.bounds(), options.range);
   std::vector<sized_point> points;
   if (options.elements_per_circle != 0)
@@ -33,7 +34,9 @@ point_sizes automatic_size(const G& model, const automatic_options& options = {}
         range);
     points.insert(points.end(), near.begin(), near.end());
   }
-  return {std::move(points), range.growth, range.largest};
+  const box3 bounds = model.bounds();
+  return {point_sizes(std::move(points), range.growth, range.largest),
+          inflated(bounds, 1e-3 * bounds.diagonal())};
 }
 
 } // namespace dovetail

@@ -26,8 +26,8 @@ namespace dovetail {
 ///
 /// Failure: never throws; 0 says "unknown".
 ///
-/// Models: source_field, background_field, point_sizes, graded_size, minimum_of and scaled of such fields,
-/// uniform_size.
+/// Models: source_field, background_field, point_sizes, tabulated_size, graded_size, minimum_of and scaled of
+/// such fields, uniform_size.
 template <class H>
 concept bounded_below_sizing_field = sizing_field<H> && requires(const H& h, const box3& box) {
   { h.smallest_size_in(box) } -> std::convertible_to<double>;
@@ -54,7 +54,7 @@ double smallest_size_in(const H& h, const box3& box) {
 ///
 /// Failure: never throws.
 ///
-/// Models: source_field, point_sizes; minimum_of and scaled of such fields.
+/// Models: source_field, point_sizes, tabulated_size; minimum_of and scaled of such fields.
 template <class H>
 concept feature_aware_sizing_field = sizing_field<H> && requires(const H& h, vec3 p) {
   { h.feature_size(p) } -> std::convertible_to<double>;

@@ -19,8 +19,8 @@ namespace dovetail {
 ///
 /// Failure: construction throws `sizing_error`, evaluation never throws.
 ///
-/// Models: uniform_size, source_field, background_field, point_sizes (curvature, proximity, automatic),
-/// minimum_of, scaled, graded_size, any_sizing, a user's lambda.
+/// Models: uniform_size, source_field, background_field, point_sizes (curvature, proximity), tabulated_size
+/// (automatic), minimum_of, scaled, graded_size, any_sizing, a user's lambda.
 template <class H>
 concept sizing_field = std::copy_constructible<H> && requires(const H& h, vec3 p) {
   { h(p) } -> std::convertible_to<double>;

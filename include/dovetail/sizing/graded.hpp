@@ -8,9 +8,9 @@
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
-#include "dovetail/core/octree.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/erased.hpp"
+#include "dovetail/sizing/octree_values.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,11 +38,11 @@ struct gradation_options {
 /// as wide as the size in them. A source between the samples is seen through the field's `smallest_size_in`.
 /// Throws `sizing_error` for a slope that is not positive, an empty domain, or a field whose value is not a
 /// positive, finite number.
-class graded_size {
+class graded_size : private sizing::octree_values {
 public:
   template <sizing_field H>
   graded_size(const H& field, const box3& domain, const gradation_options& options = {})
-      : options_(options), tree_(checked(domain, options)) {
+      : octree_values(checked(domain, options)), options_(options) {
     refine_to_sizes(field);
     for (int round = 0;; ++round) {
       collect_corners(field);
@@ -70,12 +70,7 @@ public:
     const double radius = 0.5 * box.diagonal();
     // A trilinear interpolant of values with this slope along the edges has at most this gradient.
     const double steepest = std::sqrt(3.0) * options_.slope;
-    double least = std::numeric_limits<double>::infinity();
-    tree_.for_each_leaf([&](const box3& leaf) { return leaf.overlaps(box); },
-                        [&](std::size_t leaf) {
-                          for (const std::uint32_t corner : corners_[tree_.leaf_index(leaf)])
-                            least = std::min(least, values_[corner]);
-                        });
+    const double least = least_in(box);
     if (least == std::numeric_limits<double>::infinity()) // wholly outside
       return std::max(smallest_, (*this)(box.center()) - steepest * radius);
     return least;
@@ -85,13 +80,11 @@ public:
   /// The largest relative error estimated in any leaf: interpolation, and where values start between the
   /// samples.
   double error_bound() const { return error_; }
-  std::size_t leaf_count() const { return tree_.leaf_count(); }
+  using octree_values::leaf_count;
 
 private:
   static constexpr int largest_rounds = 8;
   static constexpr double width_per_size = 4; // of a leaf, to begin with
-
-  using corner_ids = std::array<std::uint32_t, 8>;
 
   static box3 checked(const box3& domain, const gradation_options& options) {
     sizing::checked_size(options.slope, "the gradation slope");
@@ -105,7 +98,7 @@ private:
 
   /// What the field may be as small as in a box: its bound, and samples at the centre.
   template <sizing_field H>
-  static double least_in(const H& field, const box3& box) {
+  static double least_of(const H& field, const box3& box) {
     const double bound = dovetail::smallest_size_in(field, box);
     const double sample =
         sizing::checked_size(static_cast<double>(field(box.center())), "a value of the sizing field");
@@ -122,7 +115,7 @@ private:
         return false;
       const double width = box.upper.x - box.lower.x;
       const bool bounded = dovetail::smallest_size_in(field, box) > 0;
-      return width > width_per_size * least_in(field, box) || (!bounded && width > widest);
+      return width > width_per_size * least_of(field, box) || (!bounded && width > widest);
     });
   }
 
@@ -299,20 +292,6 @@ private:
     return 0.5 * options_.slope * (box.upper.x - box.lower.x) / (hidden ? bound : least);
   }
 
-  double interpolated(std::size_t leaf, vec3 p) const {
-    const box3 box = tree_.box(leaf);
-    const vec3 extent = box.upper - box.lower;
-    const vec3 t{(p.x - box.lower.x) / extent.x, (p.y - box.lower.y) / extent.y,
-                 (p.z - box.lower.z) / extent.z};
-    const corner_ids& c = corners_[tree_.leaf_index(leaf)];
-    const auto along_x = [&](std::size_t k) {
-      return values_[c[k]] + t.x * (values_[c[k + 1]] - values_[c[k]]);
-    };
-    const double y0 = along_x(0) + t.y * (along_x(2) - along_x(0));
-    const double y1 = along_x(4) + t.y * (along_x(6) - along_x(4));
-    return y0 + t.z * (y1 - y0);
-  }
-
   void forget_origins() {
     points_ = {};
     raw_ = {};
@@ -321,10 +300,6 @@ private:
   }
 
   gradation_options options_;
-  octree tree_;
-  std::vector<corner_ids>
-      corners_;                ///< per leaf, corner k at the upper end of x, y, z where bits 0, 1, 2 are set
-  std::vector<double> values_; ///< per corner
   double error_ = 0;
   double smallest_ = 0;
   // While building:

@@ -37,7 +37,7 @@ struct json_options {
   /// Makes the field of a "curvature", "proximity" or "automatic" member, which come from the model, such as
   /// `[&](const automatic_options& o) { return automatic_size(model, o); }`. Without it such members are
   /// refused.
-  std::function<point_sizes(const automatic_options&)> size_from_model = {};
+  std::function<erased_sizing(const automatic_options&)> size_from_model = {};
 };
 
 namespace detail {
