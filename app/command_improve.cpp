@@ -63,10 +63,10 @@ void print_change(const quality_terms& name, const quality_statistics& before,
 
 /// Improves the mesh of a file and says what that changed; the result is written before anything is printed.
 template <int D>
-void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded,
+void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded, const given_sizes& sizes,
                         const improve_options& options) {
   improvable_mesh<D> given(std::move(loaded));
-  const any_sizing size = load_sizing(options.sizing, options.size, bounds_of(given.mesh));
+  const any_sizing size = sizes.field(bounds_of(given.mesh));
   const quality_statistics before = measure_quality(given.mesh);
   const stopwatch clock;
   const report made = improve(given.mesh, given.frozen, size);
@@ -86,14 +86,15 @@ void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded,
 } // namespace
 
 int run_improve(const improve_options& options) {
-  const auto improve_tetrahedra = make_improver<3>(options.preset);
+  const auto improve_tetrahedra = make_improver<3>(options.preset, "--preset");
+  const given_sizes sizes(options.sizing, options.size);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
   const std::string lost = left_out(loaded);
   if (is_of_triangles(loaded))
-    improve_and_report(make_improver<2>(options.preset), std::move(loaded), options);
+    improve_and_report(make_improver<2>(options.preset, "--preset"), std::move(loaded), sizes, options);
   else
-    improve_and_report(improve_tetrahedra, std::move(loaded), options);
+    improve_and_report(improve_tetrahedra, std::move(loaded), sizes, options);
   if (!lost.empty())
     std::fprintf(stderr, "warning: %s: not kept of %s: %s\n", options.out.c_str(), options.input.c_str(),
                  lost.c_str());

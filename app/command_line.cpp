@@ -95,6 +95,12 @@ struct parser {
     app.name("dovetail");
     app.set_version_flag("--version", std::string("dovetail ") + version);
     app.require_subcommand(1);
+    app.footer("Exit codes:\n"
+               "  0                           Done\n"
+               "  1                           An error, or check found faults; a line on the error stream "
+               "says what\n"
+               "  2                           A wrong command line\n"
+               "  130                         Stopped by a signal");
     app.option_defaults()->always_capture_default(false);
     add_mesh();
     add_plan();
@@ -134,7 +140,8 @@ struct parser {
     command.callback([this] { chosen = run_models; });
   }
   void add_check() {
-    auto& command = *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, MSH) is a valid mesh");
+    auto& command =
+        *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, VTP, MSH) is a valid mesh");
     add_examples(command, {"dovetail check wing/mesh.pvtu", "dovetail check --report wing.json"});
     command.add_option("MESH", check.mesh, "Mesh file");
     command.add_option("--report", check.report,

@@ -39,7 +39,7 @@ void add_compare_options(CLI::App& command, compare_options& options) {
       .add_option("--elements", options.elements,
                   "About how many elements: scales the sizes to predict so many")
       ->excludes(command.get_option("--size"));
-  command.add_option("--executor", options.executor, "Where pieces are meshed");
+  command.add_option("--executor", options.executor, "Where pieces are meshed: " + listed(executor_names()));
   command.add_option("-o,--out", options.out, "Folder for compare.csv and compare.html")
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "No progress and no table on the terminal");

@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "file_checksums.hpp"
+#include "named_policies.hpp"
 #include "policies.hpp"
 #include "supervision.hpp"
 
@@ -38,19 +39,6 @@ std::string text_of(double number) {
   return text.str();
 }
 
-/// A size that is no use for a model is refused here, where the option's name is known.
-double checked_size(double size, const box3& domain) {
-  const std::string given = "--size: " + text_of(size);
-  if (!(size > 0) || !std::isfinite(size))
-    throw sizing_error(given + " is not a length; give a positive number");
-  if (size > domain.diagonal())
-    throw sizing_error(given + " is larger than the model, whose diagonal is " + text_of(domain.diagonal()));
-  if (size < domain.diagonal() / most_elements_across)
-    throw sizing_error(given + " is less than a billionth of the model's diagonal, " +
-                       text_of(domain.diagonal()));
-  return size;
-}
-
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending)
@@ -61,7 +49,7 @@ std::string ending_of(const std::filesystem::path& file) {
 /// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
 any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
   if (dimension != 2)
-    throw input_error(file.string() + ": a plane domain is meshed with triangles; give --dimension 2");
+    throw command_line_error(file.string() + ": a plane domain is meshed with triangles; give --dimension 2");
   const plane_drawing drawing = ending_of(file) == ".svg" ? read_svg(file) : read_polygons(file);
   try {
     return any_geometry(plane_domain(drawing));
@@ -103,17 +91,16 @@ any_geometry geometry_of_file(const std::filesystem::path& file, const model_opt
 }
 
 /// The built-in model's own sizes; a size given scales all of them.
-model_source builtin_source(const model_options& options) {
-  const std::string name = options.model.empty() ? builtin_model_names().front() : options.model;
+model_source builtin_source(const std::string& name, const given_sizes& sizes) {
   auto built = builtin_model(name);
   any_geometry geometry(std::move(built.model));
   const box3 domain = geometry.bounds();
-  any_sizing size;
   std::string meshes;
-  if (!options.sizing.empty()) {
-    size = load_sizing(options.sizing, {}, domain, &geometry, &meshes);
+  any_sizing size;
+  if (sizes.has_file()) {
+    size = sizes.field(domain, &geometry, &meshes);
   } else {
-    const double ambient = options.size ? checked_size(*options.size, domain) : built.size;
+    const double ambient = sizes.length(domain).value_or(built.size);
     for (auto& source : built.sources)
       for (auto& spacing : source.spacing)
         spacing *= ambient / built.size;
@@ -122,7 +109,7 @@ model_source builtin_source(const model_options& options) {
   return {name, std::move(geometry), std::move(size), std::move(built.report), std::move(meshes)};
 }
 
-model_source file_source(const model_options& options, int dimension) {
+model_source file_source(const model_options& options, const given_sizes& sizes, int dimension) {
   const std::filesystem::path file = options.input;
   report summary;
   any_geometry geometry = geometry_of_file(file, options, dimension, summary);
@@ -130,7 +117,7 @@ model_source file_source(const model_options& options, int dimension) {
   if (!std::isfinite(domain.diagonal()))
     throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
   std::string meshes;
-  any_sizing size = load_sizing(options.sizing, options.size, domain, &geometry, &meshes);
+  any_sizing size = sizes.field(domain, &geometry, &meshes);
   if (!size)
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
   return {file.filename().string(), std::move(geometry), std::move(size), std::move(summary),
@@ -152,31 +139,55 @@ background_field load_background(const std::filesystem::path& file, const std::s
 
 } // namespace
 
+given_sizes::given_sizes(std::string file, const std::optional<double>& size)
+    : file_(std::move(file)), size_(size) {
+  if (size_ && (!(*size_ > 0) || !std::isfinite(*size_)))
+    throw command_line_error("--size: " + text_of(*size_) + " is not a length; give a positive number");
+  if (file_.empty())
+    return;
+  text_ = sizing::read_sizing_text(file_);
+  sizing::parse_sizing(text_, file_, {.only_check = true});
+}
+
+std::optional<double> given_sizes::length(const box3& domain) const {
+  if (!size_)
+    return {};
+  const std::string given = "--size: " + text_of(*size_);
+  if (*size_ > domain.diagonal())
+    throw sizing_error(given + " is larger than the model, whose diagonal is " + text_of(domain.diagonal()));
+  if (*size_ < domain.diagonal() / most_elements_across)
+    throw sizing_error(given + " is less than a billionth of the model's diagonal, " +
+                       text_of(domain.diagonal()));
+  return size_;
+}
+
+any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes) const {
+  if (!has_file()) {
+    const auto uniform = length(domain);
+    return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
+  }
+  content_hash read;
+  const std::uint64_t nothing = read.value();
+  sizing::json_options options{.domain = domain};
+  options.load_background = [&](const auto& mesh, const auto& array) {
+    return load_background(mesh, array, read);
+  };
+  if (model)
+    options.size_from_model = [model](const automatic_options& o) { return automatic_size(*model, o); };
+  any_sizing sizes =
+      keep_bounds(sizing::parse_sizing(text_, file_, options, std::filesystem::path(file_).parent_path()));
+  if (meshes && read.value() != nothing)
+    *meshes = hexadecimal(read.value());
+  return sizes;
+}
+
 model_source load_model(const model_options& options, int dimension) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
-  return options.input.empty() ? builtin_source(options) : file_source(options, dimension);
-}
-
-any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,
-                       const any_geometry* model, std::string* meshes) {
-  if (!file.empty()) {
-    content_hash read;
-    const std::uint64_t nothing = read.value();
-    sizing::json_options options{.domain = domain};
-    options.load_background = [&](const auto& mesh, const auto& array) {
-      return load_background(mesh, array, read);
-    };
-    if (model)
-      options.size_from_model = [model](const automatic_options& o) { return automatic_size(*model, o); };
-    any_sizing sizes = keep_bounds(sizing::read_sizing(file, options));
-    if (meshes && read.value() != nothing)
-      *meshes = hexadecimal(read.value());
-    return sizes;
-  }
-  if (size)
-    return keep_bounds(uniform_size(checked_size(*size, domain)));
-  return {};
+  const given_sizes sizes(options.sizing, options.size);
+  return options.input.empty()
+             ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes)
+             : file_source(options, sizes, dimension);
 }
 
 } // namespace dovetail::app

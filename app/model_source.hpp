@@ -8,9 +8,32 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/sizing/erased.hpp"
 
+#include <optional>
 #include <string>
 
 namespace dovetail::app {
+
+/// Sizes as a command line gives them: a JSON file, one length, or nothing.
+class given_sizes {
+public:
+  /// Finds what is wrong without a model: throws `command_line_error` for a size that is no length, and for a
+  /// file that cannot be used the library's errors.
+  given_sizes(std::string file, const std::optional<double>& size);
+
+  /// The file's field, or the uniform one; empty when neither is given. A file may ask for sizes from the
+  /// model, if there is one. `meshes` receives the checksum of the meshes that the file names. Throws
+  /// `sizing_error` for a size that does not suit the domain.
+  any_sizing field(const box3& domain, const any_geometry* model = nullptr,
+                   std::string* meshes = nullptr) const;
+  bool has_file() const { return !file_.empty(); }
+  /// The one length, if it is given and suits the domain.
+  std::optional<double> length(const box3& domain) const;
+
+private:
+  std::string file_;
+  std::string text_; ///< of the file, which is read once: it may be a pipe
+  std::optional<double> size_;
+};
 
 struct model_source {
   std::string name; ///< for the summary
@@ -25,10 +48,5 @@ struct model_source {
 /// each other, and the library's errors for files and sizes that cannot be used. For elements of dimension 2,
 /// faces of a CAD file need not enclose solids.
 model_source load_model(const model_options& options, int dimension = 3);
-
-/// The sizing field of a JSON file, or the uniform one; empty when neither is given. A file may ask for sizes
-/// from the model, if there is one. `meshes` receives the checksum of the meshes that the file names.
-any_sizing load_sizing(const std::string& file, const std::optional<double>& size, const box3& domain,
-                       const any_geometry* model = nullptr, std::string* meshes = nullptr);
 
 } // namespace dovetail::app

@@ -4,6 +4,7 @@
 
 #include "failure.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,22 @@ inline std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// The name among those known, the first of them for an empty one. Throws `command_line_error` listing them.
+inline std::string chosen_name(const std::vector<std::string>& known, const std::string& name,
+                               const std::string& option) {
+  if (name.empty())
+    return known.front();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw command_line_error(option + ": there is no '" + name + "'; there are: " + joined(known));
+  return name;
+}
+
 /// The policy of that name, the first one for an empty name. Throws `command_line_error` listing the names.
 template <class Policy>
 Policy chosen(const std::vector<Policy>& policies, const std::string& name, const std::string& option) {
-  if (name.empty())
-    return policies.front();
-  for (const auto& policy : policies)
-    if (policy.name() == name)
-      return policy;
-  throw command_line_error(option + ": there is no '" + name + "'; there are: " + joined(names_of(policies)));
+  const std::string found = chosen_name(names_of(policies), name, option);
+  return *std::find_if(policies.begin(), policies.end(),
+                       [&](const Policy& policy) { return policy.name() == found; });
 }
 
 } // namespace dovetail::app

@@ -89,11 +89,10 @@ improvement::native uncounted(improvement::native preset) {
 }
 
 std::vector<named_improver> improvers() {
-  std::vector<named_improver> known{{uncounted(improvement::native{}), "native"},
-                                    {uncounted(improvement::native::fast()), "fast"},
-                                    {uncounted(improvement::native::fine()), "fine"},
-                                    {uncounted(improvement::native::finest()), "finest"},
-                                    {improvement::none{}, "none"}};
+  std::vector<named_improver> known{
+      {uncounted(improvement::native{}), "native"},     {uncounted(improvement::native::fast()), "fast"},
+      {uncounted(improvement::native::fine()), "fine"}, {uncounted(improvement::native::finest()), "finest"},
+      {uncounted(improvement::native::hard()), "hard"}, {improvement::none{}, "none"}};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
   known.emplace_back(improvement::gmsh{}, "gmsh");
 #endif
@@ -153,14 +152,14 @@ any_mesher<3> make_mesher<3>(const std::string& name) {
   return chosen(meshers(), name, "--mesher");
 }
 template <>
-any_improver<3> make_improver<3>(const std::string& name) {
-  return chosen(improvers(), name, "--improver").of_tetrahedra();
+any_improver<3> make_improver<3>(const std::string& name, const std::string& option) {
+  return chosen(improvers(), name, option).of_tetrahedra();
 }
 template <>
-any_improver<2> make_improver<2>(const std::string& name) {
-  const named_improver improver = chosen(improvers(), name, "--improver");
+any_improver<2> make_improver<2>(const std::string& name, const std::string& option) {
+  const named_improver improver = chosen(improvers(), name, option);
   if (!improver.of_triangles())
-    throw command_line_error("--improver: " + improver.name() +
+    throw command_line_error(option + ": " + improver.name() +
                              " does not take meshes of triangles; use fine");
   return improver.of_triangles();
 }
@@ -174,17 +173,16 @@ any_executor make_executor(const std::string& name, int workers, const std::stri
     throw command_line_error("--workers: " + std::to_string(workers) + " is negative");
   if (workers == 0)
     workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  if (name == "threads") {
+  const std::string kind = chosen_name(executor_names(), name, "--executor");
+  if (kind == "threads") {
     if (!traits.thread_safe)
       throw command_line_error("--executor: the mesher " + mesher +
                                " cannot run in several threads of one process; use processes");
-    return {parallel::threads{.worker_count = workers}, "threads"};
+    return {parallel::threads{.worker_count = workers}, kind};
   }
-  if (name == "serial")
-    return {parallel::serial{}, "serial"};
-  if (name.empty() || name == "processes")
-    return {parallel::processes{.worker_count = workers}, "processes"};
-  throw command_line_error("--executor: there is no '" + name + "'; there are: processes, threads, serial");
+  if (kind == "serial")
+    return {parallel::serial{}, kind};
+  return {parallel::processes{.worker_count = workers}, kind};
 }
 
 } // namespace dovetail::app

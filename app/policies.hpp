@@ -35,7 +35,7 @@ any_simplification_rule make_simplifier(const std::string& name);
 template <int D>
 any_mesher<D> make_mesher(const std::string& name);
 template <int D>
-any_improver<D> make_improver(const std::string& name);
+any_improver<D> make_improver(const std::string& name, const std::string& option = "--improver");
 any_surface_mesher make_surface_mesher(const std::string& name);
 any_line_keeping_mesher make_background_mesher(const std::string& name);
 

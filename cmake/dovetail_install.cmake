@@ -40,4 +40,9 @@ install(FILES
 
 if(TARGET dovetail_driver)
   install(TARGETS dovetail_driver RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" OPTIONAL)
+  get_target_property(help_pages dovetail_driver dovetail_help_pages)
+  install(DIRECTORY "${help_pages}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" OPTIONAL)
+  install(FILES "${help_pages}/_dovetail" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" OPTIONAL)
+  install(FILES "${help_pages}/dovetail.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+    RENAME dovetail OPTIONAL)
 endif()

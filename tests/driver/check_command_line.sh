@@ -10,36 +10,54 @@ expect_success mesh --help
 expect_success models
 grep -q aircraft "$sandbox/stdout" || fault "the aircraft is not listed"
 
-expect_error "required|subcommand"
-expect_error "not expected|nonsense" nonsense
-expect_error "nonsense" mesh --nonsense
-expect_error "nonsense" mesh --model nonsense
-expect_error "nonsense.*tetgen" mesh --model combustor --mesher nonsense
-expect_error "nonsense.*native" mesh --model combustor --dimension 2 --mesher nonsense
-expect_error "nonsense.*metis" mesh --model combustor --partitioner nonsense
-expect_error "nonsense.*native" mesh --model combustor --improver nonsense
-expect_error "nonsense.*processes" mesh --model combustor --executor nonsense
-expect_error "nonsense.*vtu" mesh --model combustor --format nonsense
-expect_error "tetgen.*threads" mesh --model combustor --executor threads
-expect_error "--workers" mesh --model combustor --workers -1
-expect_error "--workers" mesh --model combustor --workers two
-expect_error "--subdomains" mesh --model combustor --subdomains 0
-expect_error "--subdomains" mesh --model combustor --subdomains -4
-expect_error "--files" mesh --model combustor --files -1
-expect_error "--coarsening" mesh --model combustor --coarsening 0
-expect_error "not both" mesh part.step --model combustor
-expect_error "excludes|sizing" mesh --model combustor --size 1 --sizing sizing.json
-expect_error "required|MESH" check
-expect_error "required|MESH" stats
-expect_error "required" improve
-expect_error "required|--out" improve mesh.vtu
+expect_usage_error "required|subcommand"
+expect_usage_error "not expected|nonsense" nonsense
+expect_usage_error "nonsense" mesh --nonsense
+expect_usage_error "nonsense" mesh --model nonsense
+expect_usage_error "nonsense.*tetgen" mesh --model combustor --mesher nonsense
+expect_usage_error "nonsense.*native" mesh --model combustor --dimension 2 --mesher nonsense
+expect_usage_error "nonsense.*metis" mesh --model combustor --partitioner nonsense
+expect_usage_error "nonsense.*native" mesh --model combustor --improver nonsense
+expect_usage_error "nonsense.*processes" mesh --model combustor --executor nonsense
+expect_usage_error "nonsense.*vtu" mesh --model combustor --format nonsense
+expect_usage_error "tetgen.*threads" mesh --model combustor --executor threads
+expect_usage_error "--workers" mesh --model combustor --workers -1
+expect_usage_error "--workers" mesh --model combustor --workers two
+expect_usage_error "--subdomains" mesh --model combustor --subdomains 0
+expect_usage_error "--subdomains" mesh --model combustor --subdomains -4
+expect_usage_error "--files" mesh --model combustor --files -1
+expect_usage_error "--coarsening" mesh --model combustor --coarsening 0
+expect_usage_error "not both" mesh part.step --model combustor
+expect_usage_error "excludes|sizing" mesh --model combustor --size 1 --sizing sizing.json
+expect_usage_error "required|MESH" check
+expect_usage_error "required|MESH" stats
+expect_usage_error "required" improve
+expect_usage_error "required|--out" improve mesh.vtu
 
 for size in 0 -1 nan -nan inf 1e-400; do
-  expect_error "--size" mesh --model combustor --size=$size
-  expect_error "--size" plan --model combustor --size=$size
+  expect_usage_error "--size" mesh no_such_file.step --size=$size
+  expect_usage_error "--size" plan --model combustor --size=$size
+  expect_usage_error "--size" compare --model combustor --size=$size
+  expect_usage_error "--size" improve no_such_file.vtu -o better.vtu --size=$size
 done
-expect_error "--size" mesh --model combustor --size large
+expect_usage_error "--size" mesh --model combustor --size large
+expect_usage_error "--preset: there is no 'nonsense'; there are: .*hard" \
+  improve no_such_file.vtu -o better.vtu --preset nonsense
+expect_usage_error "--dimension 2" mesh no_such_file.svg
+
+# A sizing file is looked at before the model is; what it says of a model or a mesh, when that is there.
+echo '{ "size": 1, "soruces": [] }' >"$inputs/misspelt.json"
+echo '{ "curvature": 0 }' >"$inputs/zero.json"
+echo '{ "background": { "file": "no_such_mesh.vtu" }, "gradation": 0.3 }' >"$inputs/background.json"
+expect_error 'misspelt.json:1: unknown key "soruces"' mesh no_such_file.step --sizing "$inputs/misspelt.json"
+expect_error 'zero.json:1: "curvature" is 0' mesh no_such_file.step --sizing "$inputs/zero.json"
+expect_error "no_such.json: the sizing file cannot be read" mesh no_such_file.step --sizing no_such.json
+expect_error "no_such_file.step: there is no such file" mesh no_such_file.step --sizing "$inputs/background.json"
+expect_error "no_such_mesh.vtu" mesh --model combustor --sizing "$inputs/background.json"
+
+# What a model decides is an error of another kind.
 expect_error "larger than the model" mesh --model combustor --size 1e9
+((status == 1)) || fault "exit code is $status, not 1"
 expect_error "--size: 1e-20 is less" mesh --model combustor --size 1e-20
 
 # The examples at the end of each help are command lines: what is missing are their files.

@@ -100,11 +100,11 @@ expect_error "there is no 'tetgen'; there are: native" compare "$inputs/square.s
 expect_error "--dimension" compare "$inputs/square.svg" --dimension 4
 
 # Wrong names and numbers are found before anything runs.
-expect_error "there is no 'nonsense'; there are: .*metis" compare "$inputs/cube.off" --partitioners metis,nonsense
-expect_error "there is no 'nonsense'; there are: .*tetgen" compare "$inputs/cube.off" --meshers nonsense
-expect_error "there is no 'nonsense'; there are: .*native" compare no_such_file.step --improvers native,nonsense
+expect_usage_error "there is no 'nonsense'; there are: .*metis" compare "$inputs/cube.off" --partitioners metis,nonsense
+expect_usage_error "there is no 'nonsense'; there are: .*tetgen" compare "$inputs/cube.off" --meshers nonsense
+expect_usage_error "there is no 'nonsense'; there are: .*native" compare no_such_file.step --improvers native,nonsense
 expect_error "no_such_file" compare no_such_file.step
-expect_error "--elements" compare "$inputs/cube.off" --elements -5
-expect_error "--size" compare "$inputs/cube.off" --elements 5 --size 1
+expect_usage_error "--elements" compare "$inputs/cube.off" --elements -5
+expect_usage_error "--size" compare "$inputs/cube.off" --elements 5 --size 1
 expect_error "cannot create the folder" compare "$inputs/cube.off" --out "$inputs/cube.off"
 finish

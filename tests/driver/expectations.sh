@@ -45,6 +45,12 @@ expect_error() {
   [[ -z $left ]] || fault "left behind: $left"
 }
 
+# expect_usage_error <expression> <arguments...>: the same for a command line that is wrong whatever the files hold.
+expect_usage_error() {
+  expect_error "$@"
+  ((status == 2)) || fault "exit code is $status, not 2"
+}
+
 # expect_success <arguments...>
 expect_success() {
   run_driver "$@"

@@ -34,7 +34,7 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
     return msh_reader{}(file);
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
     return vtu_reader{expand}(file);
-  throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU nor MSH");
+  throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP nor MSH");
 }
 
 DOVETAIL_INLINE bool

@@ -1,5 +1,5 @@
 /// @file
-/// Reads VTU files, and PVTU files with all their pieces.
+/// Reads VTU files, PVTU files with all their pieces, and the triangles of VTP files.
 #pragma once
 
 #include "dovetail/core/input_file.hpp"
@@ -80,16 +80,20 @@ inline const xml_element& required_array(const xml_element& section, std::string
   return *found;
 }
 
-/// One piece of a VTU file is appended to a mesh.
+/// One piece of a VTU or VTP file is appended to a mesh.
 class vtu_piece_reader {
 public:
   vtu_piece_reader(const xml_element& piece, const vtk_encoding& encoding, loaded_mesh& mesh)
       : piece_(piece), encoding_(encoding), mesh_(mesh), points_(count_attribute(piece, "NumberOfPoints")),
-        cells_(count_attribute(piece, "NumberOfCells")),
+        is_of_polygons_(!piece.attribute("NumberOfPolys").empty()),
+        cells_(count_attribute(piece, is_of_polygons_ ? "NumberOfPolys" : "NumberOfCells")),
         first_point_(static_cast<local_id>(mesh.mesh.points.size())) {
     constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<local_id>::max());
     if (points_ > most - mesh.mesh.points.size() || cells_ > most)
       throw input_error("the mesh is too large to be read at once");
+    for (const char* others : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips"})
+      if (is_of_polygons_ && !piece.attribute(others).empty() && count_attribute(piece, others) != 0)
+        throw input_error("there are points, lines or strips; only triangles are read");
   }
 
   void read() {
@@ -164,8 +168,10 @@ private:
           mesh_.pass_over("the values '" + xml_unescaped(name) + "' of cells");
   }
   void read_cells() {
-    const auto& section = required_child(piece_, "Cells");
-    const auto types = read_vtk_array<int>(required_array(section, "types"), encoding_, cells_);
+    const auto& section = required_child(piece_, is_of_polygons_ ? "Polys" : "Cells");
+    const auto types = is_of_polygons_
+                           ? std::vector<int>{}
+                           : read_vtk_array<int>(required_array(section, "types"), encoding_, cells_);
     const auto offsets = read_vtk_array<std::int64_t>(required_array(section, "offsets"), encoding_, cells_);
     const auto corners = offsets.empty() ? 0 : offsets.back();
     if (corners < 0)
@@ -189,18 +195,18 @@ private:
       begin = end;
       if (!ghosts.empty() && (ghosts[c] & duplicate) != 0)
         continue;
-      if (types[c] == static_cast<int>(vtk_cell::tetrahedron)) {
+      const auto type = is_of_polygons_ ? vtk_cell::triangle : static_cast<vtk_cell>(types[c]);
+      if (type == vtk_cell::tetrahedron) {
         mesh_.mesh.elements.push_back(simplex_of<3>(vertices, c));
         mesh_.mesh.tags.push_back(materials.empty() ? 0 : materials[c]);
         if (!subdomains.empty())
           mesh_.subdomains.push_back(subdomains[c]);
-      } else if (types[c] == static_cast<int>(vtk_cell::triangle)) {
+      } else if (type == vtk_cell::triangle) {
         mesh_.triangles.push_back(simplex_of<2>(vertices, c));
         mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
         if (!subdomains.empty() && subdomains[c] != no_id)
           mesh_.pass_over("the subdomains of triangles");
-      } else if (types[c] == static_cast<int>(vtk_cell::line) ||
-                 types[c] == static_cast<int>(vtk_cell::vertex)) {
+      } else if (type == vtk_cell::line || type == vtk_cell::vertex) {
         mesh_.pass_over("points and lines as cells");
       } else {
         throw input_error("cell " + std::to_string(c) + " is a " + vtk_cell_name(types[c]) +
@@ -227,6 +233,7 @@ private:
   const vtk_encoding& encoding_;
   loaded_mesh& mesh_;
   std::uint64_t points_;
+  bool is_of_polygons_;
   std::uint64_t cells_;
   local_id first_point_;
   std::vector<const xml_element*> used_; ///< arrays of cells
@@ -254,12 +261,12 @@ inline std::vector<std::string> field_strings(const xml_element& grid, std::stri
   return strings;
 }
 
-/// Appends the pieces of one VTU file to a mesh.
+/// Appends the pieces of one VTU or VTP file to a mesh.
 inline void append_vtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
                        loaded_mesh& mesh) {
   try {
     const auto encoding = read_vtk_encoding(root, expand);
-    const auto& grid = required_child(root, "UnstructuredGrid");
+    const auto& grid = required_child(root, root.attribute("type"));
     bool found = false;
     const char* names_of_triangles = "patch_names";
     for (const auto& piece : grid.children)
@@ -311,9 +318,9 @@ inline void append_pvtu(const std::filesystem::path& file, const xml_element& ro
 
 } // namespace detail
 
-/// Reads VTU and PVTU files: tetrahedra, triangles, scalar point arrays, and the cell arrays `region` (or
-/// `material`, `gmsh:physical`, `CellEntityIds`) and `subdomain`. Vertices and lines are passed over, and so
-/// are cells that are ghosts. Points of different pieces are merged.
+/// Reads VTU, PVTU and VTP files: tetrahedra, triangles, scalar point arrays, and the cell arrays `region`
+/// (or `material`, `gmsh:physical`, `CellEntityIds`) and `subdomain`. Vertices and lines are passed over, and
+/// so are cells that are ghosts. Points of different pieces are merged.
 struct vtu_reader {
   vtk_expander expand = nullptr; ///< of compressed arrays: `zlib_expand`, or null when there are none
 
@@ -324,13 +331,13 @@ struct vtu_reader {
     loaded_mesh mesh;
     if (root.name != "VTKFile")
       throw input_error(file.string() + ": this is not a VTK XML file");
-    if (type == "UnstructuredGrid")
+    if (type == "UnstructuredGrid" || type == "PolyData")
       detail::append_vtu(file, root, expand, mesh);
     else if (type == "PUnstructuredGrid")
       detail::append_pvtu(file, root, expand, mesh);
     else
       throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
-                        "; an UnstructuredGrid or PUnstructuredGrid is needed");
+                        "; an UnstructuredGrid, PUnstructuredGrid or PolyData is needed");
     complete_point_data(mesh);
     if (type == "PUnstructuredGrid") {
       try {

@@ -38,6 +38,9 @@ struct json_options {
   /// `[&](const automatic_options& o) { return automatic_size(model, o); }`. Without it such members are
   /// refused.
   std::function<erased_sizing(const automatic_options&)> size_from_model = {};
+  /// Look at the text alone, which says what is wrong with it before any model or mesh is read. The field is
+  /// of no use then.
+  bool only_check = false;
 };
 
 namespace detail {
@@ -216,11 +219,15 @@ private:
     if (!member)
       return;
     require_keys(*member, {"file", "array"}, "a background mesh");
-    if (!options_.load_background)
-      fail(*member, "a background mesh cannot be read here; give the sizes another way");
-    exact = false;
     const auto path = folder_ / text(*member, "file");
     const std::string name = member->find("array") ? text(*member, "array") : "size";
+    exact = false;
+    if (options_.only_check) {
+      parts.emplace_back(uniform_size(1));
+      return;
+    }
+    if (!options_.load_background)
+      fail(*member, "a background mesh cannot be read here; give the sizes another way");
     parts.emplace_back(at_line(*member, [&] { return options_.load_background(path, name); }));
   }
 
@@ -233,10 +240,14 @@ private:
       automatic_options options = options_from_model(*member, key);
       if (options.range.largest == 0 && v.find("size"))
         options.range.largest = positive(v, "size");
+      exact = false;
+      if (options_.only_check) {
+        parts.emplace_back(uniform_size(1));
+        continue;
+      }
       if (!options_.size_from_model)
         fail(*member, std::string("\"") + key +
                           "\" needs a model, and there is none here; give the sizes another way");
-      exact = false;
       parts.emplace_back(at_line(*member, [&] { return options_.size_from_model(options); }));
     }
   }
@@ -343,7 +354,7 @@ public:
       result = scaled(result, scale);
     if (v.find("smallest") || v.find("largest"))
       result = clamped(v, result);
-    if (gradation && !exactly_limited)
+    if (gradation && !exactly_limited && !options_.only_check)
       result =
           at_line(*v.find("gradation"), [&] { return graded_size(result, options_.domain, *gradation); });
     return result;
@@ -367,15 +378,19 @@ inline erased_sizing parse_sizing(const std::string& text, const std::string& fi
   return detail::json_field_reader(file, folder, options).field(root);
 }
 
-/// The field that a JSON file describes. As `parse_sizing`; throws `input_error` when the file cannot be
-/// read.
-inline erased_sizing read_sizing(const std::filesystem::path& file, const json_options& options = {}) {
+/// What is in a JSON file; throws `input_error` when it cannot be read.
+inline std::string read_sizing_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file))
     throw input_error(file.string() + ": the sizing file cannot be read; check its name and permissions");
   std::ostringstream text;
   text << stream.rdbuf();
-  return parse_sizing(text.str(), file.string(), options, file.parent_path());
+  return text.str();
+}
+
+/// The field that a JSON file describes. As `parse_sizing` and `read_sizing_text`.
+inline erased_sizing read_sizing(const std::filesystem::path& file, const json_options& options = {}) {
+  return parse_sizing(read_sizing_text(file), file.string(), options, file.parent_path());
 }
 
 } // namespace dovetail::sizing
