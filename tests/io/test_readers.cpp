@@ -40,12 +40,14 @@ void check_says(const std::string& message, const std::string& expected) {
   CHECK(message.find(expected) != std::string::npos);
 }
 
-std::string triangle_vtp(const std::string& offset, const std::string& lines = "0") {
+std::string triangle_vtp(const std::string& corners, const std::string& offset,
+                         const std::string& lines = "0") {
   return R"(<?xml version="1.0"?><VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>
 <Piece NumberOfPoints="4" NumberOfVerts="0" NumberOfLines=")" +
          lines + R"(" NumberOfStrips="0" NumberOfPolys="1">
 <Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points>
-<Polys><DataArray type="Int32" Name="connectivity" format="ascii">2 0 1 3</DataArray>
+<Polys><DataArray type="Int32" Name="connectivity" format="ascii">)" +
+         corners + R"(</DataArray>
 <DataArray type="Int32" Name="offsets" format="ascii">)" +
          offset + R"(</DataArray></Polys>
 <CellData><DataArray type="Int32" Name="cad_face" format="ascii">7</DataArray></CellData>
@@ -246,7 +248,8 @@ TEST_CASE("missing, empty and foreign files are refused by name") {
   check_says(refusal(""), "empty");
   check_says(refusal("ISO-10303-21;\nHEADER;"), "no mesh file that is known");
   check_says(refusal("<?xml version=\"1.0\"?><svg></svg>"), "not a VTK XML file");
-  check_says(refusal("<VTKFile type=\"PolyData\"><PolyData></PolyData></VTKFile>"), "PolyData");
+  check_says(refusal("<VTKFile type=\"PolyData\"><PolyData></PolyData></VTKFile>"), "no <Piece>");
+  check_says(refusal("<VTKFile type=\"ImageData\"><ImageData></ImageData></VTKFile>"), "ImageData");
 }
 
 TEST_CASE("what is wrong with a VTU file is named") {
@@ -321,12 +324,12 @@ TEST_CASE("pieces that disagree about a shared point are refused") {
 
 TEST_CASE("the triangles of a VTP file are read; other polygons and lines are named") {
   const testing::scratch_folder folder("polygons");
-  testing::write_content(folder / "surface.vtp", triangle_vtp("3"));
+  testing::write_content(folder / "surface.vtp", triangle_vtp("2 0 1", "3"));
   const io::loaded_mesh read = io::read_mesh(folder / "surface.vtp");
   CHECK(read.mesh.elements.empty());
   REQUIRE(read.triangles.size() == 1);
   CHECK(read.triangles.front() == simplex<2>{2, 0, 1});
   CHECK(read.triangle_tags.front() == 7);
-  check_says(refusal(triangle_vtp("4")), "cell 0 has 4 points instead of 3");
-  check_says(refusal(triangle_vtp("3", "2")), "only triangles are read");
+  check_says(refusal(triangle_vtp("2 0 1 3", "4")), "cell 0 has 4 points instead of 3");
+  check_says(refusal(triangle_vtp("2 0 1", "3", "2")), "only triangles are read");
 }
