@@ -21,7 +21,7 @@ finished_run::finished_run(const std::filesystem::path& folder, const run_identi
     started_with_ += what + " " + value + "\n";
   for (const auto& format : options.formats)
     started_with_ += "format " + format + "\n";
-  started_with_ += "pieces " + std::to_string(options.pieces) + "\nfiles\n";
+  started_with_ += "pieces " + std::to_string(options.files) + "\nfiles\n";
 }
 
 bool finished_run::is_there() const {
