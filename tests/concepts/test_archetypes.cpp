@@ -100,7 +100,7 @@ discrete_model unit_cube() {
         soup.points.push_back({x, y, z});
   soup.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  soup.patches.assign(soup.triangles.size(), no_id);
+  soup.groups.assign(soup.triangles.size(), no_id);
   return discrete_model(repaired(soup));
 }
 
