@@ -266,7 +266,58 @@ TEST_CASE("a lost or shortened part of an MSH file is an io_error that names it"
       part.close();
     }
     std::filesystem::resize_file(folder / output.names[3], bytes);
-    CHECK_THROWS_WITH_AS(output.finish(folder), doctest::Contains(output.names[3].c_str()), io_error);
+    CHECK_THROWS_WITH_AS(output.complete(), doctest::Contains(output.names[3].c_str()), io_error);
     CHECK(!std::filesystem::exists(folder / "mesh.msh"));
   }
+}
+
+TEST_CASE("no file gets its final name before those of all writers are complete") {
+  const testing::scratch_folder folder("finish_blocked");
+  struct blocked_writer {
+    io::piecewise_output<3> begin(const distributed_mesh& mesh,
+                                  const std::filesystem::path& unfinished) const {
+      std::filesystem::create_directory(unfinished / "mesh.msh"); // where the file would be
+      std::ofstream(unfinished / "mesh.msh" / "full");
+      return io::msh_writer{}.begin(mesh, unfinished);
+    }
+  };
+  CHECK_THROWS_WITH_AS(
+      io::finish_mesh<3>(cubes.distributed(), {vtu(), blocked_writer{}}, folder, parallel::serial{}),
+      doctest::Contains("mesh.msh"), io_error);
+  CHECK(content_of(folder).empty());
+}
+
+TEST_CASE("files of pieces that were numbered otherwise are not taken over") {
+  const testing::scratch_folder folder("finish_renumbered");
+  store pieces;
+  auto mesh = pieces.mesh();
+  const auto finish = [&](const distributed_mesh& given) {
+    io::finish_mesh<3>(given, {vtu(8)}, folder / "out", parallel::serial{}, {.release = true});
+  };
+  mesh.load = [load = mesh.load](local_id p) {
+    if (p == 5)
+      throw io_error("a damaged file");
+    return load(p);
+  };
+  CHECK_THROWS_AS(finish(mesh), io_error);
+  auto other = pieces.mesh();
+  other.counts[0].inner_points += 1;
+  CHECK_THROWS_WITH_AS(finish(other), doctest::Contains("another decomposition"), usage_error);
+  auto moved = pieces.mesh();
+  moved.skeleton.points[0].x += 1e-9;
+  CHECK_THROWS_WITH_AS(finish(moved), doctest::Contains("another decomposition"), usage_error);
+}
+
+TEST_CASE("a writer alone leaves nothing in a folder of unfinished files that was there") {
+  const testing::scratch_folder folder("write_into_old");
+  std::filesystem::create_directories(folder / "unfinished");
+  auto mesh = cubes.distributed();
+  mesh.load = [load = mesh.load](local_id p) {
+    if (p == 1)
+      throw io_error("a damaged file");
+    return load(p);
+  };
+  CHECK_THROWS_AS(io::vtu_writer{}(mesh, folder), io_error);
+  CHECK_THROWS_AS(io::msh_writer{}(mesh, folder), io_error);
+  CHECK(content_of(folder).empty());
 }

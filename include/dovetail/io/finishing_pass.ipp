@@ -4,6 +4,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/distributed_validity.hpp"
@@ -31,18 +32,27 @@ struct finished_pieces {
 /// Errors travel beside the result, and are thrown again by the parent.
 enum class finishing_reply : std::uint8_t { finished, not_written, no_mesh };
 
-/// Writers have a folder each, since some of their files may have the same names.
-inline std::filesystem::path folder_of(const std::filesystem::path& unfinished, std::size_t writer) {
-  return unfinished / std::to_string(writer);
+/// What the files of pieces depend on beside the pieces: the numbers of all points and elements.
+template <int D>
+std::uint64_t hash_of_numbering(const distributed_simplicial_mesh<D>& mesh, const global_numbering& numbers) {
+  mesh_hasher skeleton;
+  hash_skeleton(skeleton, mesh.skeleton);
+  content_hash hash;
+  hash.word(skeleton.value());
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+    hash.word(static_cast<std::uint64_t>(numbers.first_point[p]));
+    hash.word(static_cast<std::uint64_t>(numbers.first_element[p]));
+  }
+  return hash.value();
 }
 
 template <int D>
 class finishing_tasks {
 public:
   finishing_tasks(const distributed_simplicial_mesh<D>& mesh, std::vector<piecewise_output<D>> outputs,
-                  const std::filesystem::path& unfinished, bool release)
+                  const unfinished_folder* unfinished, bool release)
       : mesh_(mesh), outputs_(std::move(outputs)), unfinished_(unfinished), numbers_(number_globally(mesh)),
-        sides_(mesh), release_(release && mesh.release) {
+        numbering_(hash_of_numbering(mesh, numbers_)), sides_(mesh), release_(release && mesh.release) {
     bounds_.resize(mesh.counts.size() + 1);
     std::iota(bounds_.begin(), bounds_.end(), 0);
     for (const auto& output : outputs_) {
@@ -93,7 +103,10 @@ public:
     return result;
   }
 
+  /// All files are complete before the first gets its final name.
   void finish(const std::filesystem::path& folder, report& summary) const {
+    for (const auto& output : outputs_)
+      output.complete();
     for (const auto& output : outputs_)
       summary.children.push_back(output.finish(folder));
   }
@@ -136,7 +149,7 @@ private:
   }
 
   std::string path_of(const piecewise_output<D>& output, std::size_t file) const {
-    return (folder_of(unfinished_, static_cast<std::size_t>(&output - outputs_.data())) / output.names[file])
+    return (unfinished_->of_writer(static_cast<std::size_t>(&output - outputs_.data())) / output.names[file])
         .string();
   }
 
@@ -160,9 +173,15 @@ private:
       if (!note && ours)
         mesh_.release(p, {first->files, {}});
     }
-    if (ours)
-      found = byte_reader(first->text).value<finished_pieces>();
-    return ours;
+    if (!ours)
+      return false;
+    byte_reader text(first->text);
+    if (text.value<std::uint64_t>() != numbering_)
+      throw usage_error("subdomain " + std::to_string(bounds_[range]) + " is already in " +
+                        first->files.front().path +
+                        ", with the numbers of another decomposition; run again without resuming");
+    found = text.value<finished_pieces>();
+    return true;
   }
 
   /// Runs in the worker, as all below.
@@ -218,6 +237,7 @@ private:
   }
   void give_up(std::size_t range, piece_note note, const finished_pieces& done) const {
     byte_writer text;
+    text.value(numbering_);
     text.value(done);
     note.text = text.take();
     for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
@@ -244,8 +264,9 @@ private:
 
   const distributed_simplicial_mesh<D>& mesh_;
   const std::vector<piecewise_output<D>> outputs_;
-  const std::filesystem::path& unfinished_;
+  const unfinished_folder* unfinished_; ///< none where nothing is written
   const global_numbering numbers_;
+  const std::uint64_t numbering_;
   const sides_by_subdomain<D> sides_;
   const bool release_;
   std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1
@@ -263,17 +284,17 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
   std::optional<unfinished_folder> unfinished;
   if (!writers.empty())
     unfinished.emplace(folder);
-  const std::filesystem::path path = unfinished ? unfinished->path() : folder;
   std::vector<piecewise_output<D>> outputs;
   for (const auto& writer : writers) {
-    const auto of_writer = detail::folder_of(path, outputs.size());
+    const auto of_writer = unfinished->of_writer(outputs.size());
     make_folder(of_writer);
     outputs.push_back(writer.begin(mesh, of_writer));
   }
   const bool resumable = options.release && mesh.release;
   if (unfinished)
     unfinished->keep(resumable);
-  detail::finishing_tasks<D> tasks(mesh, std::move(outputs), path, resumable && unfinished);
+  detail::finishing_tasks<D> tasks(mesh, std::move(outputs), unfinished ? &*unfinished : nullptr,
+                                   resumable && unfinished);
   finished_mesh result = tasks.run(run_tasks, options);
   tasks.finish(folder, result.summary);
   if (unfinished)

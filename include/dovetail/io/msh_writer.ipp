@@ -312,10 +312,10 @@ inline void write_ghosts(output_file& file, msh_encoder& out, msh_piece_files& p
   out.end("GhostElements");
 }
 
-/// Puts the file together. Returns its bytes.
+/// Puts the file together.
 template <int D>
-std::uint64_t write_msh_file(const std::filesystem::path& path, const msh_document<D>& document,
-                             msh_piece_files& pieces, bool binary) {
+void write_msh_file(const std::filesystem::path& path, const msh_document<D>& document,
+                    msh_piece_files& pieces, bool binary) {
   output_file file(path);
   msh_encoder out(file, binary);
   out.format();
@@ -331,7 +331,6 @@ std::uint64_t write_msh_file(const std::filesystem::path& path, const msh_docume
   if (!document.ghost_tags.empty())
     write_ghosts(file, out, pieces);
   file.commit();
-  return file.size();
 }
 
 template <int D>
@@ -360,11 +359,17 @@ piecewise_output<D> begin_msh(const distributed_simplicial_mesh<D>& mesh,
     return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
                          [file] { return file->close(); }};
   };
-  output.finish = [&mesh, paths, shared, partitions, stem = as.stem](const std::filesystem::path& folder) {
+  const std::filesystem::path whole = unfinished / (as.stem + ".msh");
+  output.complete = [&mesh, paths, shared, partitions, whole] {
     msh_piece_files pieces(paths);
-    const auto document = prepare_msh(mesh, shared->numbers, pieces.tables(), partitions);
-    const auto bytes = write_msh_file(folder / (stem + ".msh"), document, pieces, shared->binary);
-    report summary{"msh", 0, {}, {}, {}, {stem + ".msh"}};
+    write_msh_file(whole, prepare_msh(mesh, shared->numbers, pieces.tables(), partitions), pieces,
+                   shared->binary);
+  };
+  output.finish = [shared, whole](const std::filesystem::path& folder) {
+    const std::string name = whole.filename().string();
+    const auto bytes = move_file(whole, folder / name);
+    sync_to_disk(folder);
+    report summary{"msh", 0, {}, {}, {}, {name}};
     summary.set("elements", static_cast<double>(shared->numbers.elements()));
     summary.set("bytes", static_cast<double>(bytes));
     summary.set("files", 1);

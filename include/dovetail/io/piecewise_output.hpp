@@ -37,7 +37,9 @@ struct piecewise_output {
   std::vector<std::string> names;                 ///< of these files
   std::function<piece_file<D>(std::size_t)> open; ///< file f
   std::vector<std::function<void()>> others = {}; ///< each writes a file that takes no pieces
-  /// Writes what names the files, and moves all to their folder.
+  /// Called when all these are there: writes what names them, or is made of them, still in the same folder.
+  std::function<void()> complete = [] {};
+  /// Called when all is complete, also that of other writers: moves the files to their own folder.
   std::function<report(const std::filesystem::path& folder)> finish;
 };
 
@@ -89,7 +91,8 @@ public:
       std::filesystem::remove_all(path_, ignored);
   }
 
-  const std::filesystem::path& path() const { return path_; }
+  /// Writers have a folder each, since some of their files may have the same names.
+  std::filesystem::path of_writer(std::size_t number) const { return path_ / std::to_string(number); }
   void keep(bool kept) { kept_ = kept; }
 
   /// Removes what a killed run has left in a folder: files of meshes, complete or not, in the numbered
@@ -133,7 +136,8 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
                        const std::filesystem::path& folder) {
   const stopwatch clock;
   const unfinished_folder unfinished(folder);
-  const piecewise_output<D> output = writer.begin(mesh, unfinished.path());
+  make_folder(unfinished.of_writer(0));
+  const piecewise_output<D> output = writer.begin(mesh, unfinished.of_writer(0));
   for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
     const piece_file<D> file = output.open(f);
     for (local_id p = output.bounds[f]; p < output.bounds[f + 1]; ++p)
@@ -142,6 +146,7 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
   }
   for (const auto& write : output.others)
     write();
+  output.complete();
   report summary = output.finish(folder);
   summary.seconds = clock.seconds();
   return summary;

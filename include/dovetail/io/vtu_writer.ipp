@@ -285,11 +285,13 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     add_skeleton("surface.vtp", detail::skeleton_part::boundary);
   if (D == 3 && subdomains > 1)
     add_skeleton("interfaces.vtp", detail::skeleton_part::interfaces);
-  output.finish = [&mesh, unfinished, shared, stem = stem, sources = output.names,
-                   skeleton_files](const std::filesystem::path& folder) {
+  output.complete = [unfinished, shared, stem = stem, sources = output.names] {
     output_file index(unfinished / (stem + ".pvtu"));
     detail::write_pvtu(index, shared->field_data, sources);
     index.commit();
+  };
+  output.finish = [&mesh, unfinished, shared, stem = stem, sources = output.names,
+                   skeleton_files](const std::filesystem::path& folder) {
     // Between these lines the folder has no PVTU, rather than one that names files of two meshes.
     std::error_code ignored;
     std::filesystem::remove(folder / (stem + ".pvtu"), ignored);
