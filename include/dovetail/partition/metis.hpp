@@ -14,12 +14,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace dovetail::partition {
+
+/// METIS takes SIGTERM for an error of its own while it runs: it comes afterwards.
+class held_signals {
+public:
+  held_signals() {
+    sigset_t stops;
+    ::sigemptyset(&stops);
+    ::sigaddset(&stops, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &stops, &before_);
+  }
+  held_signals(const held_signals&) = delete;
+  held_signals& operator=(const held_signals&) = delete;
+  ~held_signals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+private:
+  sigset_t before_{};
+};
 
 /// Multilevel partitioning by METIS (k-way, or recursive bisection), then, where METIS missed the limit or
 /// left a part empty, a repair by single moves. Graphs that METIS cannot handle
@@ -71,6 +89,7 @@ private:
     std::vector<idx_t> part(static_cast<std::size_t>(n));
     // The k-way method is not meant for few nodes per part.
     const bool bisect = recursive || n < 10 * parts;
+    const held_signals held;
     const int status = (bisect ? METIS_PartGraphRecursive : METIS_PartGraphKway)(
         &n, &constraints, offsets.data(), neighbours.data(), node_weights.data(), nullptr,
         edge_weights.data(), &wanted, nullptr, nullptr, options.data(), &cut, part.data());
