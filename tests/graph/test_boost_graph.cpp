@@ -20,6 +20,16 @@ namespace {
 using plain_list = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
 static_assert(weighted_graph<boost_view<plain_list>> && weighted_graph<boost_view<weighted_adjacency_list>>);
 
+// Edges that lead one way, and what would be gone, are refused.
+template <class G>
+concept viewable = requires {
+  typename boost_view<G>;
+};
+using one_way_list = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+static_assert(viewable<plain_list> && !viewable<one_way_list>);
+static_assert(std::is_constructible_v<boost_view<plain_list>, const plain_list&> &&
+              !std::is_constructible_v<boost_view<plain_list>, plain_list>);
+
 /// A square 0 1 2 3 with one diagonal, and an edge 4 5 by itself.
 template <class List, class... Weight>
 List square(Weight... weight) {
@@ -70,7 +80,8 @@ TEST_CASE("a partitioner takes a Boost graph in one line") {
 
 TEST_CASE("a graph comes back from Boost as it was") {
   const csr_graph graph = random_graph();
-  const csr_graph back = make_csr_graph(boost_view(to_boost(graph)));
+  const weighted_adjacency_list copy = to_boost(graph);
+  const csr_graph back = make_csr_graph(boost_view(copy));
   CHECK(back.offsets == graph.offsets);
   CHECK(back.neighbours == graph.neighbours);
   CHECK(back.edge_weights == graph.edge_weights);

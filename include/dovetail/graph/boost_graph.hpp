@@ -19,12 +19,15 @@ namespace dovetail {
 /// such as `adjacency_list<vecS, vecS, undirectedS>`. Edges weigh what their property `edge_weight_t` says,
 /// or 1. What it is given must outlive it.
 template <class BoostGraph>
-  requires std::is_integral_v<typename boost::graph_traits<BoostGraph>::vertex_descriptor>
+  requires std::is_integral_v<typename boost::graph_traits<BoostGraph>::vertex_descriptor> &&
+      std::is_convertible_v<typename boost::graph_traits<BoostGraph>::directed_category,
+                            boost::undirected_tag>
 class boost_view {
 public:
   /// `node_weights`: one per vertex, or empty for 1 each.
   explicit boost_view(const BoostGraph& viewed, std::span<const double> node_weights = {})
       : graph_(&viewed), node_weights_(node_weights) {}
+  explicit boost_view(const BoostGraph&&, std::span<const double> = {}) = delete; // it would be gone
 
   std::size_t node_count() const { return num_vertices(*graph_); }
   double node_weight(local_id node) const {

@@ -27,6 +27,8 @@ public:
   explicit element_dual(const side_table<D>& sides, std::span<const double> weights = {},
                         std::span<const std::uint8_t> fixed = {})
       : sides_(&sides), weights_(weights), fixed_(fixed), is_manifold_(sides.further_elements.empty()) {}
+  explicit element_dual(const side_table<D>&&, std::span<const double> = {},
+                        std::span<const std::uint8_t> = {}) = delete; // they would be gone
 
   std::size_t element_count() const { return sides_->of_element.size(); }
   std::size_t side_count() const { return sides_->size(); }
