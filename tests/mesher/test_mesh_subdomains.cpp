@@ -243,6 +243,20 @@ TEST_CASE("An unusable field and a mesher in threads are typed errors") {
                                 parallel::threads{1}));
 }
 
+struct fan_mesher_for_threads : fan_mesher {
+  static constexpr mesher_traits traits{
+      .keeps_boundary = true, .thread_safe = true, .repeats_in_process = true};
+};
+
+TEST_CASE("In threads no rung may be a mesher that must not run there") {
+  const any_mesher<3> alone(fan_mesher_for_threads{}, "safe");
+  const any_mesher<3> backed = alone.with_fallback({fan_mesher{}, "unsafe"});
+  CHECK_NOTHROW(require_policies<3>(alone, {}, parallel::threads{2}));
+  CHECK_NOTHROW(require_policies<3>(backed, {}, parallel::processes{2}));
+  CHECK_THROWS_WITH_AS(require_policies<3>(backed, {}, parallel::threads{2}), doctest::Contains("'unsafe'"),
+                       usage_error);
+}
+
 TEST_CASE("A store that cannot be written is an io_error") {
   const scratch_folder scratch;
   meshing_options options;

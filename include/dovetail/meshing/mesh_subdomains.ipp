@@ -309,8 +309,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
     throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
   if (!runs_in_threads(run_tasks))
     return;
-  if (!mesh_it.actual_traits().thread_safe)
-    throw usage_error("this mesher" + why);
+  for (const any_mesher<D>& rung : ladder_of(mesh_it))
+    if (!rung.actual_traits().thread_safe)
+      throw usage_error("the mesher '" + rung.name() + "'" + why);
   if (!improve.actual_traits().thread_safe)
     throw usage_error("this improver" + why);
 }

@@ -22,15 +22,13 @@ class task_board {
 public:
   using worker_id = std::uint32_t; ///< above 0
 
-  explicit task_board(std::size_t count)
-      : count_(count), shared_(map(count + 1)), takers_(shared_.get()), end_(takers_ + count) {
-    std::uninitialized_value_construct_n(takers_, count + 1);
-    end_->store(static_cast<std::uint32_t>(count));
+  explicit task_board(std::size_t count) : count_(count), takers_(map(count)) {
+    std::uninitialized_value_construct_n(takers_.get(), count);
   }
 
   /// The first free task at or behind `from`, from now on this worker's.
   std::optional<std::size_t> take(worker_id worker, std::size_t from) {
-    for (std::size_t place = from; place < end_->load(); ++place)
+    for (std::size_t place = from; place < count_; ++place)
       if (worker_id nobody = 0; takers_[place].compare_exchange_strong(nobody, worker))
         return place;
     return std::nullopt;
@@ -38,9 +36,9 @@ public:
 
   /// Whether a worker started now might find a task. O(1) on average.
   bool has_free() {
-    while (first_free_ < end_->load() && takers_[first_free_].load() != 0)
+    while (first_free_ < count_ && takers_[first_free_].load() != 0)
       ++first_free_;
-    return first_free_ < end_->load();
+    return first_free_ < count_;
   }
 
   bool is_taken_by(worker_id worker, std::size_t place) const { return takers_[place].load() == worker; }
@@ -50,9 +48,6 @@ public:
     takers_[place].store(0);
     first_free_ = std::min(first_free_, place);
   }
-
-  /// From now on none at or behind this place is taken.
-  void end_at(std::size_t place) { end_->store(static_cast<std::uint32_t>(place)); }
 
 private:
   using word = std::atomic<std::uint32_t>;
@@ -71,10 +66,8 @@ private:
   }
 
   std::size_t count_;
-  std::unique_ptr<word[], unmap> shared_;
-  word* takers_; ///< per place; 0 is nobody
-  word* end_;
-  std::size_t first_free_ = 0; ///< the parent's: none before it is free
+  std::unique_ptr<word[], unmap> takers_; ///< per place; 0 is nobody
+  std::size_t first_free_ = 0;            ///< the parent's: none before it is free
 };
 
 } // namespace dovetail::detail
