@@ -58,6 +58,12 @@ TEST_CASE("cut lines meet no small corners, coarse and fine") {
   CHECK(result.coarse_angles.interface_faces > 10);
   CHECK(result.coarse_angles.violations.empty());
   CHECK(result.fine_angles.min_wedge_deg() > 49);
+  std::size_t between_subdomains = 0;
+  const auto& skeleton = result.mesh.skeleton;
+  for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
+    between_subdomains += skeleton.side_hosts[e] == no_id && skeleton.subdomains[e][1] != no_id ? 1 : 0;
+  CHECK(result.fine_angles.interface_faces == between_subdomains);
+  CHECK(between_subdomains > result.coarse_angles.interface_faces);
 }
 
 namespace {

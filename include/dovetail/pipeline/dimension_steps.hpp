@@ -105,7 +105,8 @@ inline interface_angles fine_interface_angles(const realized<3>& skeleton, const
   return angles;
 }
 
-/// Between the first edges of the lines at each vertex.
+/// The corners are those between the first edges of the lines at each vertex; the faces are all edges of the
+/// lines between subdomains that are on no CAD curve.
 inline interface_angles fine_interface_angles(const realized<2>& skeleton,
                                               const simplicial_background<2>& mesh,
                                               const side_table<2>& sides,
@@ -118,8 +119,15 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
     const auto& points = skeleton.lines.points;
     return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
   };
-  return measure_corner_angles({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
-                               options.surface_angle_deg);
+  auto angles =
+      measure_corner_angles({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
+                            options.surface_angle_deg);
+  const auto& fine = skeleton.fine;
+  angles.interface_faces = 0;
+  for (std::size_t e = 0; e < fine.sides.size(); ++e)
+    if (fine.side_hosts[e] == no_id && fine.subdomains[e][1] != no_id)
+      ++angles.interface_faces;
+  return angles;
 }
 
 } // namespace dovetail::detail
