@@ -21,6 +21,12 @@ std::string hexadecimal(std::uint64_t value) {
   return text.data();
 }
 
+std::string checksum_of_text(std::string_view text) {
+  content_hash hash;
+  hash.text(text);
+  return hexadecimal(hash.value());
+}
+
 std::string checksum_of_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   content_hash hash;

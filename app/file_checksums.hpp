@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dovetail::app {
@@ -19,6 +20,7 @@ struct written_file {
 };
 
 std::string hexadecimal(std::uint64_t value);
+std::string checksum_of_text(std::string_view text);
 
 /// The checksum of what is in a file; throws `io_error` naming it when it cannot be read.
 std::string checksum_of_file(const std::filesystem::path& file);

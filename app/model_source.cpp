@@ -106,13 +106,24 @@ model_source builtin_source(const std::string& name, const given_sizes& sizes) {
         spacing *= ambient / built.size;
     size = keep_bounds(source_field(ambient, std::move(built.sources)));
   }
-  return {name, std::move(geometry), std::move(size), std::move(built.report), std::move(meshes)};
+  model_source source{name, std::move(geometry), std::move(size), std::move(built.report)};
+  source.sizing_meshes = std::move(meshes);
+  return source;
+}
+
+/// Of a pipe, which can be read once, nothing.
+std::string checksum_if_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) ? checksum_of_file(path) : std::string();
 }
 
 model_source file_source(const model_options& options, const given_sizes& sizes, int dimension) {
   const std::filesystem::path file = options.input;
   report summary;
+  const std::string checksum = checksum_if_file(file);
   any_geometry geometry = geometry_of_file(file, options, dimension, summary);
+  if (checksum_if_file(file) != checksum)
+    throw geometry_error(file.string() + ": the file was changed while it was read; run again");
   const box3 domain = geometry.bounds();
   if (!std::isfinite(domain.diagonal()))
     throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
@@ -120,8 +131,10 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
   any_sizing size = sizes.field(domain, &geometry, &meshes);
   if (!size)
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
-  return {file.filename().string(), std::move(geometry), std::move(size), std::move(summary),
-          std::move(meshes)};
+  model_source source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
+  source.file = checksum;
+  source.sizing_meshes = std::move(meshes);
+  return source;
 }
 
 /// `read` takes in what is read.
@@ -185,9 +198,13 @@ model_source load_model(const model_options& options, int dimension) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
   const given_sizes sizes(options.sizing, options.size);
-  return options.input.empty()
-             ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes)
-             : file_source(options, sizes, dimension);
+  model_source source =
+      options.input.empty()
+          ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes)
+          : file_source(options, sizes, dimension);
+  if (sizes.has_file())
+    source.sizing = checksum_of_text(sizes.text());
+  return source;
 }
 
 } // namespace dovetail::app

@@ -26,6 +26,7 @@ public:
   any_sizing field(const box3& domain, const any_geometry* model = nullptr,
                    std::string* meshes = nullptr) const;
   bool has_file() const { return !file_.empty(); }
+  const std::string& text() const { return text_; } ///< of the file, wherever it came from
   /// The one length, if it is given and suits the domain.
   std::optional<double> length(const box3& domain) const;
 
@@ -39,9 +40,10 @@ struct model_source {
   std::string name; ///< for the summary
   any_geometry geometry;
   any_sizing size;
-  report summary; ///< of reading and healing
-  std::string
-      sizing_meshes{}; ///< checksum of the meshes that the sizing file names; empty when it names none
+  report summary;              ///< of reading and healing
+  std::string file{};          ///< checksum of what was read of the model; empty for a built-in one
+  std::string sizing{};        ///< of the text of the sizing file; empty without one
+  std::string sizing_meshes{}; ///< of the meshes that it names; empty when it names none
 };
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 namespace dovetail::app {
 namespace {
@@ -42,11 +41,11 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   run_identity identity{{"model", source.name}};
   identity.emplace_back("build", checksum_of_file("/proc/self/exe"));
   if (!options.model.input.empty()) {
-    identity.emplace_back("file", checksum_of_file(options.model.input));
+    identity.emplace_back("file", source.file);
     identity.emplace_back("unit", options.model.unit);
   }
-  if (std::filesystem::is_regular_file(options.model.sizing)) // not a pipe, which is read already
-    identity.emplace_back("sizing", checksum_of_file(options.model.sizing));
+  if (!source.sizing.empty())
+    identity.emplace_back("sizing", source.sizing);
   if (!source.sizing_meshes.empty())
     identity.emplace_back("meshes of the sizing", source.sizing_meshes);
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));

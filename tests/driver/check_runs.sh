@@ -47,11 +47,11 @@ cp -r "$sandbox/work/out" "$inputs/mesh"
 
 # The mesh is one, by our own checker, and the statistics of the file are those of the report.
 expect_success check "$inputs/mesh"
+grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "the checker counts otherwise"
 expect_success check "$inputs/mesh/surface.vtp"
 grep -q "a valid mesh of .* triangles" "$sandbox/stdout" || fault "no mesh of triangles"
 expect_success stats "$inputs/mesh/surface.vtp"
 grep -q "No. of triangles" "$sandbox/stdout" || fault "no quality of triangles"
-grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "the checker counts otherwise"
 expect_success stats "$inputs/mesh/mesh.pvtu" --report report.json
 [[ $(figure elements) == "$elements" ]] || fault "stats counts $(figure elements) elements, not $elements"
 
