@@ -33,51 +33,6 @@ struct element_block {
   global_id elements = 0;
 };
 
-/// The files of all pieces. Their contents are copied to the whole file and go: of each piece first the
-/// points, which are last in its file, then block by block the elements, then the ghosts.
-class msh_piece_files {
-public:
-  explicit msh_piece_files(std::vector<std::filesystem::path> paths) : paths_(std::move(paths)) {
-    for (const auto& path : paths_)
-      tables_.push_back(read_msh_piece_table(path));
-    copied_.resize(paths_.size());
-    blocks_.resize(paths_.size());
-  }
-  const std::vector<msh_piece_table>& tables() const { return tables_; }
-
-  void copy_points(output_file& to, local_id piece) const {
-    const auto p = static_cast<std::size_t>(piece);
-    const auto first = tables_[p].element_bytes() + tables_[p].ghost_bytes;
-    to.copy(paths_[p], first, tables_[p].point_bytes);
-    std::error_code ignored;
-    std::filesystem::resize_file(paths_[p], first, ignored);
-  }
-  void copy_next_block(output_file& to, local_id piece) {
-    const auto p = static_cast<std::size_t>(piece);
-    copy_next(to, p, tables_[p].blocks[blocks_[p]++].bytes);
-  }
-  void copy_ghosts(output_file& to) {
-    for (std::size_t p = 0; p < paths_.size(); ++p)
-      copy_next(to, p, tables_[p].ghost_bytes);
-  }
-
-private:
-  void copy_next(output_file& to, std::size_t p, std::uint64_t bytes) {
-    if (bytes == 0)
-      return; // the file may have gone
-    to.copy(paths_[p], copied_[p], bytes);
-    copied_[p] += bytes;
-    std::error_code ignored;
-    if (copied_[p] == tables_[p].element_bytes() + tables_[p].ghost_bytes)
-      std::filesystem::remove(paths_[p], ignored);
-  }
-
-  std::vector<std::filesystem::path> paths_;
-  std::vector<msh_piece_table> tables_;
-  std::vector<std::uint64_t> copied_; ///< bytes of each file's beginning
-  std::vector<std::size_t> blocks_;   ///< number of those copied of each file
-};
-
 /// Everything but the pieces: what the sections of one MSH file are written from.
 template <int D>
 struct msh_document {
