@@ -2,6 +2,7 @@
 /// A pointerless cube octree that can be refined, with integer keys for the corners of its leaves.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/vector.hpp"
 
@@ -70,6 +71,23 @@ public:
       : cube_(cube), unit_((cube.upper.x - cube.lower.x) / static_cast<double>(1U << largest_depth)) {
     nodes_.push_back({});
     leaves_.push_back(0);
+  }
+
+  /// The octree of the same cube and `splits()`, node by node. Throws `input_error` when these are of none.
+  octree(const box3& cube, const std::vector<std::uint32_t>& splits) : octree(cube) {
+    for (const std::uint32_t node : splits) {
+      if (node >= nodes_.size() || nodes_[node].inner || nodes_[node].depth == largest_depth)
+        throw input_error("the nodes of an octree are damaged");
+      split(node);
+    }
+  }
+  /// The inner nodes in the order in which they were split: with `bounds()` all that makes the octree.
+  std::vector<std::uint32_t> splits() const {
+    std::vector<std::uint32_t> inner(nodes_.size() / 8);
+    for (std::size_t node = 0; node < nodes_.size(); ++node)
+      if (nodes_[node].inner)
+        inner[(nodes_[node].link - 1) / 8] = static_cast<std::uint32_t>(node);
+    return inner;
   }
 
   const box3& bounds() const { return cube_; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
@@ -39,6 +40,20 @@ public:
     for (const auto& side : boundary_)
       boxes.push_back(box_of(side));
     boundary_tree_ = box_tree(boxes);
+  }
+
+  /// The nodes, elements and sizes, for another process.
+  void encode(byte_writer& to) const {
+    to.array(points_);
+    to.array(elements_);
+    to.array(sizes_);
+  }
+  /// The same field bit for bit, at the cost of building it. Throws `input_error` when the data end early.
+  static background_field decode(byte_reader& from) {
+    simplicial_mesh<3> mesh;
+    mesh.points = from.array<vec3>();
+    mesh.elements = from.array<simplex<3>>();
+    return {std::move(mesh), from.array<double>()};
   }
 
   double operator()(vec3 p) const {

@@ -7,6 +7,7 @@
 /// Comput. Graph. Image Process. 14 (1980) 227-248, driven by a priority queue as in Dijkstra's algorithm).
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/erased.hpp"
@@ -20,6 +21,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -56,6 +58,32 @@ public:
     forget_origins();
   }
 
+  /// The octree and the values at its corners, 4 and about 12 bytes per leaf, for a process that need not
+  /// have the original field then.
+  void encode(byte_writer& to) const {
+    to.value(tree_.bounds());
+    to.array(tree_.splits());
+    to.array(values_);
+    to.value(options_.slope);
+    to.value(error_);
+    to.value(smallest_);
+  }
+  /// The same field bit for bit. O(n log n). Throws `input_error` when the data are damaged.
+  static graded_size decode(byte_reader& from) {
+    const auto cube = from.value<box3>();
+    graded_size field(octree(cube, from.array<std::uint32_t>()));
+    field.values_ = from.array<double>();
+    field.options_.slope = from.value<double>();
+    field.error_ = from.value<double>();
+    field.smallest_ = from.value<double>();
+    field.number_corners();
+    if (field.values_.size() != field.points_.size())
+      throw input_error("a gradation has " + std::to_string(field.values_.size()) + " values at " +
+                        std::to_string(field.points_.size()) + " corners; its data are damaged");
+    field.forget_origins();
+    return field;
+  }
+
   double operator()(vec3 p) const {
     const box3& domain = tree_.bounds();
     const vec3 q{std::clamp(p.x, domain.lower.x, domain.upper.x),
@@ -83,6 +111,8 @@ public:
   using octree_values::leaf_count;
 
 private:
+  explicit graded_size(octree tree) : octree_values(tree.bounds()) { tree_ = std::move(tree); }
+
   static constexpr int largest_rounds = 8;
   static constexpr double width_per_size = 4; // of a leaf, to begin with
 
@@ -119,10 +149,8 @@ private:
     });
   }
 
-  /// Numbers the corners of the leaves and gives each the field's value there, or what the bound in a leaf
-  /// allows.
-  template <sizing_field H>
-  void collect_corners(const H& field) {
+  /// Numbers the corners of the leaves, by their places.
+  void number_corners() {
     struct corner_key {
       std::array<std::uint32_t, 3> at;
       std::uint32_t leaf;
@@ -138,15 +166,20 @@ private:
     });
     corners_.assign(tree_.leaf_count(), {});
     points_.clear();
-    values_.clear();
     for (std::size_t i = 0; i < keys.size(); ++i) {
-      if (i == 0 || keys[i].at != keys[i - 1].at) {
+      if (i == 0 || keys[i].at != keys[i - 1].at)
         points_.push_back(tree_.corner_point(keys[i].at));
-        values_.push_back(
-            sizing::checked_size(static_cast<double>(field(points_.back())), "a value of the sizing field"));
-      }
       corners_[keys[i].leaf][keys[i].which] = static_cast<std::uint32_t>(points_.size() - 1);
     }
+  }
+
+  /// Gives each corner the field's value there, or what the bound in a leaf allows.
+  template <sizing_field H>
+  void collect_corners(const H& field) {
+    number_corners();
+    values_.clear();
+    for (const vec3 p : points_)
+      values_.push_back(sizing::checked_size(static_cast<double>(field(p)), "a value of the sizing field"));
     raw_ = values_;
     seed_origins(field);
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,6 +43,24 @@ public:
       if (p.size < largest_ && !all.is_covered(p))
         needed.push_back(p);
     tree_ = std::make_shared<const tree>(std::move(needed), growth_);
+  }
+
+  /// The points that change something, by their places, for another process: the same field, the same bytes.
+  void encode(byte_writer& to) const {
+    auto points = tree_->points();
+    sort_all(points, [](const sized_point& a, const sized_point& b) {
+      return std::tie(a.point.x, a.point.y, a.point.z, a.size) <
+             std::tie(b.point.x, b.point.y, b.point.z, b.size);
+    });
+    to.array(points);
+    to.value(growth_);
+    to.value(largest_);
+  }
+  /// The same field bit for bit, at the cost of building it. Throws `input_error` when the data end early.
+  static point_sizes decode(byte_reader& from) {
+    auto points = from.array<sized_point>();
+    const auto growth = from.value<double>();
+    return {std::move(points), growth, from.value<double>()};
   }
 
   double operator()(vec3 p) const { return tree_->value(p, largest_); }

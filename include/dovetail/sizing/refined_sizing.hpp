@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
@@ -36,6 +37,15 @@ public:
     for (std::size_t k = 0; k < balls_.size(); ++k)
       boxes.push_back(inflated({balls_[k].center, balls_[k].center}, reaches_[k]));
     tree_ = box_tree(boxes);
+  }
+
+  /// All that a run adds to the plain field, for another process that has that one: the balls.
+  void encode(byte_writer& to) const { to.array(balls_); }
+  /// The same field with the same keys. Throws `input_error` when the data end early.
+  static refined_sizing decode(any_sizing plain, byte_reader& from) {
+    refined_sizing field(std::move(plain));
+    field.refine(from.array<size_ball>());
+    return field;
   }
 
   /// The field for an entity.
