@@ -107,8 +107,8 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
         figures.deviation = part;
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
   const report& intersection = summary.find("intersection");
-  figures.merges = static_cast<std::int64_t>(intersection.get("merges") +
-                                             summary.find("meshing").get("merged_after_failure"));
+  figures.merges =
+      static_cast<std::int64_t>(intersection.get("merges") + intersection.get("merged_after_failure"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
   const double geometry = figures.seconds.geometry;
   figures.seconds = seconds_of_stages(summary);

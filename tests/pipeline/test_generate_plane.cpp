@@ -101,7 +101,7 @@ TEST_CASE("a piece that fails is merged with its neighbour, and others are found
   CHECK(area_of(mesh) == doctest::Approx(1 - 0.2 * 0.3).epsilon(1e-12));
   CHECK(result.mesh.counts.size() == 5);
   const report& meshing = result.summary.children.back();
-  CHECK(meshing.get("merged_after_failure") == 1);
+  CHECK(result.summary.find("intersection").get("merged_after_failure") == 1);
   // One more is made again: its region and the merged one are beside the same curves, and which of two
   // regions may have a chord between points of both goes by their order.
   CHECK(meshing.get("reused") == 3);

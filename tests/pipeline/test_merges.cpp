@@ -8,15 +8,19 @@
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/spool.hpp"
+#include "dovetail/partition/greedy.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "io/scratch_folder.hpp"
 #include "support/refusal.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
@@ -30,6 +34,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 using namespace dovetail;
@@ -45,9 +50,9 @@ any_geometry shell(double inner_radius) {
 
 /// A decomposed coarse mesh of the shell, before anything is realized.
 struct decomposed_shell {
-  decomposed_shell(double inner_radius, int parts)
-      : model(shell(inner_radius)),
-        given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
+  decomposed_shell(double inner_radius, int parts) : decomposed_shell(shell(inner_radius), parts) {}
+  decomposed_shell(const any_geometry& shape, int parts)
+      : model(shape), given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
         background(make_background<3>(model, uniform_size(0.2), given)),
         sides(build_sides(background.mesh.volume)) {
     const auto simplified = simplify<3>(background.mesh.volume, sides, simplifier::none{});
@@ -67,6 +72,24 @@ struct decomposed_shell {
   side_table<3> sides;
   decomposition pieces;
 };
+
+/// Folds each patch over at an inner point.
+patch_mesh fold(const any_surface& surface, const patch_boundary& boundary, const any_sizing& size) {
+  patch_mesh mesh = remesh::patch_remesher{}(surface, boundary, size);
+  for (std::size_t t = 0; t < mesh.triangles.size() && mesh.folded.empty(); ++t)
+    if (std::all_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), [&](local_id v) {
+          return static_cast<std::size_t>(v) >= boundary.points.size();
+        })) { // the triangle's first point goes beyond the opposite side
+      const auto inner = [&](std::size_t corner) {
+        return static_cast<std::size_t>(mesh.triangles[t][corner]) - boundary.points.size();
+      };
+      vec2& uv = mesh.inner_uv[inner(0)];
+      uv = mesh.inner_uv[inner(1)] + mesh.inner_uv[inner(2)] - uv;
+      mesh.inner_points[inner(0)] = surface.frame(uv).point;
+      mesh.folded = {static_cast<local_id>(t)};
+    }
+  return mesh;
+}
 
 /// Two triangles that cross in their middles.
 fine_skeleton crossing_triangles_on(local_id first_face, local_id second_face) {
@@ -184,16 +207,130 @@ TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, ea
                        doctest::Contains("subdomains would have to be merged"), intersection_error);
 }
 
-TEST_CASE("Where too many subdomains would have to be merged fewer are made, and a warning says so") {
-  const auto result =
-      generate<3>(shell(0.97), uniform_size(0.2),
-                  parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 16}));
+TEST_CASE(
+    "Where too many subdomains would have to be merged fewer are made, and what was done is told of all") {
+  const testing::scratch_folder scratch("given_up");
+  std::vector<int> asked;
+  const auto partitioner = [&asked](const auto& graph, int parts) {
+    asked.push_back(parts);
+    return partition::greedy{}(graph, parts);
+  };
+  generate_options options;
+  options.subdomains = 16;
+  options.store = spool::start(scratch, {});
+  int rounds = 0;
+  options.on_progress.update = [&rounds](std::string_view stage, std::size_t, std::size_t) {
+    rounds += stage == "intersection" ? 1 : 0;
+  };
+  const auto run = [&] {
+    asked.clear();
+    rounds = 0;
+    return generate<3>(
+        shell(0.97), uniform_size(0.2),
+        parameters<>{}.with_mesher(mesher::tetgen{}).with_partitioner(partitioner).with_options(options));
+  };
+  const auto result = run();
+  const report& account = result.summary.find("intersection");
   CHECK(result.failures.empty());
+  CHECK(asked.front() == 16);
+  CHECK(result.plan.subdomains == asked.back());
   CHECK(result.plan.subdomains < 16);
   CHECK(result.mesh.counts.size() <= static_cast<std::size_t>(result.plan.subdomains));
-  REQUIRE_FALSE(result.summary.warnings.empty());
-  CHECK(testing::has(result.summary.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
-  CHECK(testing::has(result.summary.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
+  REQUIRE_FALSE(account.warnings.empty());
+  CHECK(testing::has(account.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
+  CHECK(testing::has(account.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
+  CHECK(account.get("rounds") == rounds);
+
+  // A run that goes on does not begin with what was given up, and tells the same.
+  const int last = asked.back();
+  const auto resumed = run();
+  CHECK(asked == std::vector<int>{last});
+  CHECK(rounds > 0);
+  CHECK(rounds < account.get("rounds"));
+  CHECK(resumed.summary.find("intersection").counters == account.counters);
+  CHECK(resumed.summary.find("intersection").warnings == account.warnings);
+  CHECK(resumed.mesh.skeleton.points == result.mesh.skeleton.points);
+}
+
+TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as there are more than solids") {
+  TopoDS_Compound boxes;
+  BRep_Builder().MakeCompound(boxes);
+  for (const double x : {0.0, 3.0})
+    BRep_Builder().Add(boxes, BRepPrimAPI_MakeBox(gp_Pnt(x, 0, 0), 1, 1, 1).Shape());
+  const any_geometry two(occt_shape_from(boxes).model);
+  for (const auto& [model, parts, can_be_fewer] :
+       {std::tuple{shell(0.5), 4, true}, {shell(0.5), 1, false}, {two, 2, false}}) {
+    CAPTURE(parts);
+    decomposed_shell given(model, parts);
+    REQUIRE(given.pieces.parts == parts);
+    given.given.mesh_surface = any_surface_mesher(fold);
+    auto rounds = given.rounds(0.05);
+    if (can_be_fewer)
+      CHECK_THROWS_AS(rounds.realize_boundaries(), too_many_merges);
+    else
+      CHECK_THROWS_WITH_AS(rounds.realize_boundaries(),
+                           doctest::Contains("stays folded over, also when refined"), intersection_error);
+    CHECK(rounds.intersection().get("refinements") ==
+          (can_be_fewer ? 2 : given.given.options.refinement_rounds));
+  }
+}
+
+TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are as they were") {
+  decomposed_shell given(0.5, 16);
+  const auto realize_with = [&](const any_surface_mesher& mesher, double least_angle_deg) {
+    given.given.mesh_surface = mesher;
+    given.given.options.interface_angle_deg = least_angle_deg;
+    skeleton_store store(std::make_shared<entity_store>());
+    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+                      static_cast<std::size_t>(given.pieces.parts), given.background.size, store,
+                      given.given);
+  };
+  const auto matched = realize_with({}, 30);
+  CHECK(matched.summary.get("matched_lines") > 0);
+  std::set<std::size_t> sizes; // of the loops that are known, by which they are told apart well enough
+  const auto remembers = [&sizes](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
+    sizes.insert(b.points.size());
+    return remesh::patch_remesher{}(s, b, h);
+  };
+  const auto refuses_others = [&sizes](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
+    patch_mesh mesh = remesh::patch_remesher{}(s, b, h);
+    if (!sizes.contains(b.points.size()))
+      mesh.crossings = {{0, 1}};
+    return mesh;
+  };
+  const auto unmatched = realize_with(any_surface_mesher(remembers), 0);
+  CHECK(unmatched.summary.get("matched_lines") == 0);
+  CHECK(unmatched.fine.points != matched.fine.points);
+  const auto taken_back = realize_with(any_surface_mesher(refuses_others), 30);
+  CHECK(taken_back.patches.failures.empty());
+  CHECK(taken_back.summary.get("matched_lines") == 0);
+  CHECK(taken_back.fine.points == unmatched.fine.points);
+}
+
+TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
+  const testing::scratch_folder scratch("given_up");
+  decomposed_shell given(0.5, 6);
+  given.given.options.store = spool::start(scratch, {});
+  const auto pieces = [&] {
+    const auto files = entries_of(scratch);
+    return std::count_if(files.begin(), files.end(), [](const std::filesystem::path& file) {
+      return file.filename().string().starts_with("piece_");
+    });
+  };
+  auto rounds = given.rounds(0.05);
+  rounds.mesh_pieces({});
+  CHECK(pieces() == 6);
+  const report account = rounds.give_up();
+  CHECK(pieces() == 0);
+  CHECK(account.get("rounds") > 0);
+
+  given.given.options.store = {};
+  decomposition_rounds<3> next(given.model, given.background.mesh, given.sides, given.pieces,
+                               given.background.size, given.given, account);
+  CHECK(next.intersection().get("rounds") == account.get("rounds"));
+  next.realize_boundaries();
+  CHECK(next.intersection().get("rounds") == 2 * account.get("rounds"));
+  CHECK(next.intersection().get("largest_merged") == account.get("largest_merged"));
 }
 
 TEST_CASE("Sheets that lie upon each other end in an error after work in proportion to the model") {
@@ -294,8 +431,8 @@ TEST_CASE(
                   parameters<>{}.with_mesher(fails_at_origin{}).with_options({.subdomains = 8}));
   const report& meshing = result.summary.children.back();
   CHECK(result.mesh.counts.size() == 6);
-  CHECK(meshing.get("merged_after_failure") == 2);
   CHECK(result.summary.children[4].get("merges") == 0);
+  CHECK(result.summary.children[4].get("merged_after_failure") == 2);
   CHECK(result.summary.children[4].get("largest_merged") == 3);
   REQUIRE(result.failures.size() == 1);
   CHECK(testing::has(joined_reasons(result.failures.front().reasons), "not here"));

@@ -3,6 +3,7 @@
 /// ladder in rounds; those that still fail come back as data.
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
@@ -51,6 +52,7 @@ struct meshing_options {
 template <int D>
 struct meshed_pieces {
   std::vector<piece_summary> pieces;   ///< per subdomain; counts are 0 where it failed
+  std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where it failed
   std::vector<piece_failure> failures; ///< by growing subdomain
   quality_statistics quality;          ///< of all pieces together
   /// A finished piece; `io_error` when its file is damaged.

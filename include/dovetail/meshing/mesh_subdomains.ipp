@@ -66,6 +66,7 @@ public:
       : store_(std::move(store)), keys_(count), skeleton_points_(count) {}
 
   entity_store& store() const { return *store_; }
+  const std::vector<content_key>& keys() const { return keys_; }
   void place(local_id subdomain, piece_receipt receipt) {
     const auto s = static_cast<std::size_t>(subdomain);
     keys_[s] = receipt.key;
@@ -145,6 +146,7 @@ public:
       run_round(rung);
     report_failures();
     summarize();
+    result_.keys = shelf_->keys();
     result_.summary.seconds = clock.seconds();
     result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
     if (shelf_->store().is_shared()) {

@@ -2,14 +2,20 @@
 /// What `generate.hpp` declares.
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/report_codec.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
+#include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,10 +45,29 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
   return mesh;
 }
 
-/// What follows the background mesh, which is taken when all went well.
+template <int D>
+auto mesh_or_give_up(decomposition_rounds<D>& rounds, std::span<const double> weights, report& account) {
+  try {
+    return rounds.mesh_pieces(weights);
+  } catch (const too_many_merges&) {
+    account = rounds.give_up();
+    throw;
+  }
+}
+
+/// Under which it is kept in the spool that a decomposition was given up; the rest is in the identity.
+template <int D>
+content_key key_of_given_up(const background_result<D>& background) {
+  key_maker make;
+  make(std::int64_t{D})(std::int64_t{background.plan.subdomains});
+  return make(static_cast<std::int64_t>(background.mesh.elements().elements.size())).key();
+}
+
+/// What follows the background mesh, which is taken when all went well. `account` is that of the
+/// decompositions before, and when this one is given up of all.
 template <int D>
 generated<D> generate_once(const any_geometry& model, background_result<D>& background,
-                           const any_parameters<D>& given) {
+                           const any_parameters<D>& given, report& account) {
   const generate_options& options = given.options;
   generated<D> result;
   result.summary.name = "generate";
@@ -69,8 +94,8 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   simplified = {}; // its graph is as large as the background mesh
 
   report partition_summary = std::move(pieces.summary);
-  decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given);
-  auto [skeleton, meshed] = rounds.mesh_pieces(weights);
+  decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given, account);
+  auto [skeleton, meshed] = mesh_or_give_up(rounds, weights, account);
   result.subdomain_of_element = skeleton.subdomain_of_element;
   result.fine_angles =
       detail::fine_interface_angles(skeleton, coarse, sides, side_states, rounds.size(), options);
@@ -93,11 +118,20 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   any_parameters<D> given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
-  std::vector<std::string> told;
-  for (int& subdomains = background.plan.subdomains;;) {
+  // A run that goes on does not begin with a decomposition that was given up: its pieces are no more.
+  std::optional<entity_store> given_up;
+  if (wanted.options.store)
+    given_up.emplace(wanted.options.store, "given_up");
+  report account; // of decompositions that were given up
+  for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
+    const content_key key = detail::key_of_given_up(background);
+    if (const auto found = given_up ? given_up->find(key) : std::nullopt) {
+      byte_reader from(*found);
+      account = decode_report(from);
+      continue;
+    }
     try {
-      auto result = detail::generate_once<D>(model, background, given);
-      append(result.summary.warnings, told);
+      auto result = detail::generate_once<D>(model, background, given, account);
       // Pieces count theirs themselves, in a run that finds them again too.
       const double of_pieces = stops_by_clock(result.summary.find("meshing"));
       result.summary.set("stops_by_clock", std::max(0.0, watch.stops() - of_pieces));
@@ -106,9 +140,16 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
     } catch (const too_many_merges& refused) {
       if (subdomains <= 1)
         throw;
-      told.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
-                     std::to_string(subdomains / 2) + " were asked for: " + refused.what());
-      subdomains /= 2;
+      account.warnings.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
+                                 std::to_string(subdomains / 2) + " were asked for: " + refused.what());
+      if (given_up) {
+        report kept = account;
+        if (watch.stops() > 0)
+          kept.add("stops_by_clock", watch.stops());
+        byte_writer to;
+        encode(to, kept);
+        given_up->keep(key, to.take());
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 /// what fails or crosses is merged or refined and done again, to a fixpoint (paper, sections 3.5, 3.6 and 4).
 #pragma once
 
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,29 +24,48 @@
 namespace dovetail {
 
 /// Lines, patches and pieces are kept from round to round, so that one makes again only what the one before
-/// has changed. Model, mesh and sides must outlive this.
+/// has changed. Model, mesh and sides must outlive this. `account` is that of decompositions that were given
+/// up before, to which this one's is added.
 template <int D>
 class decomposition_rounds {
 public:
   decomposition_rounds(const any_geometry& model, const simplicial_background<D>& mesh,
                        const side_table<D>& sides, decomposition pieces, const any_sizing& size,
-                       const any_parameters<D>& given)
+                       const any_parameters<D>& given, report account = {})
       : model_(model), mesh_(mesh), sides_(sides), given_(given),
         subdomain_of_element_(std::move(pieces.part_of_element)),
         merges_(pieces.parts, given.options.largest_merged_fraction), size_(size),
         made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
-        pieces_(std::make_shared<entity_store>(given.options.store)) {
+        pieces_(std::make_shared<entity_store>(given.options.store)), intersection_(std::move(account)) {
     intersection_.name = "intersection";
   }
 
   decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const side_table<D>&, decomposition,
-                       const any_sizing&, const any_parameters<D>&) = delete;
+                       const any_sizing&, const any_parameters<D>&, report = {}) = delete;
 
   const merge_account& merges() const { return merges_; }
   /// The field given, smaller where something crossed.
   any_sizing size() const { return size_.everywhere(); }
-  /// What was found and done so far.
-  const report& intersection() const { return intersection_; }
+  /// What was found and done so far: "crossings", "rounds", "refinements", "merges", "merged_after_failure",
+  /// "largest_merged".
+  report intersection() const {
+    report account = intersection_;
+    account.add("refinements", refinements_);
+    account.add("merges", merges_.merged() - merged_after_failure_);
+    account.add("merged_after_failure", merged_after_failure_);
+    account.set("largest_merged", std::max<double>(account.get("largest_merged"), merges_.largest()));
+    return account;
+  }
+
+  /// For a decomposition that is not gone on with: its finished pieces are removed from the store. Returns
+  /// the account, with what was told as warnings.
+  report give_up() {
+    for (const content_key key : finished_)
+      pieces_->release(key);
+    report account = intersection();
+    append(account.warnings, told_);
+    return account;
+  }
 
   /// Remeshes the boundaries until no patch fails and none crosses another. Throws `intersection_error` when
   /// two CAD faces cross, `too_many_merges` when too many subdomains would have to be merged in all,
@@ -67,13 +88,10 @@ public:
     for (;;) {
       auto made = realize_boundaries();
       auto meshed = mesh_all_pieces(model_, mesh_, made, weights, size_, pieces_, given_);
+      finished_.insert(meshed.keys.begin(), meshed.keys.end());
       if (merge_failed(made, meshed) ||
           !suppress(plan_for_pieces(model_, made, meshed, given_, intersection_)))
         continue;
-      intersection_.set("refinements", refinements_);
-      intersection_.set("merges", merges_.merged() - merged_after_failure_);
-      intersection_.set("largest_merged", merges_.largest());
-      meshed.summary.set("merged_after_failure", merged_after_failure_);
       append(meshed.summary.warnings, told_);
       return {std::move(made), std::move(meshed)};
     }
@@ -159,6 +177,7 @@ private:
   refined_sizing size_; ///< the field given, smaller where something crossed
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;
+  std::set<content_key> finished_; ///< pieces, of all rounds
   report intersection_;
   double skeleton_seconds_ = 0;
   int refinements_ = 0;
