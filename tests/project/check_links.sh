@@ -1,11 +1,23 @@
 #!/bin/bash
-# Every relative link and picture in the documents leads to a file.
+# Every relative link and picture in the documents leads to a file, and what follows a # to a heading in it.
 set -uo pipefail
 problems=0
+
+# The anchors of a document: its headings, written as GitHub and MkDocs do.
+anchors_of() {
+  awk '/^```/ { code = !code } !code && /^#+ / { sub("^#+ +", ""); print }' "$1" |
+    sed -E 's/\[([^]]*)\]\([^)]*\)/\1/g; s/`//g' | tr '[:upper:]' '[:lower:]' | sed -E 's/[^a-z0-9_ -]//g; s/ /-/g'
+}
+
 for document in *.md docs/*.md docs/*/*.md; do
   while IFS= read -r target; do
-    [[ $target =~ ^(https?:|#|mailto:) ]] && continue
-    [[ -e $(dirname "$document")/${target%%#*} ]] || { echo "$document: $target does not exist"; problems=1; }
+    [[ $target =~ ^(https?:|mailto:) ]] && continue
+    file=${target%%#*}
+    file=${file:+$(dirname "$document")/$file}
+    file=${file:-$document}
+    [[ -e $file ]] || { echo "$document: $target does not exist"; problems=1; continue; }
+    [[ $target == *#* && $file == *.md ]] || continue
+    anchors_of "$file" | grep -qxF -- "${target#*#}" || { echo "$document: $target: there is no such heading"; problems=1; }
   done < <(grep -oE '\]\([^) ]+\)' "$document" | sed 's/^](//; s/)$//')
 done
 exit $problems
