@@ -94,7 +94,7 @@ struct geometry_topology {
 ///
 /// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
 ///
-/// Models: occt_model, discrete_model, implicit_model, plane_domain.
+/// Models: occt_model, discrete_model, curved_model, implicit_model, plane_domain.
 template <class G>
 concept geometry_model = std::copy_constructible<G> &&
     requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {

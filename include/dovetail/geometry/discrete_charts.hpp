@@ -7,6 +7,7 @@
 #include "dovetail/geometry/discrete_contours.hpp"
 #include "dovetail/geometry/discrete_loops.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
+#include "dovetail/geometry/discrete_smooth_areas.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
@@ -35,10 +36,11 @@ namespace discrete {
 class chart_cutter {
 public:
   chart_cutter(const oriented_surfaces& surfaces, const chart_options& options)
-      : s_{surfaces.mesh, {}, {}, surfaces.groups, surfaces.solid_of, {}}, measures_(s_.mesh),
-        cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
+      : s_{surfaces.mesh, {}, {}, surfaces.groups, surfaces.solid_of, surfaces.front_of, {}},
+        measures_(s_.mesh), cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
+    s_.front_of.resize(triangles().size(), no_id);
     connect();
-    find_smooth_areas(options.feature_angle_deg * radians_per_degree);
+    s_.smooth_of = smooth_areas(measures_, neighbours_, s_.group_of, options.feature_angle_deg);
     s_.chart_of = s_.smooth_of;
   }
 
@@ -86,42 +88,6 @@ private:
   /// The triangle opposite corner i of t, or nowhere.
   std::size_t across(std::size_t t, std::size_t i) const {
     return static_cast<std::size_t>(neighbours_[t][i]);
-  }
-
-  /// Floods over triangle pairs that `joined`; numbers the clusters in the order of their first triangles.
-  template <class Joined>
-  std::vector<local_id> clusters(Joined&& joined) const {
-    std::vector<local_id> cluster(neighbours_.size(), no_id);
-    std::vector<std::size_t> pending;
-    local_id count = 0;
-    for (std::size_t seed = 0; seed < cluster.size(); ++seed) {
-      if (cluster[seed] != no_id)
-        continue;
-      cluster[seed] = count;
-      pending.assign(1, seed);
-      while (!pending.empty()) {
-        const std::size_t t = pending.back();
-        pending.pop_back();
-        for (std::size_t i = 0; i < 3; ++i) {
-          const std::size_t next = across(t, i);
-          if (next != nowhere && cluster[next] == no_id && joined(t, next)) {
-            cluster[next] = count;
-            pending.push_back(next);
-          }
-        }
-      }
-      ++count;
-    }
-    return cluster;
-  }
-
-  void find_smooth_areas(double feature_angle) {
-    s_.smooth_of = clusters([&](std::size_t t, std::size_t next) {
-      if (s_.group_of[t] != s_.group_of[next])
-        return false;
-      return is_sliver(t) || is_sliver(next) ||
-             angle_between(area_vector(t), area_vector(next)) <= feature_angle;
-    });
   }
 
   void gather() {
@@ -275,7 +241,7 @@ private:
       return s_.chart_of[t] == s_.chart_of[next] && side[t] == side[next];
     };
     if (tidy) {
-      const auto cluster = clusters(joined);
+      const auto cluster = clusters(neighbours_, joined);
       std::vector<double> cluster_area(
           1 + static_cast<std::size_t>(*std::max_element(cluster.begin(), cluster.end())));
       std::vector<double> chart_area(members_.size());
@@ -288,7 +254,7 @@ private:
                               0.02 * chart_area[static_cast<std::size_t>(s_.chart_of[t])])
           side[t] = side[t] ? 0 : 1;
     }
-    s_.chart_of = clusters(joined);
+    s_.chart_of = clusters(neighbours_, joined);
   }
 
   charted_surface s_;

@@ -20,8 +20,14 @@ struct charted_surface {
   std::vector<local_id> smooth_of; ///< per triangle: the smooth area; it changes across feature edges
   std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
   std::vector<local_id> group_of;  ///< per triangle: named group of the file, or no_id
-  std::vector<local_id> solid_of;  ///< per triangle; no_id in sheets
+  std::vector<local_id> solid_of;  ///< per triangle: the solid behind it; no_id in sheets
+  std::vector<local_id> front_of;  ///< per triangle: the solid in front of it; no_id where there is none
   std::vector<discrete::chart_frame> frames; ///< per chart
+
+  /// All that is known per triangle.
+  std::array<std::vector<local_id>*, 5> of_triangles() {
+    return {&smooth_of, &chart_of, &group_of, &solid_of, &front_of};
+  }
 };
 
 namespace discrete {
@@ -124,7 +130,7 @@ private:
       } else {
         triangles().push_back({a.v, b.v, c.v});
         values_.push_back(values);
-        for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of}) {
+        for (auto* tags : s_.of_triangles()) {
           const local_id tag = (*tags)[t];
           tags->push_back(tag);
         }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/discrete_crossings.hpp"
 #include "dovetail/geometry/discrete_nesting.hpp"
 #include "dovetail/geometry/discrete_orientation.hpp"
@@ -22,15 +23,16 @@
 
 namespace dovetail {
 
-/// Surfaces in which an edge has two triangles that pass it in opposite directions, or one where it is the
-/// boundary of a sheet. The normals of closed surfaces point out of their solid's material, those of a sheet
-/// to the side that most of its triangles were listed with.
+/// Surfaces in which an edge has two triangles that pass it in opposite directions, one where it is the
+/// boundary of a sheet, or more where surfaces between solids meet. The normals of closed surfaces point out
+/// of the material behind them, those of a sheet to the side that most of its triangles were listed with.
 struct oriented_surfaces {
   simplicial_mesh<2> mesh;
   std::vector<local_id> groups; ///< per triangle: index into `group_names`, or no_id
   std::vector<std::string> group_names;
   std::vector<local_id> group_numbers; ///< per group: its number in the soup
   std::vector<local_id> solid_of;      ///< per triangle: the solid behind it; no_id in sheets
+  std::vector<local_id> front_of;      ///< per triangle: the solid in front of it; empty: nowhere is one
   local_id solids = 0;
   report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
 };
@@ -42,6 +44,20 @@ struct repair_options {
 };
 
 namespace discrete {
+
+/// Groups that are numbers of one's own become indices; their names are the numbers.
+inline void name_groups_by_numbers(oriented_surfaces& surfaces) {
+  auto& numbers = surfaces.group_numbers;
+  numbers = surfaces.groups;
+  sort_unique(numbers);
+  std::erase(numbers, no_id);
+  for (const local_id number : numbers)
+    surfaces.group_names.push_back(std::to_string(number));
+  for (local_id& group : surfaces.groups)
+    if (group != no_id)
+      group =
+          static_cast<local_id>(std::lower_bound(numbers.begin(), numbers.end(), group) - numbers.begin());
+}
 
 /// Works on one soup, step by step; `name` is how messages call it.
 class soup_repair {
@@ -76,24 +92,14 @@ public:
   }
 
 private:
-  /// Groups without names are called by their numbers.
   void take_groups(const triangle_soup& soup) {
     result_.groups = soup.groups;
     result_.groups.resize(soup.triangles.size(), no_id);
     result_.group_names = soup.group_names;
-    result_.group_numbers = own_group_numbers(soup);
-    if (!soup.group_names.empty()) {
-      result_.group_numbers.resize(soup.group_names.size());
-      std::iota(result_.group_numbers.begin(), result_.group_numbers.end(), local_id{0});
-      return;
-    }
-    for (const local_id number : result_.group_numbers)
-      result_.group_names.push_back(std::to_string(number));
-    for (local_id& group : result_.groups)
-      if (group != no_id)
-        group = static_cast<local_id>(
-            std::lower_bound(result_.group_numbers.begin(), result_.group_numbers.end(), group) -
-            result_.group_numbers.begin());
+    result_.group_numbers.resize(soup.group_names.size());
+    std::iota(result_.group_numbers.begin(), result_.group_numbers.end(), local_id{0});
+    if (soup.group_names.empty())
+      name_groups_by_numbers(result_);
   }
 
   std::vector<vec3>& points() { return result_.mesh.points; }

@@ -56,19 +56,6 @@ inline void check_soup(const triangle_soup& soup, const std::string& name) {
                              std::to_string(soup.group_names.size()) + " names of groups");
 }
 
-/// The numbers that stand for groups without names, ascending; none where there are names.
-inline std::vector<local_id> own_group_numbers(const triangle_soup& soup) {
-  std::vector<local_id> numbers;
-  if (!soup.group_names.empty())
-    return numbers;
-  for (const local_id group : soup.groups)
-    if (group != no_id)
-      numbers.push_back(group);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
 namespace discrete {
 
 /// Reads words and numbers off a text, line by line, and names file and line when something is wrong.

@@ -59,12 +59,12 @@ private:
         at_[index(v)].push_back(t);
   }
 
-  /// Marks the vertices on the boundary of a sheet; they stay where they are.
+  /// Marks the vertices where a sheet ends or several meet; they stay where they are.
   void find_rim() {
     on_rim_.assign(s_.mesh.points.size(), 0);
     const auto sides = build_sides<2>(s_.mesh);
     for (std::size_t side = 0; side < sides.size(); ++side)
-      if (sides.is_boundary(static_cast<local_id>(side)))
+      if (!sides.is_interior(static_cast<local_id>(side)))
         for (const local_id v : sides.vertices[side])
           on_rim_[index(v)] = 1;
   }
@@ -196,12 +196,12 @@ private:
       if (removed_[t])
         continue;
       triangles()[kept] = triangles()[t];
-      for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of})
+      for (auto* tags : s_.of_triangles())
         (*tags)[kept] = (*tags)[t];
       ++kept;
     }
     triangles().resize(kept);
-    for (auto* tags : {&s_.smooth_of, &s_.chart_of, &s_.group_of, &s_.solid_of})
+    for (auto* tags : s_.of_triangles())
       tags->resize(kept);
     s_.mesh.tags = s_.chart_of;
   }

@@ -56,15 +56,18 @@ public:
 
 private:
   struct chart_edge {
-    std::array<local_id, 2> ends;   ///< sorted
-    std::array<local_id, 2> charts; ///< sorted; no_id outside of a sheet
+    std::array<local_id, 2> ends; ///< sorted
+    std::vector<local_id> charts; ///< sorted; no_id outside of a sheet
     bool feature;
   };
 
   static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   vec3 point(local_id v) const { return s_.mesh.points[index(v)]; }
   std::size_t across(std::size_t t, std::size_t i) const { return index(neighbours_[t][i]); }
-  local_id solid_count() const { return 1 + *std::max_element(s_.solid_of.begin(), s_.solid_of.end()); }
+  local_id solid_count() const {
+    return 1 + std::max(*std::max_element(s_.solid_of.begin(), s_.solid_of.end()),
+                        *std::max_element(s_.front_of.begin(), s_.front_of.end()));
+  }
 
   void collect_edges() {
     for (std::size_t t = 0; t < s_.mesh.elements.size(); ++t)
@@ -80,13 +83,26 @@ private:
                           {std::min(s_.chart_of[t], other_chart), std::max(s_.chart_of[t], other_chart)},
                           rim || s_.smooth_of[t] != s_.smooth_of[other]});
       }
-    std::sort(edges_.begin(), edges_.end(),
-              [](const chart_edge& a, const chart_edge& b) { return a.ends < b.ends; });
+    std::sort(edges_.begin(), edges_.end(), [](const chart_edge& a, const chart_edge& b) {
+      return std::tie(a.ends, a.charts) < std::tie(b.ends, b.charts);
+    });
+    join_repeated_edges();
     curve_of_.assign(edges_.size(), no_id);
     for (std::size_t e = 0; e < edges_.size(); ++e)
       for (const local_id v : edges_[e].ends)
         at_vertex_.emplace_back(v, e);
     std::sort(at_vertex_.begin(), at_vertex_.end());
+  }
+
+  /// Where more than two triangles meet, each has brought the edge.
+  void join_repeated_edges() {
+    std::vector<chart_edge> joined;
+    for (chart_edge& e : edges_)
+      if (!joined.empty() && joined.back().ends == e.ends)
+        joined.back().charts.insert(joined.back().charts.end(), e.charts.begin(), e.charts.end());
+      else
+        joined.push_back(std::move(e));
+    edges_ = std::move(joined);
   }
 
   std::pair<std::size_t, std::size_t> edges_at(local_id v) const {
@@ -174,7 +190,7 @@ private:
       members[index(s_.chart_of[t])].push_back(t);
     for (const auto& chart : members) {
       geometry_topology::face face;
-      face.solids = {s_.solid_of[chart.front()], no_id};
+      face.solids = {s_.solid_of[chart.front()], s_.front_of[chart.front()]};
       const local_id group = s_.group_of[chart.front()];
       face.group = group == no_id ? "" : group_names_[index(group)];
       face.name = "surface " + std::to_string(s_.smooth_of[chart.front()]);

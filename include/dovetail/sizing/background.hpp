@@ -1,5 +1,5 @@
 /// @file
-/// A sizing field given by values on the nodes of a tetrahedral mesh, linear in each element.
+/// A sizing field given by values on the nodes of a mesh, linear in each element.
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
@@ -22,24 +22,27 @@
 
 namespace dovetail {
 
-/// Interpolates nodal sizes; outside the mesh the value at the nearest point of its boundary. Built in O(n
-/// log n), evaluated in O(log n). Throws `sizing_error` when there is not one positive, finite size per node,
-/// when the mesh is empty, and when an element is flat or refers to a node that does not exist.
+/// Interpolates nodal sizes; outside the mesh the value at the nearest point of its boundary, and beside a
+/// mesh of triangles at its nearest point. Built in O(n log n), evaluated in O(log n). Throws `sizing_error`
+/// when there is not one positive, finite size per node, when the mesh is empty, and when an element is flat
+/// or refers to a node that does not exist.
 class background_field {
 public:
   background_field(simplicial_mesh<3> mesh, std::vector<double> sizes)
       : points_(std::move(mesh.points)), elements_(std::move(mesh.elements)), sizes_(std::move(sizes)) {
-    check();
-    std::vector<box3> boxes;
-    boxes.reserve(elements_.size());
-    for (const auto& element : elements_)
-      boxes.push_back(box_of(element));
-    element_tree_ = box_tree(boxes);
+    check(elements_, "tetrahedron");
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const auto& n = elements_[e];
+      if (signed_volume(point(n[0]), point(n[1]), point(n[2]), point(n[3])) == 0)
+        throw sizing_error("element " + std::to_string(e) + " of the background mesh is flat; remove it");
+    }
     collect_boundary();
-    boxes.clear();
-    for (const auto& side : boundary_)
-      boxes.push_back(box_of(side));
-    boundary_tree_ = box_tree(boxes);
+    plant_trees();
+  }
+  background_field(simplicial_mesh<2> mesh, std::vector<double> sizes)
+      : points_(std::move(mesh.points)), sizes_(std::move(sizes)), boundary_(std::move(mesh.elements)) {
+    check(boundary_, "triangle");
+    plant_trees();
   }
 
   /// The nodes, elements and sizes, for another process.
@@ -173,9 +176,11 @@ private:
     return std::max(least, size_of(e[0]) + dot(gradient, center - a) - norm(gradient) * radius);
   }
 
-  void check() const {
-    if (elements_.empty())
-      throw sizing_error("the background mesh has no tetrahedron; give one that covers the model");
+  template <std::size_t N>
+  void check(const std::vector<std::array<local_id, N>>& elements, const char* element) const {
+    if (elements.empty())
+      throw sizing_error(std::string("the background mesh has no ") + element +
+                         "; give one that covers the model");
     if (sizes_.size() != points_.size())
       throw sizing_error("the background mesh has " + std::to_string(points_.size()) + " nodes and " +
                          std::to_string(sizes_.size()) + " sizes; give one size per node");
@@ -183,15 +188,23 @@ private:
       sizing::checked_point(points_[i], "node " + std::to_string(i) + " of the background mesh");
       sizing::checked_size(sizes_[i], "the size at node " + std::to_string(i) + " of the background mesh");
     }
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-      for (const local_id i : elements_[e])
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      for (const local_id i : elements[e])
         if (i < 0 || static_cast<std::size_t>(i) >= points_.size())
           throw sizing_error("element " + std::to_string(e) + " of the background mesh refers to node " +
                              std::to_string(i) + ", which does not exist");
-      const auto& n = elements_[e];
-      if (signed_volume(point(n[0]), point(n[1]), point(n[2]), point(n[3])) == 0)
-        throw sizing_error("element " + std::to_string(e) + " of the background mesh is flat; remove it");
-    }
+  }
+
+  void plant_trees() {
+    const auto boxes_of = [this](const auto& simplices) {
+      std::vector<box3> boxes;
+      boxes.reserve(simplices.size());
+      for (const auto& nodes : simplices)
+        boxes.push_back(box_of(nodes));
+      return boxes;
+    };
+    element_tree_ = box_tree(boxes_of(elements_));
+    boundary_tree_ = box_tree(boxes_of(boundary_));
   }
 
   void collect_boundary() {

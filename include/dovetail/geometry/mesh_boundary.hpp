@@ -1,0 +1,142 @@
+/// @file
+/// The surfaces that a mesh ends at, and that its materials meet at, as what geometry models are made of.
+#pragma once
+
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/geometry/discrete_repair.hpp"
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/unused_points.hpp"
+#include "dovetail/mesh/validity.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// The body that a mesh of tetrahedra fills. Each connected part of a material is a solid of its own.
+struct mesh_boundary {
+  oriented_surfaces surfaces; ///< groups: the ids of sides, which are their names too
+  std::vector<local_id> material_of_solid;
+};
+
+namespace detail {
+
+/// Throws `mesh_error` when elements cannot be told from each other's inside and outside.
+template <int D>
+void require_boundary_to_find(const simplicial_mesh<D>& mesh) {
+  if (mesh.elements.empty())
+    throw mesh_error(std::string("the mesh has no ") + (D == 3 ? "tetrahedron" : "triangle") +
+                     ": there is nothing to adapt");
+  const auto found =
+      check_validity(mesh, {.closed_boundary = false, .non_manifold_sides = D == 2, .isolated_points = true});
+  if (!found.valid())
+    throw mesh_error("the mesh is not valid, so that its boundary cannot be found: " + found.text());
+}
+
+/// The solid of each element, and the material of each solid.
+inline std::pair<std::vector<local_id>, std::vector<local_id>> solids_of(const simplicial_mesh<3>& mesh,
+                                                                         const side_table<3>& sides) {
+  const auto material = [&](std::size_t e) { return mesh.tags.empty() ? 0 : mesh.tags[e]; };
+  std::vector<local_id> solid(mesh.elements.size(), no_id);
+  std::vector<local_id> materials;
+  std::vector<std::size_t> pending;
+  for (std::size_t seed = 0; seed < solid.size(); ++seed) {
+    if (solid[seed] != no_id)
+      continue;
+    solid[seed] = static_cast<local_id>(materials.size());
+    pending.assign(1, seed);
+    while (!pending.empty()) {
+      const std::size_t e = pending.back();
+      pending.pop_back();
+      for (const local_id side : sides.of_element[e]) {
+        const local_id other = sides.across(side, static_cast<local_id>(e));
+        const auto next = static_cast<std::size_t>(other);
+        if (other == no_id || solid[next] != no_id || material(next) != material(seed))
+          continue;
+        solid[next] = solid[seed];
+        pending.push_back(next);
+      }
+    }
+    materials.push_back(material(seed));
+  }
+  return {std::move(solid), std::move(materials)};
+}
+
+} // namespace detail
+
+/// The boundary of a mesh and of its materials (`mesh.tags`). `given` are sides with ids, in any orientation;
+/// those inside a material do not count, which a warning tells, and sides that are not given have no id.
+/// O(n log n). Throws `mesh_error` for a mesh without elements or with faults, and when ids are negative or
+/// not one per side.
+inline mesh_boundary boundary_of(const simplicial_mesh<3>& mesh, const std::vector<simplex<2>>& given,
+                                 const std::vector<local_id>& ids) {
+  detail::require_boundary_to_find(mesh);
+  if (given.size() != ids.size())
+    throw mesh_error("there are " + std::to_string(given.size()) + " sides and " +
+                     std::to_string(ids.size()) + " ids; give one id per side");
+  std::vector<std::pair<simplex<2>, local_id>> known;
+  for (std::size_t s = 0; s < given.size(); ++s) {
+    if (ids[s] < 0 && ids[s] != no_id)
+      throw mesh_error("side " + std::to_string(s) + " has the id " + std::to_string(ids[s]) +
+                       "; ids are not negative");
+    known.emplace_back(sorted_vertices(given[s]), ids[s]);
+  }
+  std::sort(known.begin(), known.end());
+
+  const side_table<3> sides = build_sides(mesh);
+  mesh_boundary made;
+  auto& [surfaces, materials] = made;
+  std::vector<local_id> solid_of;
+  std::tie(solid_of, materials) = detail::solids_of(mesh, sides);
+  surfaces.solids = static_cast<local_id>(materials.size());
+  surfaces.mesh.points = mesh.points;
+  std::size_t used = 0;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    auto [behind, front] = sides.elements[s];
+    const auto solid = [&](local_id e) { return e == no_id ? no_id : solid_of[static_cast<std::size_t>(e)]; };
+    if (front != no_id && solid(behind) == solid(front))
+      continue;
+    if (front != no_id && solid(front) < solid(behind))
+      std::swap(behind, front);
+    surfaces.mesh.elements.push_back(side_of_element<3>(mesh, sides, static_cast<local_id>(s), behind));
+    surfaces.solid_of.push_back(solid(behind));
+    surfaces.front_of.push_back(solid(front));
+    const auto key = sorted_vertices(sides.vertices[s]);
+    const auto at =
+        std::lower_bound(known.begin(), known.end(), key,
+                         [](const auto& side, const auto& wanted) { return side.first < wanted; });
+    const bool is_known = at != known.end() && at->first == key;
+    surfaces.groups.push_back(is_known ? at->second : no_id);
+    used += is_known ? 1 : 0;
+  }
+  known.erase(std::unique(known.begin(), known.end(),
+                          [](const auto& a, const auto& b) { return a.first == b.first; }),
+              known.end());
+  if (used < known.size())
+    surfaces.repairs.warnings.push_back(std::to_string(known.size() - used) +
+                                        " sides with ids are not on the boundary of a material; the adapted "
+                                        "mesh knows nothing of them");
+  drop_unused_points(surfaces.mesh);
+  discrete::name_groups_by_numbers(surfaces);
+  return made;
+}
+
+/// A mesh of triangles as a surface: its tags are ids. Throws `mesh_error` for one that is empty, and
+/// `geometry_error` where it has one side only.
+inline oriented_surfaces surface_of(const simplicial_mesh<2>& mesh) {
+  detail::require_boundary_to_find(mesh);
+  oriented_surfaces surfaces;
+  surfaces.mesh.points = mesh.points;
+  surfaces.mesh.elements = mesh.elements;
+  surfaces.groups = mesh.tags;
+  surfaces.groups.resize(mesh.elements.size(), no_id);
+  surfaces.solid_of.assign(mesh.elements.size(), no_id);
+  drop_unused_points(surfaces.mesh);
+  discrete::name_groups_by_numbers(surfaces);
+  return surfaces;
+}
+
+} // namespace dovetail

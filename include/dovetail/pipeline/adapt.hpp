@@ -1,0 +1,95 @@
+/// @file
+/// A mesh made anew in other sizes, on the boundary that it has: the step between an estimate of the error
+/// and the next solution.
+#pragma once
+
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/pipeline/adaptation_options.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/erased.hpp"
+
+#include <concepts>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// A mesh with what has to outlast an adaptation. Numbers of materials and ids are one's own.
+template <int D>
+struct adaptable_mesh {
+  simplicial_mesh<D> mesh; ///< tags: materials (D = 3), ids of surfaces (D = 2); none: all are 0
+  /// Sides with ids, in any orientation (D = 3): on the boundary or between materials. Edges between two ids
+  /// stay where they are. Sides that are not listed have none.
+  std::vector<simplex<2>> sides = {};
+  std::vector<local_id> side_ids = {};
+  /// Per element: the part of the adaptation that made it, for solvers in parallel; not looked at.
+  std::vector<local_id> subdomains = {};
+};
+
+/// A generated mesh, with the model that was made of the old one's boundary.
+template <int D>
+struct adapted : generated<D> {
+  any_geometry model;
+  std::vector<local_id> id_of_face; ///< per face of the model, which side_hosts and tags (D = 2) refer to
+  std::vector<local_id>
+      material_of_solid; ///< per solid of the model: `material` of pieces is a solid (D = 3)
+};
+
+/// The model of a mesh's boundary: smooth between its points as its normals tell, so that boundaries do not
+/// shrink from one adaptation to the next.
+template <int D>
+struct boundary_model {
+  any_geometry model;
+  std::vector<local_id> id_of_face;
+  std::vector<local_id> material_of_solid;
+  std::vector<std::string> warnings;
+};
+
+/// Throws `mesh_error` for a mesh without elements or with faults, and when there is not one id per side.
+template <int D>
+boundary_model<D> model_of_boundary(const adaptable_mesh<D>& old,
+                                    double feature_angle_deg = adaptation_options{}.feature_angle_deg);
+
+/// The field of sizes at the points of a mesh: linear in its elements, with limited growth. Throws
+/// `sizing_error` when there is not one positive, finite size per point.
+template <int D>
+erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double> sizes, double growth);
+
+/// Meshes the model of a boundary: what `adapt` does when it has made it. Throws what `generate` throws.
+template <int D>
+adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const any_parameters<D>& given);
+
+/// Makes a mesh of what `old` is a mesh of, sized by `sizes`: values at its points, or a sizing field. The
+/// boundary is that of `old`, made smooth between its points; features, interfaces of materials and edges
+/// between ids stay where they are, and materials and ids are the same again. The old elements are not used.
+///
+///     auto next = adapt<3>(old, sizes, parameters<>{}.with_mesher(mesher::tetgen{}));
+///     adaptable_mesh<3> mesh = whole_mesh(next);
+///
+/// Throws what `model_of_boundary`, `sizes_at_points` and `generate` throw.
+template <int D, class Sizes, class Parameters>
+  requires(sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>)
+adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
+                 const adaptation_options& options = {}) {
+  if constexpr (detail::checked_parameters<D, Parameters>()) {
+    const any_parameters<D> given(policies);
+    if constexpr (sizing_field<Sizes>)
+      return mesh_again<D>(model_of_boundary(old, options.feature_angle_deg), erased_sizing(sizes), given);
+    else {
+      const auto size = sizes_at_points(old.mesh, sizes, options.growth);
+      return mesh_again<D>(model_of_boundary(old, options.feature_angle_deg), size, given);
+    }
+  }
+}
+
+/// An adapted mesh in one piece, with the old numbers of materials and ids: to be solved on, and adapted
+/// again. Throws what `io::gather` throws.
+template <int D>
+adaptable_mesh<D> whole_mesh(const adapted<D>& made);
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/adapt.ipp"
+#endif
