@@ -47,21 +47,25 @@ void add_model_options(CLI::App& command, model_options& options) {
       ->excludes(size);
 }
 
-void add_run_options(CLI::App& command, mesh_options& options) {
-  add_decomposition_options(command, options);
+void add_policy_options(CLI::App& command, mesh_options& options) {
   command.add_option("--mesher", options.mesher,
                      "Volume mesher: " + joined(mesher_names<3>()) +
-                         "; of --dimension 2: " + joined(mesher_names<2>()));
+                         "; of triangles: " + joined(mesher_names<2>()));
   command.add_option("--surface-mesher", options.surface_mesher,
                      "Mesher of the surface of --dimension 3: " + joined(surface_mesher_names()));
-  command.add_option("--background-mesher", options.background_mesher,
-                     "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
   command.add_option("--partitioner", options.partitioner,
                      "Graph partitioner: " + joined(partitioner_names()));
   command.add_option("--simplifier", options.simplifier,
                      "Rule for sides that may not become interfaces: " + joined(simplifier_names()));
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
   command.add_option("--executor", options.executor, "Where pieces are meshed: " + joined(executor_names()));
+}
+
+void add_run_options(CLI::App& command, mesh_options& options) {
+  add_decomposition_options(command, options);
+  add_policy_options(command, options);
+  command.add_option("--background-mesher", options.background_mesher,
+                     "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
 }
 
 void add_output_options(CLI::App& command, mesh_options& options) {
@@ -87,6 +91,7 @@ struct parser {
   check_options check;
   stats_options stats;
   improve_options improve;
+  adapt_options adapt;
   compare_options compare;
   std::function<int()> chosen;
   command_outputs outputs;
@@ -108,6 +113,7 @@ struct parser {
     add_check();
     add_stats();
     add_improve();
+    add_adapt();
     add_compare();
   }
 
@@ -165,13 +171,42 @@ struct parser {
     command.add_option("IN", improve.input, "Mesh file")->required();
     command.add_option("-o,--out", improve.out, "Mesh file to write (VTU or MSH)")->required();
     command.add_option("--preset", improve.preset, "Improver: " + joined(improver_names()));
-    auto* size = command.add_option("--size", improve.size, "Target edge length (default: as in the mesh)");
-    command.add_option("--sizing", improve.sizing, "JSON file with a sizing field")->excludes(size);
     command.add_option("--report", improve.report, "JSON file for the figures");
     command.add_flag("--quiet", improve.quiet, "No progress and no summary");
     command.callback([this] {
       chosen = [this] { return run_improve(improve); };
       outputs.files = {improve.out, improve.report};
+    });
+  }
+  void add_adapt() {
+    auto& command =
+        *app.add_subcommand("adapt", "Mesh what a mesh file is a mesh of in other sizes, boundary kept");
+    add_examples(command, {"dovetail adapt mesh.vtu --sizes h -o next.vtu",
+                           "dovetail adapt mesh.msh -s 2 --feature-angle 30 -o next.msh -j 2"});
+    command.add_option("MESH", adapt.input, "Mesh file (VTU, PVTU, MSH)")->required();
+    command.add_option("-o,--out", adapt.out, "Mesh file to write (VTU or MSH)")->required();
+    auto* sizes =
+        command.add_option("--sizes", adapt.sizes,
+                           "Values at the points of the mesh that are the new edge lengths: the name "
+                           "of point data (VTU) or node data (MSH)");
+    auto* size = command.add_option("-s,--size", adapt.size, "Edge length everywhere")->excludes(sizes);
+    command.add_option("--sizing", adapt.sizing, "JSON file with a sizing field (docs/sizing.md)")
+        ->excludes(sizes)
+        ->excludes(size);
+    command.add_option("--growth", adapt.how.growth, "Most that --sizes may grow per length")
+        ->capture_default_str();
+    command
+        .add_option("--feature-angle", adapt.how.feature_angle_deg,
+                    "Edges at which the boundary turns by more degrees stay where they are")
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str();
+    add_part_options(command, adapt.run);
+    add_policy_options(command, adapt.run);
+    command.add_option("--report", adapt.report, "JSON file for the figures");
+    command.add_flag("--quiet", adapt.quiet, "No progress and no summary");
+    command.callback([this] {
+      chosen = [this] { return run_adapt(adapt); };
+      outputs.files = {adapt.out, adapt.report};
     });
   }
   void add_compare() {

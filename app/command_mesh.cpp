@@ -80,12 +80,6 @@ interface_figures figures_of(const interface_angles& angles, const geometry_topo
   return figures;
 }
 
-void collect_warnings(const report& from, std::vector<std::string>& to) {
-  to.insert(to.end(), from.warnings.begin(), from.warnings.end());
-  for (const auto& part : from.children)
-    collect_warnings(part, to);
-}
-
 void append_files(const report& from, std::vector<std::string>& to) {
   to.insert(to.end(), from.files.begin(), from.files.end());
   for (const auto& part : from.children)
@@ -127,17 +121,6 @@ void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& f
   figures.imbalance = pieces.imbalance;
   figures.boundary_triangles = std::count_if(mesh.skeleton.subdomains.begin(), mesh.skeleton.subdomains.end(),
                                              [](const auto& sides) { return sides[1] == no_id; });
-}
-
-std::string text_of(const std::vector<piece_failure>& failures) {
-  std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
-  for (const auto& failure : failures) {
-    text += " subdomain " + std::to_string(failure.subdomain) + ": " + joined_reasons(failure.reasons);
-    if (!failure.facets.empty())
-      text += " (facets in " + failure.facets.string() + ")";
-    text += ";";
-  }
-  return text + " give another size or --subdomains";
 }
 
 /// One run of `dovetail mesh`.
@@ -194,7 +177,7 @@ private:
     describe(source, result);
     if (!result.failures.empty()) {
       finish();
-      throw mesher_error(text_of(result.failures));
+      throw mesher_error(text_of_failures(result.failures));
     }
     write(result.mesh, folder, finished);
     finish();

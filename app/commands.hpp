@@ -14,5 +14,6 @@ int run_models();
 int run_check(const check_options& options);
 int run_stats(const stats_options& options);
 int run_improve(const improve_options& options);
+int run_adapt(const adapt_options& options);
 
 } // namespace dovetail::app

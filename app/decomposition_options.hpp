@@ -6,7 +6,18 @@
 
 namespace dovetail::app {
 
-/// Adds what is meshed and in how many parts. `Options` has the members named like the options.
+/// Adds in how many parts something is meshed, and by how many workers. `Options` has the members named like
+/// the options.
+template <class Options>
+void add_part_options(CLI::App& command, Options& options) {
+  command.add_option("--subdomains", options.subdomains,
+                     "Number of subdomains (default: from the predicted number of elements)");
+  command.add_option("--coarsening", options.coarsening,
+                     "Edge length of the background mesh over the target (default: from the prediction)");
+  command.add_option("-j,--workers", options.workers, "Worker processes (default: the number of processors)");
+}
+
+/// Adds what is meshed and in how many parts.
 template <class Options>
 void add_decomposition_options(CLI::App& command, Options& options) {
   command
@@ -15,11 +26,7 @@ void add_decomposition_options(CLI::App& command, Options& options) {
           "Dimension of the elements: 3, or 2 for triangles on the model's surface or in a plane domain")
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
-  command.add_option("--subdomains", options.subdomains,
-                     "Number of subdomains (default: from the predicted number of elements)");
-  command.add_option("--coarsening", options.coarsening,
-                     "Edge length of the background mesh over the target (default: from the prediction)");
-  command.add_option("-j,--workers", options.workers, "Worker processes (default: the number of processors)");
+  add_part_options(command, options);
 }
 
 } // namespace dovetail::app

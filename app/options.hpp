@@ -2,6 +2,8 @@
 /// What the command line asks for, as plain data.
 #pragma once
 
+#include "dovetail/pipeline/adaptation_options.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +60,18 @@ struct improve_options {
   std::string input;
   std::string out;
   std::string preset;
-  std::string sizing;
+  std::string report;
+  bool quiet = false;
+};
+
+struct adapt_options {
+  std::string input;
+  std::string out;
+  std::string sizes; ///< name of values at points in the input; empty: none
   std::optional<double> size;
+  std::string sizing; ///< JSON file with a sizing field
+  adaptation_options how;
+  mesh_options run; ///< its policies and parts alone
   std::string report;
   bool quiet = false;
 };

@@ -3,9 +3,7 @@
 #include "dovetail/pipeline/whole_background.hpp"
 
 namespace dovetail::app {
-namespace {
 
-/// The library's parameters with these policies.
 template <int D>
 any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
   any_parameters<D> given(policies.mesher, policies.partitioner, policies.improver, policies.executor,
@@ -13,8 +11,6 @@ any_parameters<D> composed(const policies_of<D>& policies, const generate_option
   given.mesh_surface = policies.surface_mesher;
   return given;
 }
-
-} // namespace
 
 template <int D>
 background_result<D> make_background_mesh(const any_geometry& geometry, const any_sizing& size,
@@ -37,6 +33,8 @@ mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
   return plan_background<D>(geometry, size, composed(policies, options));
 }
 
+template any_parameters<2> composed(const policies_of<2>&, const generate_options&);
+template any_parameters<3> composed(const policies_of<3>&, const generate_options&);
 template background_result<2> make_background_mesh(const any_geometry&, const any_sizing&,
                                                    const policies_of<2>&, const generate_options&);
 template background_result<3> make_background_mesh(const any_geometry&, const any_sizing&,

@@ -19,6 +19,10 @@ struct policies_of {
   any_surface_mesher surface_mesher = {};
 };
 
+/// The library's parameters with these policies; a background mesher is not among them.
+template <int D>
+any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options);
+
 /// The two halves of `generate`: the background mesh, which depends on neither partitioner nor improver nor
 /// simplification, and the rest.
 template <int D>

@@ -6,10 +6,12 @@
 #include "run_figures.hpp"
 
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
 
 #include <algorithm>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace dovetail::app {
 
@@ -48,6 +50,25 @@ inline piece_figures figures_of_pieces(std::span<const piece_counts> pieces) {
     figures.imbalance = static_cast<double>(largest) * static_cast<double>(pieces.size()) /
                         static_cast<double>(figures.elements);
   return figures;
+}
+
+/// Appends the warnings of a report and of all its parts.
+inline void collect_warnings(const report& from, std::vector<std::string>& to) {
+  to.insert(to.end(), from.warnings.begin(), from.warnings.end());
+  for (const auto& part : from.children)
+    collect_warnings(part, to);
+}
+
+/// What to say of subdomains that no attempt could mesh.
+inline std::string text_of_failures(const std::vector<piece_failure>& failures) {
+  std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
+  for (const auto& failure : failures) {
+    text += " subdomain " + std::to_string(failure.subdomain) + ": " + joined_reasons(failure.reasons);
+    if (!failure.facets.empty())
+      text += " (facets in " + failure.facets.string() + ")";
+    text += ";";
+  }
+  return text + " give another size or --subdomains";
 }
 
 } // namespace dovetail::app

@@ -33,12 +33,17 @@ expect_usage_error "required|MESH" check
 expect_usage_error "required|MESH" stats
 expect_usage_error "required" improve
 expect_usage_error "required|--out" improve mesh.vtu
+expect_usage_error "required|--out" adapt mesh.vtu --size 1
+expect_usage_error "--sizes, --size or --sizing" adapt mesh.vtu -o next.vtu
+expect_usage_error "excludes|sizes" adapt mesh.vtu -o next.vtu --sizes h --size 1
+expect_usage_error "extension" adapt mesh.vtu -o next.png --sizes h
+expect_usage_error "--feature-angle" adapt mesh.vtu -o next.vtu --sizes h --feature-angle -1
 
 for size in 0 -1 nan -nan inf 1e-400; do
   expect_usage_error "--size" mesh no_such_file.step --size=$size
   expect_usage_error "--size" plan --model combustor --size=$size
   expect_usage_error "--size" compare --model combustor --size=$size
-  expect_usage_error "--size" improve no_such_file.vtu -o better.vtu --size=$size
+  expect_usage_error "--size" adapt no_such_file.vtu -o next.vtu --size=$size
 done
 expect_usage_error "--size" mesh --model combustor --size large
 expect_usage_error "--preset: there is no 'nonsense'; there are: .*hard" \
@@ -62,7 +67,7 @@ expect_error "--size: 1e-20 is less" mesh --model combustor --size 1e-20
 
 # The examples at the end of each help are command lines: what is missing are their files.
 examples=0
-for command in mesh plan check stats improve compare; do
+for command in mesh plan check stats improve adapt compare; do
   mapfile -t lines < <("$driver" $command --help | sed -n '/^Examples:/,$ s/^  dovetail //p')
   ((${#lines[@]})) || { what="$command --help"; fault "there is no example"; }
   for line in "${lines[@]}"; do
