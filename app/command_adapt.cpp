@@ -101,7 +101,7 @@ public:
     write_mesh_file(whole, options_.out);
     lines.reset();
     if (!options_.report.empty())
-      write_quality_report(made.quality, static_cast<std::int64_t>(whole.mesh.points.size()), made.summary,
+      write_quality_report(made.quality, D, static_cast<std::int64_t>(whole.mesh.points.size()), made.summary,
                            options_.report);
     if (!options_.quiet)
       print_change(D, before, made.quality, clock.seconds());

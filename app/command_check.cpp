@@ -52,7 +52,7 @@ int print_quality(const quality_statistics& quality, std::uint64_t points, int d
   std::printf("%s: %llu vertices\n%s", options.mesh.c_str(), static_cast<unsigned long long>(points),
               quality_text(quality, dimension).c_str());
   if (!options.report.empty())
-    write_quality_report(quality, static_cast<std::int64_t>(points), {}, options.report);
+    write_quality_report(quality, dimension, static_cast<std::int64_t>(points), {}, options.report);
   return exit_ok;
 }
 
@@ -90,24 +90,31 @@ int with_mesh_of(const std::string& file, const F& f) {
   return is_of_triangles(loaded) ? f(take_triangles(std::move(loaded))) : f(loaded.mesh);
 }
 
-} // namespace
-
-int run_check(const check_options& options) {
-  if (!options.report.empty()) {
-    const report_files given = files_of_report(options.report);
-    if (const std::string faults = faults_of(given); !faults.empty()) {
-      complain(options.report + ": not as it was written: " + faults);
-      return exit_failure;
-    }
-    std::printf("%s: %zu files are as they were written\n", options.report.c_str(), given.files.size());
-    if (options.mesh.empty())
-      return exit_ok;
+/// Whether the files of a run are as it wrote them.
+int check_files(const std::string& report) {
+  const report_files given = files_of_report(report);
+  if (const std::string faults = faults_of(given); !faults.empty()) {
+    complain(report + ": not as it was written: " + faults);
+    return exit_failure;
   }
+  std::printf("%s: %zu files are as they were written\n", report.c_str(), given.files.size());
+  return exit_ok;
+}
+
+int check_mesh(const check_options& options) {
   if (const auto result = check_streamed(options.mesh))
     return *result;
   return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {
     return print_validity(faults_of(mesh), options.mesh, D, mesh.elements.size(), mesh.points.size());
   });
+}
+
+} // namespace
+
+int run_check(const check_options& options) {
+  const int files = options.report.empty() ? exit_ok : check_files(options.report);
+  const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options);
+  return files == exit_ok ? mesh : files;
 }
 
 int run_stats(const stats_options& options) {

@@ -31,7 +31,7 @@ void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded,
   const io::loaded_mesh whole = std::move(given).put_back();
   write_mesh_file(whole, options.out);
   if (!options.report.empty())
-    write_quality_report(after, static_cast<std::int64_t>(whole.mesh.points.size()), made, options.report);
+    write_quality_report(after, D, static_cast<std::int64_t>(whole.mesh.points.size()), made, options.report);
   if (!options.quiet)
     print_change(D, before, after, seconds);
   for (const auto& warning : made.warnings)

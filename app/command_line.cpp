@@ -22,6 +22,18 @@
 namespace dovetail::app {
 namespace {
 
+/// A variable of a script that is not set would otherwise mean the default.
+void refuse_empty_values(CLI::App& command) {
+  const CLI::Validator not_empty(
+      [](std::string& value) {
+        return value.empty() ? std::string("the value is empty text") : std::string();
+      },
+      "");
+  for (CLI::Option* option : command.get_options())
+    if (option->get_items_expected_max() > 0)
+      option->check(not_empty);
+}
+
 /// Command lines at the end of a command's help.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines) {
   std::string footer = "Examples:";
@@ -115,6 +127,8 @@ struct parser {
     add_improve();
     add_adapt();
     add_compare();
+    for (CLI::App* command : app.get_subcommands({}))
+      refuse_empty_values(*command);
   }
 
   void add_mesh() {
@@ -152,8 +166,11 @@ struct parser {
     command.add_option("MESH", check.mesh, "Mesh file");
     command.add_option("--report", check.report,
                        "Report of a run: check that its files are as it wrote them");
-    command.require_option(1, 2);
-    command.callback([this] { chosen = [this] { return run_check(check); }; });
+    command.callback([this] {
+      if (check.mesh.empty() && check.report.empty())
+        throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
+      chosen = [this] { return run_check(check); };
+    });
   }
   void add_stats() {
     auto& command = *app.add_subcommand("stats", "Print the quality of a mesh file");

@@ -62,8 +62,8 @@ struct element_words {
 
 inline element_words words_of(int dimension) {
   if (dimension == 3)
-    return {"tetrahedra", "dihedral angle", 12, 24, 71};
-  return {"triangles", "angle", 15, 30, 60};
+    return {"tetrahedra", "dihedral angle", limits_of(3).bad, limits_of(3).low, 71};
+  return {"triangles", "angle", limits_of(2).bad, limits_of(2).low, 60};
 }
 
 /// All rows, and what they have in common.

@@ -74,6 +74,8 @@ report_files files_of_report(const std::filesystem::path& path) {
     for (const auto& listed : document.at("files"))
       found.files.push_back({listed.at("name").get<std::string>(), listed.at("bytes").get<std::uint64_t>(),
                              listed.at("checksum").get<std::string>()});
+    if (found.files.empty())
+      throw input_error(path.string() + ": the run of this report has written no files");
     return found;
   } catch (const nlohmann::json::exception&) {
     throw input_error(path.string() + ": not a report of 'dovetail mesh' that lists its files");
@@ -86,10 +88,12 @@ std::string faults_of(const report_files& given) {
     const auto path = given.folder / file.name;
     std::error_code missing;
     const auto bytes = std::filesystem::file_size(path, missing);
-    const char* fault = missing                                   ? " is missing"
-                        : bytes != file.bytes                     ? " has another size"
-                        : checksum_of_file(path) != file.checksum ? " has another content"
-                                                                  : nullptr;
+    std::error_code ignored;
+    const char* fault = std::filesystem::is_directory(path, ignored) ? " is a folder"
+                        : missing                                    ? " is missing"
+                        : bytes != file.bytes                        ? " has another size"
+                        : checksum_of_file(path) != file.checksum    ? " has another content"
+                                                                     : nullptr;
     if (fault != nullptr)
       faults += (faults.empty() ? "" : ", ") + path.string() + fault;
   }

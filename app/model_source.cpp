@@ -7,6 +7,7 @@
 #include "supervision.hpp"
 
 #include "dovetail/core/hash.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/geometry/occt_model.hpp"
@@ -24,7 +25,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <sstream>
 #include <utility>
 
 namespace dovetail::app {
@@ -32,12 +32,6 @@ namespace {
 
 constexpr double default_elements_across = 25; ///< of a model's diagonal
 constexpr double most_elements_across = 1e9;   ///< beyond, coordinates have too few digits
-
-std::string text_of(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
 
 std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -155,7 +149,7 @@ background_field load_background(const std::filesystem::path& file, const std::s
 given_sizes::given_sizes(std::string file, const std::optional<double>& size)
     : file_(std::move(file)), size_(size) {
   if (size_ && (!(*size_ > 0) || !std::isfinite(*size_)))
-    throw command_line_error("--size: " + text_of(*size_) + " is not a length; give a positive number");
+    throw command_line_error("--size: " + number_text(*size_) + " is not a length; give a positive number");
   if (file_.empty())
     return;
   text_ = sizing::read_sizing_text(file_);
@@ -165,12 +159,13 @@ given_sizes::given_sizes(std::string file, const std::optional<double>& size)
 std::optional<double> given_sizes::length(const box3& domain) const {
   if (!size_)
     return {};
-  const std::string given = "--size: " + text_of(*size_);
+  const std::string given = "--size: " + number_text(*size_);
   if (*size_ > domain.diagonal())
-    throw sizing_error(given + " is larger than the model, whose diagonal is " + text_of(domain.diagonal()));
+    throw sizing_error(given + " is larger than the model, whose diagonal is " +
+                       number_text(domain.diagonal()));
   if (*size_ < domain.diagonal() / most_elements_across)
     throw sizing_error(given + " is less than a billionth of the model's diagonal, " +
-                       text_of(domain.diagonal()));
+                       number_text(domain.diagonal()));
   return size_;
 }
 

@@ -1,23 +1,24 @@
 #include "quality_change.hpp"
 
+#include "run_figures.hpp"
+
 #include <cstdio>
 #include <string>
 
 namespace dovetail::app {
 namespace {
 
-/// How the quality of elements of one dimension is named and judged.
+/// How the quality of elements of one dimension is named.
 struct quality_terms {
   const char* count;
   const char* least;
   const char* most;
-  int bad, low; ///< degrees
 };
 template <int D>
 constexpr quality_terms terms =
     D == 3 ? quality_terms{"No. of tetrahedra", "Minimum dihedral angle (degrees)",
-                           "Maximum dihedral angle (degrees)", 12, 24}
-           : quality_terms{"No. of triangles", "Minimum angle (degrees)", "Maximum angle (degrees)", 15, 30};
+                           "Maximum dihedral angle (degrees)"}
+           : quality_terms{"No. of triangles", "Minimum angle (degrees)", "Maximum angle (degrees)"};
 
 } // namespace
 
@@ -38,8 +39,8 @@ void print_change(int dimension, const quality_statistics& before, const quality
   row(name.count, "%lld", static_cast<long long>(before.elements), static_cast<long long>(after.elements));
   row(name.least, "%.3f", before.min_wedge_deg, after.min_wedge_deg);
   row(name.most, "%.3f", before.max_wedge_deg, after.max_wedge_deg);
-  per_million("Bad", name.bad);
-  per_million("Low", name.low);
+  per_million("Bad", limits_of(dimension).bad);
+  per_million("Low", limits_of(dimension).low);
   std::printf("  %-32s %14.2f\n", "Seconds", seconds);
   if (seconds > 0)
     std::printf("  %-32s %14.0f\n", "Elements per second", static_cast<double>(before.elements) / seconds);

@@ -98,6 +98,15 @@ void write_plan(const plan_figures& figures, const std::filesystem::path& file);
 /// The summary, laid out as the tables of the method's paper.
 std::string summary_text(const run_figures& figures);
 
+/// The smallest angles, in degrees, under which elements are called bad and low: dihedral ones of tetrahedra,
+/// those of triangles.
+struct quality_limits {
+  int bad, low;
+};
+constexpr quality_limits limits_of(int dimension) {
+  return dimension == 3 ? quality_limits{12, 24} : quality_limits{15, 30};
+}
+
 /// The number of tetrahedra with a smallest dihedral angle in the ranges of the paper's table of quality; the
 /// angles of triangles.
 std::string quality_text(const quality_statistics& quality, int dimension);
@@ -106,8 +115,8 @@ std::string quality_text(const quality_statistics& quality, int dimension);
 void write_report(const run_figures& figures, const std::filesystem::path& file);
 
 /// Writes the statistics of one mesh, and what was done to it (or an empty report).
-void write_quality_report(const quality_statistics& quality, std::int64_t vertices, const report& details,
-                          const std::filesystem::path& file);
+void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,
+                          const report& details, const std::filesystem::path& file);
 
 /// The largest resident set of this process and of any child it waited for.
 std::uint64_t peak_rss_bytes();

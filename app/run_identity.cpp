@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <link.h>
+#include <system_error>
 
 namespace dovetail::app {
 namespace {
@@ -35,11 +38,31 @@ std::string values_of_field(const any_sizing& size, const box3& box) {
   return hexadecimal(hash.value());
 }
 
+/// The shared libraries that this program runs with: a mesh may be another one with the next version of one.
+std::string checksum_of_libraries() {
+  content_hash hash;
+  const auto add = [](dl_phdr_info* library, std::size_t, void* into) {
+    std::error_code missing;
+    const std::filesystem::path file(library->dlpi_name);
+    const auto bytes = std::filesystem::file_size(file, missing);
+    const auto changed = std::filesystem::last_write_time(file, missing).time_since_epoch().count();
+    if (!missing) {
+      static_cast<content_hash*>(into)->text(file.string());
+      static_cast<content_hash*>(into)->word(bytes);
+      static_cast<content_hash*>(into)->word(static_cast<std::uint64_t>(changed));
+    }
+    return 0;
+  };
+  ::dl_iterate_phdr(add, &hash);
+  return hexadecimal(hash.value());
+}
+
 } // namespace
 
 run_identity identity_of_run(const mesh_options& options, const model_source& source) {
   run_identity identity{{"model", source.name}};
   identity.emplace_back("build", checksum_of_file("/proc/self/exe"));
+  identity.emplace_back("libraries", checksum_of_libraries());
   if (!options.model.input.empty()) {
     identity.emplace_back("file", source.file);
     identity.emplace_back("unit", options.model.unit);

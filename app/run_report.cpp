@@ -27,12 +27,13 @@ json seconds_json(const stage_seconds& seconds) {
           {"total", seconds.total}};
 }
 
-json quality_json(const quality_statistics& quality) {
+json quality_json(const quality_statistics& quality, int dimension) {
+  const quality_limits under = limits_of(dimension);
   return {{"min_dihedral_deg", quality.min_wedge_deg},
           {"max_dihedral_deg", quality.max_wedge_deg},
           {"mean_min_dihedral_deg", quality.mean_min_wedge_deg()},
-          {"bad_per_million", quality.per_million_under(12)},
-          {"low_per_million", quality.per_million_under(24)},
+          {"bad_per_million", quality.per_million_under(under.bad)},
+          {"low_per_million", quality.per_million_under(under.low)},
           {"worst_element", quality.worst_element},
           {"min_face_angle_deg", quality.min_face_deg},
           {"histogram",
@@ -127,7 +128,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
               {"subdomains", figures.subdomains},
               {"imbalance", figures.imbalance},
               {"seconds", seconds_json(figures.seconds)},
-              {"quality", quality_json(figures.quality)},
+              {"quality", quality_json(figures.quality, figures.dimension)},
               {"interfaces", interfaces},
               {"deviation", deviation_json(figures.deviation)},
               {"merges", figures.merges},
@@ -143,12 +144,13 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
              file);
 }
 
-void write_quality_report(const quality_statistics& quality, std::int64_t vertices, const report& details,
-                          const std::filesystem::path& file) {
+void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,
+                          const report& details, const std::filesystem::path& file) {
   write_json({{"dovetail", version},
+              {"dimension", dimension},
               {"elements", quality.elements},
               {"vertices", vertices},
-              {"quality", quality_json(quality)},
+              {"quality", quality_json(quality, dimension)},
               {"details", details_json(details)}},
              file);
 }

@@ -24,7 +24,7 @@ namespace dovetail::app {
 namespace {
 
 using clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds patience{1000};   ///< from the request to stop to the end
+constexpr std::chrono::milliseconds patience{800};    ///< from the request to stop to the end
 constexpr std::chrono::milliseconds one_request{200}; ///< a signal comes twice, to a process and to its group
 
 /// What both processes see: the lines for the step that the child is in.

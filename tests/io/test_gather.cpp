@@ -178,7 +178,7 @@ TEST_CASE("triangles: an edge where three sheets meet is there once, with its fi
   CHECK(whole.sides == std::vector<simplex<1>>{{0, 1}});
   CHECK(whole.side_hosts == std::vector<local_id>{6});
   CHECK(whole.side_elements == std::vector<std::array<local_id, 2>>{{0, 1}});
-  CHECK(whole.group_names == std::vector<std::string>{"face 1", "face 2", "face 3"});
+  CHECK(whole.group_names == std::vector<std::string>{"face 0", "face 1", "face 2"});
 }
 
 TEST_CASE("rows of neighbours: points that share an element, and no others") {

@@ -17,8 +17,8 @@ struct face_groups {
 };
 
 /// Puts CAD faces of one name into one group, those with names or sides and at least `faces`. A face without
-/// a group makes a group of its own, called by the face's name, or "face N" (N counted from 1) when it has
-/// none. O(faces log faces).
+/// a group makes a group of its own, called by the face's name, or "face N", its index in the model, when it
+/// has none. O(faces log faces).
 template <int D>
 face_groups collect_face_groups(const distributed_simplicial_mesh<D>& mesh, std::size_t faces = 0) {
   faces = std::max({faces, mesh.group_names.size(), mesh.face_names.size()});
@@ -32,7 +32,7 @@ face_groups collect_face_groups(const distributed_simplicial_mesh<D>& mesh, std:
     if (name.empty() && f < mesh.face_names.size())
       name = mesh.face_names[f];
     if (name.empty())
-      name = "face " + std::to_string(f + 1);
+      name = "face " + std::to_string(f);
     const auto at =
         std::lower_bound(by_name.begin(), by_name.end(), name, [&](local_id p, const std::string& n) {
           return groups.names[static_cast<std::size_t>(p)] < n;

@@ -60,6 +60,10 @@ public:
       throw usage_error("there is no run to resume in " + folder.string() + "; start it without resume");
     const std::string present = manifest_text(identity);
     const std::string earlier(reinterpret_cast<const char*>(found->data()), found->size());
+    if (!earlier.starts_with("dovetail ") || !earlier.ends_with('\n') ||
+        std::any_of(earlier.begin(), earlier.end(), [](unsigned char c) { return c < ' ' && c != '\n'; }))
+      throw usage_error("the run in " + folder.string() +
+                        " cannot be resumed: its manifest.txt is damaged; start it without resume");
     if (earlier != present)
       throw usage_error("the run in " + folder.string() +
                         " cannot be resumed: " + difference(earlier, present) + "; start it without resume");

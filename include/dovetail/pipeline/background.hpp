@@ -4,13 +4,13 @@
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -20,19 +20,12 @@ namespace dovetail {
 /// More elements than this no machine holds: each takes some hundred bytes.
 inline constexpr double most_elements = 1e12;
 
-/// A count with three digits.
-inline std::string rounded_count(double count) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", count);
-  return text;
-}
-
 /// The sizes ask for more elements than `generate_options::largest_prediction` allows.
 class too_many_elements : public sizing_error {
 public:
   too_many_elements(double predicted_elements, double limit)
-      : sizing_error("the sizes predict about " + rounded_count(predicted_elements) +
-                     " elements, more than the limit of " + rounded_count(limit) +
+      : sizing_error("the sizes predict about " + number_text(predicted_elements, 3) +
+                     " elements, more than the limit of " + number_text(limit, 3) +
                      "; give larger sizes or raise the limit"),
         predicted(predicted_elements) {}
   double predicted;

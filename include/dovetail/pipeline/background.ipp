@@ -5,6 +5,7 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
@@ -26,13 +27,18 @@ namespace dovetail {
 
 namespace detail {
 
-/// A size is refused where it makes no sense: larger than the model.
+/// A size is refused where it makes no sense: larger than the model, or so small that coordinates have too
+/// few digits.
 inline void require_usable_size(const any_geometry& model, const erased_sizing& size) {
   const box3 box = model.bounds();
   const double h = size(box.center());
   if (h > box.diagonal())
-    throw sizing_error("the size " + std::to_string(h) + " is larger than the model, whose diagonal is " +
-                       std::to_string(box.diagonal()) + "; give a smaller size");
+    throw sizing_error("the size " + number_text(h) + " is larger than the model, whose diagonal is " +
+                       number_text(box.diagonal()) + "; give a smaller size");
+  if (const double least = size.smallest_size_in(box); least > 0 && least < 1e-9 * box.diagonal())
+    throw sizing_error("there are sizes down to " + number_text(least) +
+                       ", less than a billionth of the model's diagonal, " + number_text(box.diagonal()) +
+                       "; give larger ones");
 }
 
 inline void require_room(const mesh_plan& plan, const generate_options& options) {
@@ -117,8 +123,12 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
     return D == 3 ? elements : std::pow(elements, static_cast<double>(D) / 3);
   };
   if (!(predicted.elements <= most_elements))
-    throw sizing_error("the sizes predict about " + rounded_count(predicted.elements) +
+    throw sizing_error("the sizes predict about " + number_text(predicted.elements, 3) +
                        " elements, more than any machine can hold; give larger sizes");
+  if (options.subdomains > std::max(1.0, predicted.elements))
+    throw sizing_error(std::to_string(options.subdomains) + " subdomains are more than the about " +
+                       number_text(predicted.elements, 3) +
+                       " elements that the sizes predict; give fewer, or smaller sizes");
   mesh_plan plan;
   plan.predicted_elements = predicted.elements;
   plan.relative_error = predicted.relative_error;
@@ -170,7 +180,7 @@ template <int D>
 mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
                          const any_parameters<D>& given) {
   const generate_options& options = given.options;
-  constexpr double as_coarse_as_possible = 1e6;
+  constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
   options.on_progress("planning", 0, 0);
   const auto first =
       surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),

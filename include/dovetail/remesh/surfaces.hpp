@@ -43,8 +43,6 @@ struct any_surface {
 
   /// Another surface, which must outlive this.
   template <patch_surface S>
-  static any_surface view_of(const S&&) = delete; // it would be gone
-  template <class S>
   static any_surface view_of(const S& surface) {
     any_surface seen{[&surface](vec2 uv) { return surface.frame(uv); },
                      [&surface](vec3 p, vec2 seed) { return surface.project(p, seed); }};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <cmath>
@@ -75,15 +76,14 @@ namespace sizing {
 /// Returns `value` when it is positive and finite. Throws `sizing_error` naming `what` otherwise.
 inline double checked_size(double value, std::string_view what) {
   if (!(value > 0) || !std::isfinite(value))
-    throw sizing_error(std::string(what) + " is " + std::to_string(value) +
-                       "; give a positive, finite number");
+    throw sizing_error(std::string(what) + " is " + number_text(value) + "; give a positive, finite number");
   return value;
 }
 
 /// Returns `value` when it is zero or positive and finite. Throws `sizing_error` naming `what` otherwise.
 inline double checked_length(double value, std::string_view what) {
   if (!(value >= 0) || !std::isfinite(value))
-    throw sizing_error(std::string(what) + " is " + std::to_string(value) +
+    throw sizing_error(std::string(what) + " is " + number_text(value) +
                        "; give a finite number that is not negative");
   return value;
 }

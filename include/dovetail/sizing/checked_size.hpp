@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/erased.hpp"
 
@@ -16,9 +17,8 @@ template <sizing_field H>
 double checked_size(const H& size, vec3 p) {
   const auto h = static_cast<double>(size(p));
   if (!(h > 0) || !std::isfinite(h))
-    throw sizing_error("the size at (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
-                       std::to_string(p.z) + ") is " + std::to_string(h) +
-                       "; it must be positive and finite");
+    throw sizing_error("the size at (" + number_text(p.x) + ", " + number_text(p.y) + ", " +
+                       number_text(p.z) + ") is " + number_text(h) + "; it must be positive and finite");
   return h;
 }
 

@@ -2,6 +2,7 @@
 /// The sizing field of the background mesh: the user's field, scaled up as far as it goes without harm.
 #pragma once
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ public:
         largest_(sizing::checked_size(largest_fraction_of_diagonal * domain.diagonal(),
                                       "the largest coarse size, a fraction of the model's diagonal,")) {
     if (scale < 1)
-      throw sizing_error("the factor of the coarse size is " + std::to_string(scale) + "; give 1 or more");
+      throw sizing_error("the factor of the coarse size is " + number_text(scale) + "; give 1 or more");
   }
 
   double operator()(vec3 p) const {

@@ -2,6 +2,7 @@
 /// Fields made of other fields: minimum, scaling, clamping.
 #pragma once
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
@@ -71,8 +72,8 @@ public:
       : field_(std::move(field)), lower_(sizing::checked_size(lower, "the lower size bound")),
         upper_(sizing::checked_size(upper, "the upper size bound")) {
     if (lower > upper)
-      throw sizing_error("the lower size bound " + std::to_string(lower) + " exceeds the upper one " +
-                         std::to_string(upper) + "; exchange them");
+      throw sizing_error("the lower size bound " + number_text(lower) + " exceeds the upper one " +
+                         number_text(upper) + "; exchange them");
   }
 
   double operator()(vec3 p) const { return std::clamp(static_cast<double>(field_(p)), lower_, upper_); }

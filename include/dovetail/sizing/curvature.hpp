@@ -2,6 +2,7 @@
 /// Sizes from the curvature of a CAD model: so many elements per full circle.
 #pragma once
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/point_sizes.hpp"
 #include "dovetail/sizing/surface_samples.hpp"
 
@@ -36,8 +37,8 @@ inline model_size_range range_for(const box3& bounds, model_size_range range) {
   if (range.smallest == 0)
     range.smallest = std::min(1e-3 * diagonal, range.largest);
   if (range.smallest > range.largest)
-    throw sizing_error("the smallest size " + std::to_string(range.smallest) + " exceeds the largest " +
-                       std::to_string(range.largest) + "; exchange them");
+    throw sizing_error("the smallest size " + number_text(range.smallest) + " exceeds the largest " +
+                       number_text(range.largest) + "; exchange them");
   return range;
 }
 

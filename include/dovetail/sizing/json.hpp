@@ -2,6 +2,7 @@
 /// Sizing fields from JSON files (docs/sizing.md describes the format). An adapter for nlohmann-json.
 #pragma once
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/sizing/compose.hpp"
@@ -79,6 +80,16 @@ private:
       }
   }
 
+  /// Around a circle, or across a wall.
+  static constexpr double most_elements_asked = 1000;
+
+  double at_most(const json_value& v, const std::string& key, double most) const {
+    const double value = positive(v, key);
+    if (value > most)
+      fail(*v.find(key), "\"" + key + "\" is " + number_text(value) + "; give at most " + number_text(most));
+    return value;
+  }
+
   const json_value& required(const json_value& v, const std::string& key) const {
     if (const json_value* member = v.find(key))
       return *member;
@@ -93,7 +104,7 @@ private:
   double positive(const json_value& v, const std::string& key) const {
     const double value = number(v, key);
     if (!(value > 0))
-      fail(*v.find(key), "\"" + key + "\" is " + std::to_string(value) + "; give a positive number");
+      fail(*v.find(key), "\"" + key + "\" is " + number_text(value) + "; give a positive number");
     return value;
   }
   std::string text(const json_value& v, const std::string& key) const {
@@ -209,7 +220,7 @@ private:
     for (std::size_t k = 0; k < 3; ++k) {
       values[k] = given[std::min(k, given.size() - 1)];
       if (!std::isfinite(values[k]) || values[k] < 0 || (values[k] == 0 && !zero_allowed))
-        fail(member, "\"" + key + "\" is " + std::to_string(values[k]) + "; give a " +
+        fail(member, "\"" + key + "\" is " + number_text(values[k]) + "; give a " +
                          (zero_allowed ? "number that is not negative" : "positive number"));
     }
   }
@@ -264,17 +275,18 @@ private:
     if (v.type == json_value::kind::boolean)
       return options;
     if (v.type == json_value::kind::number && curvature != proximity) {
-      if (!(v.number > 0) || !std::isfinite(v.number))
-        fail(v, "\"" + key + "\" is " + std::to_string(v.number) + "; give a positive number of elements");
+      if (!(v.number > 0) || v.number > most_elements_asked)
+        fail(v, "\"" + key + "\" is " + number_text(v.number) + "; give a number of elements, at most " +
+                    number_text(most_elements_asked));
       (curvature ? options.elements_per_circle : options.elements_across) = v.number;
       return options;
     }
     require_keys(v, {"elements_per_circle", "elements_across", "where", "smallest", "largest", "growth"},
                  "\"" + key + "\"");
     if (v.find("elements_per_circle"))
-      options.elements_per_circle = positive(v, "elements_per_circle");
+      options.elements_per_circle = at_most(v, "elements_per_circle", most_elements_asked);
     if (v.find("elements_across"))
-      options.elements_across = positive(v, "elements_across");
+      options.elements_across = at_most(v, "elements_across", most_elements_asked);
     if (v.find("where")) {
       const std::string where = text(v, "where");
       if (where != "inside" && where != "outside" && where != "both")
