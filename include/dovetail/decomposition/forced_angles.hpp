@@ -22,9 +22,8 @@ struct cad_mesh {
 /// that meet at a smaller angle than the threshold at an edge that begins where the violation is; for the
 /// angle of a triangle also two curves that do so at its corner, and a curve or the width of a face so short
 /// that on it as its shortest side no triangle of the local size has a larger angle. `triangles` are those
-/// that were measured. Without violations nothing is done; else linear in points, triangles and curve edges,
-/// and each violation looks through the curve edges and sharp edges at any of them: quadratic where a CAD
-/// forces many.
+/// that were measured. Without violations nothing is done; else O(n log n) in points, triangles, curve edges
+/// and violations, as long as the curve edges at a point are few.
 void find_forced(interface_angles& angles, std::span<const simplex<2>> triangles, const cad_mesh& cad,
                  const any_sizing& size, double threshold_deg);
 

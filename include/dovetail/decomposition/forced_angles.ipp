@@ -2,6 +2,7 @@
 /// What `forced_angles.hpp` declares.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/forced_angles.hpp"
@@ -88,6 +89,17 @@ private:
         curve_edges_.push_back({sorted_vertices(simplex<1>{a, b}), cad_.curves[e]});
     }
     sort_all(curve_edges_, [](const edge_of_curve& a, const edge_of_curve& b) { return a.edge < b.edge; });
+    curve_edges_at_ = by_vertex(curve_edges_);
+  }
+
+  /// Numbers of the edges that begin at each point.
+  template <class Edge>
+  compressed_rows<std::size_t> by_vertex(const std::vector<Edge>& edges) const {
+    return sorted_into_rows<std::size_t>(cad_.points.size(), [&](const auto& put) {
+      for (std::size_t e = 0; e < edges.size(); ++e)
+        for (const local_id end : edges[e].edge)
+          put(end, e);
+    });
   }
 
   void collect_edges() {
@@ -121,6 +133,7 @@ private:
           sharp_.push_back({edges_[i].edge,
                             {host{1, curve}, host{2, cad_.faces[edges_[i].triangle]},
                              host{2, cad_.faces[edges_[j].triangle]}}});
+    sharp_at_ = by_vertex(sharp_);
   }
 
   /// The angle between two triangles at their edge; 360 where the domain is not between them.
@@ -143,17 +156,15 @@ private:
   }
 
   void add_sharp_edges(local_id vertex, std::vector<host>& forcing) const {
-    for (const sharp_edge& sharp : sharp_)
-      if (sharp.edge[0] == vertex || sharp.edge[1] == vertex)
-        append(forcing, sharp.entities);
+    for (const std::size_t sharp : sharp_at_[vertex])
+      append(forcing, sharp_[sharp].entities);
   }
 
   /// Two curves with a small angle between them at their common end.
   void add_curves(local_id vertex, std::vector<host>& forcing) const {
     std::vector<edge_of_curve> here;
-    for (const edge_of_curve& e : curve_edges_)
-      if (e.edge[0] == vertex || e.edge[1] == vertex)
-        here.push_back(e);
+    for (const std::size_t e : curve_edges_at_[vertex])
+      here.push_back(curve_edges_[e]);
     const auto direction = [&](const edge_of_curve& e) {
       return point(e.edge[0] == vertex ? e.edge[1] : e.edge[0]) - point(vertex);
     };
@@ -173,11 +184,8 @@ private:
         forcing.push_back({1, curve});
       return;
     }
-    const auto on_curve = [&](local_id vertex) {
-      return std::any_of(curve_edges_.begin(), curve_edges_.end(),
-                         [&](const edge_of_curve& e) { return e.edge[0] == vertex || e.edge[1] == vertex; });
-    };
-    if (distance(point(side[0]), point(side[1])) < least && on_curve(side[0]) && on_curve(side[1]))
+    if (distance(point(side[0]), point(side[1])) < least && !curve_edges_at_[side[0]].empty() &&
+        !curve_edges_at_[side[1]].empty())
       for (const edge_of_triangle& e : items_at(edges_, side))
         forcing.push_back({2, cad_.faces[e.triangle]});
   }
@@ -213,8 +221,10 @@ private:
   std::vector<std::uint8_t> near_;      ///< per point: whether a violation is there
   std::vector<edge_of_triangle> edges_; ///< at places, by growing edge
   std::vector<edge_of_curve> curve_edges_;
+  compressed_rows<std::size_t> curve_edges_at_; ///< per point
   std::vector<double> length_of_curve_;
   std::vector<sharp_edge> sharp_;
+  compressed_rows<std::size_t> sharp_at_; ///< per point
 };
 
 } // namespace detail
