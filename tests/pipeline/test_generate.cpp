@@ -1,3 +1,4 @@
+#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
@@ -127,6 +128,27 @@ TEST_CASE("two materials share the triangles of their common face, and no subdom
     between_materials += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   }
   CHECK(between_materials == doctest::Approx(0.48).epsilon(1e-9));
+}
+
+TEST_CASE("one subdomain needs no volume: the mesh is the one that comes of a background with it") {
+  for (const TopoDS_Shape& shape : {drilled_block(), hollow_ball(), two_boxes()}) {
+    const any_geometry model(occt_shape_from(shape).model);
+    const any_parameters<3> given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options(in_parts(1)));
+    const auto surface_alone = make_background<3>(model, uniform_size(0.2), given);
+    CHECK(surface_alone.mesh.volume.elements.empty());
+    auto with_volume = surface_alone;
+    with_volume.mesh.volume =
+        background::coarse_volume(with_volume.mesh.surface, model.topology(), uniform_size(0.4),
+                                  given.mesh_it, improvement::none{}, given.run_tasks)
+            .mesh;
+    const auto made = generate_from_background<3>(model, surface_alone, given);
+    require_valid(made);
+    CHECK(made.mesh.counts.size() == model.topology().solids.size());
+    CHECK(made.background.volume.elements.empty());
+    CHECK(made.subdomain_of_element.empty());
+    CHECK(io::mesh_hash(made.mesh) ==
+          io::mesh_hash(generate_from_background<3>(model, with_volume, given).mesh));
+  }
 }
 
 TEST_CASE("the mesh is the same for every executor and number of workers") {

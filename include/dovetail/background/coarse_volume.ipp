@@ -136,17 +136,27 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
 
 } // namespace detail
 
+namespace detail {
+
+/// The boundary of a model's solids. Throws `geometry_error` when there is none or it is open.
+inline oriented_boundary closed_boundary(const surface_mesh& surface, const geometry_topology& topology) {
+  if (topology.solids.empty())
+    throw geometry_error("the model has no solid to mesh");
+  oriented_boundary boundary = orient_boundary(surface, topology);
+  require_closed(boundary, topology);
+  return boundary;
+}
+
+} // namespace detail
+
 DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
                                                    const geometry_topology& topology, const any_sizing& size,
                                                    const any_mesher<3>& mesh_it,
                                                    const any_improver<3>& improve,
                                                    const any_executor& run_tasks,
                                                    const coarse_volume_options& options) {
-  if (topology.solids.empty())
-    throw geometry_error("the model has no solid to mesh");
   const stopwatch clock;
-  const auto boundary = detail::orient_boundary(surface, topology);
-  detail::require_closed(boundary, topology);
+  const auto boundary = detail::closed_boundary(surface, topology);
 
   meshing_options attempt;
   attempt.on_progress = options.on_progress;
@@ -184,6 +194,21 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   result.summary.warnings = made.summary.warnings;
   result.summary.children.push_back(std::move(made.summary));
   return result;
+}
+
+DOVETAIL_INLINE simplicial_mesh<3> cones_of_solids(const surface_mesh& surface,
+                                                   const geometry_topology& topology) {
+  const auto boundary = detail::closed_boundary(surface, topology);
+  simplicial_mesh<3> cones;
+  cones.points = surface.mesh.points;
+  const auto apex = static_cast<local_id>(cones.points.size());
+  cones.points.resize(cones.points.size() + topology.solids.size());
+  cones.tags = boundary.solids;
+  for (std::size_t t = 0; t < boundary.triangles.size(); ++t) {
+    const auto& [a, b, c] = boundary.triangles[t]; // outwards: the apex is behind
+    cones.elements.push_back({a, c, b, apex + boundary.solids[t]});
+  }
+  return cones;
 }
 
 } // namespace dovetail::background

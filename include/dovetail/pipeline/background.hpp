@@ -91,8 +91,9 @@ template <int D>
 using background_maker =
     std::function<void(background_result<D>&, const any_sizing& coarse, const any_parameters<D>&)>;
 
-/// Plans the mesh and makes its background mesh, or finds it in the spool of the options. Throws what its
-/// steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
+/// Plans the mesh and makes its background mesh, or finds it in the spool of the options. For one subdomain
+/// the library's own steps make no volume: nothing is decomposed, and its mesh would serve nothing. Throws
+/// what its steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
                                      const any_parameters<D>& given);

@@ -244,6 +244,8 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
       result.bounds = std::move(surface.bounds);
     result.mesh.surface = std::move(surface.surface);
     if constexpr (D == 3) {
+      if (result.plan.subdomains == 1)
+        return;
       options.on_progress("background volume", 0, 0);
       auto volume = background::coarse_volume(
           result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,

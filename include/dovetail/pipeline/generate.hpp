@@ -21,7 +21,7 @@ namespace dovetail {
 template <int D>
 struct generated {
   distributed_simplicial_mesh<D> mesh;
-  simplicial_background<D> background;
+  simplicial_background<D> background;        ///< without a volume where there is one subdomain
   std::vector<local_id> subdomain_of_element; ///< of the background mesh
   mesh_plan plan;
   interface_angles coarse_angles; ///< of the coarse skeleton, before merges

@@ -2,6 +2,7 @@
 /// What `generate.hpp` declares.
 #pragma once
 
+#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report_codec.hpp"
@@ -45,6 +46,57 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
   return mesh;
 }
 
+/// A background mesh cut into parts, and what the steps after that need to know of how it came about.
+template <int D>
+struct divided_background {
+  side_table<D> sides;
+  std::vector<double> weights; ///< predicted elements, per coarse element
+  std::vector<side_state> side_states;
+  decomposition pieces;
+  interface_angles angles;
+  report simplification, partition;
+};
+
+template <int D>
+divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
+                             const any_parameters<D>& given) {
+  const generate_options& options = given.options;
+  divided_background<D> result;
+  options.on_progress("simplification", 0, 0);
+  const stopwatch simplification_clock;
+  result.sides = build_sides(coarse.elements());
+  result.weights = predict_elements<D>(coarse.elements(), size).per_element;
+  auto simplified = simplify_background(coarse, result.sides, result.weights, subdomains, given.simplify_by,
+                                        result.simplification);
+  result.simplification.seconds = simplification_clock.seconds();
+
+  options.on_progress("partition", 0, 0);
+  const stopwatch partition_clock;
+  result.pieces = decompose<D>(coarse.elements(), result.sides, simplified.super_of_element, simplified.graph,
+                               materials_of(coarse), given.partition_it, subdomains);
+  result.angles = coarse_interface_angles(coarse, result.sides, simplified.side_states,
+                                          result.pieces.part_of_element, size, options);
+  result.side_states = std::move(simplified.side_states);
+  result.partition = std::move(result.pieces.summary);
+  result.partition.seconds = partition_clock.seconds();
+  return result;
+}
+
+/// Each solid is a part.
+inline divided_background<3> leave_undivided(const simplicial_background<3>& cones, std::size_t solids) {
+  divided_background<3> result;
+  result.sides = build_sides(cones.volume);
+  result.weights.assign(cones.volume.elements.size(), 1);
+  result.side_states.assign(result.sides.size(), side_state::kept);
+  result.pieces.part_of_element = cones.volume.tags;
+  result.pieces.parts = static_cast<local_id>(solids);
+  result.simplification.name = "simplification";
+  result.partition.name = "partition";
+  result.partition.set("subdomains", static_cast<double>(solids));
+  result.partition.set("imbalance", 1);
+  return result;
+}
+
 template <int D>
 auto mesh_or_give_up(decomposition_rounds<D>& rounds, std::span<const double> weights, report& account) {
   try {
@@ -72,38 +124,33 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   generated<D> result;
   result.summary.name = "generate";
   result.plan = background.plan;
-  const simplicial_background<D>& coarse = background.mesh;
+  const simplicial_background<D>* coarse = &background.mesh;
+  std::optional<simplicial_background<D>> cones;
+  if constexpr (D == 3)
+    if (coarse->volume.elements.empty()) {
+      cones = {coarse->surface, background::cones_of_solids(coarse->surface, model.topology())};
+      coarse = &*cones;
+    }
+  divided_background<D> divided;
+  if constexpr (D == 3)
+    divided = cones ? leave_undivided(*cones, model.topology().solids.size())
+                    : divide<3>(*coarse, background.size, result.plan.subdomains, given);
+  else
+    divided = divide<2>(*coarse, background.size, result.plan.subdomains, given);
 
-  options.on_progress("simplification", 0, 0);
-  const stopwatch simplification_clock;
-  const side_table<D> sides = build_sides(coarse.elements());
-  const auto weights = predict_elements<D>(coarse.elements(), background.size).per_element;
-  report simplification_summary;
-  auto simplified = detail::simplify_background(coarse, sides, weights, result.plan.subdomains,
-                                                given.simplify_by, simplification_summary);
-  simplification_summary.seconds = simplification_clock.seconds();
-
-  options.on_progress("partition", 0, 0);
-  const stopwatch partition_clock;
-  auto pieces = decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
-                             detail::materials_of(coarse), given.partition_it, result.plan.subdomains);
-  result.coarse_angles = detail::coarse_interface_angles(coarse, sides, simplified.side_states,
-                                                         pieces.part_of_element, background.size, options);
-  pieces.summary.seconds = partition_clock.seconds();
-  const auto side_states = std::move(simplified.side_states);
-  simplified = {}; // its graph is as large as the background mesh
-
-  report partition_summary = std::move(pieces.summary);
-  decomposition_rounds<D> rounds(model, coarse, sides, std::move(pieces), background.size, given, account);
-  auto [skeleton, meshed] = mesh_or_give_up(rounds, weights, account);
-  result.subdomain_of_element = skeleton.subdomain_of_element;
+  decomposition_rounds<D> rounds(model, *coarse, divided.sides, std::move(divided.pieces), background.size,
+                                 given, account);
+  auto [skeleton, meshed] = mesh_or_give_up(rounds, divided.weights, account);
+  if (!cones)
+    result.subdomain_of_element = skeleton.subdomain_of_element;
+  result.coarse_angles = std::move(divided.angles);
   result.fine_angles =
-      detail::fine_interface_angles(skeleton, coarse, sides, side_states, rounds.size(), options);
+      fine_interface_angles(skeleton, *coarse, divided.sides, divided.side_states, rounds.size(), options);
   result.quality = meshed.quality;
-  result.mesh = detail::assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
+  result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);
-  result.summary.children = {std::move(background.summary), std::move(simplification_summary),
-                             std::move(partition_summary),  std::move(skeleton.summary),
+  result.summary.children = {std::move(background.summary), std::move(divided.simplification),
+                             std::move(divided.partition),  std::move(skeleton.summary),
                              rounds.intersection(),         std::move(meshed.summary)};
   result.background = std::move(background.mesh);
   return result;
