@@ -205,7 +205,7 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{1})}) {
     const auto made = mesh_all(set, any_surface_mesher(cutting), run);
     REQUIRE(made.result.failures.size() == 1);
-    CHECK(made.result.failures.at(0) == "1 of 4 boundary edges are lost");
+    CHECK(made.result.failures.at(0) == "the surface mesher: 1 of 4 boundary edges are lost");
     CHECK(made.meshes[1].triangles.size() == 1);
   }
   const auto leaving_a_hole = [](const any_surface&, const patch_boundary&, const any_sizing&) {
@@ -217,7 +217,7 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
   };
   CHECK_THROWS_WITH_AS(mesh_region(any_surface_mesher(leaving_a_hole), contract::plane_at_run_time(),
                                    cushion().regions[0], coarse, {}),
-                       "its triangles leave a hole or lie upon each other", mesher_error);
+                       "the surface mesher: its triangles leave a hole or lie upon each other", mesher_error);
   for (const local_id invented : {7, -1}) {
     const auto inventing = [invented](const any_surface&, const patch_boundary&, const any_sizing&) {
       patch_mesh made;
@@ -226,7 +226,7 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
     };
     CHECK_THROWS_WITH_AS(mesh_region(any_surface_mesher(inventing), contract::plane_at_run_time(),
                                      cushion().regions[0], coarse, {}),
-                         "its triangles name points that do not exist", mesher_error);
+                         "the surface mesher: its triangles name points that do not exist", mesher_error);
   }
 }
 

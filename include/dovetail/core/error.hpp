@@ -2,6 +2,8 @@
 /// The typed exceptions of the library. Every message names the file or entity concerned and what to do.
 #pragma once
 
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -78,5 +80,27 @@ class cancelled : public error {
 public:
   cancelled() : error("cancelled") {}
 };
+
+/// Calls what somebody else wrote. What it throws that is none of the errors above becomes an `Error`, which
+/// begins with `who()`; a lack of memory stays what it is. Costs nothing where nothing is thrown.
+template <class Error, class Who, class F>
+decltype(auto) call_policy(const Who& who, const F& f) {
+  try {
+    return f();
+  } catch (const error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw Error(who() + " threw: " + problem.what());
+  } catch (...) {
+    throw Error(who() + " threw what is no std::exception");
+  }
+}
+
+/// "the mesher 'mine'"; without quotes when it has no name.
+inline std::string named_policy(const std::string& role, const std::string& name) {
+  return "the " + role + (name.empty() ? name : " '" + name + "'");
+}
 
 } // namespace dovetail

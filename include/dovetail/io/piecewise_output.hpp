@@ -9,6 +9,7 @@
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +45,8 @@ struct piecewise_output {
 };
 
 /// Any writer of files of whole pieces behind one type: what has a `begin(mesh, unfinished)`, as the concept
-/// `piecewise_mesh_writer` says. May hold nothing.
+/// `piecewise_mesh_writer` says. May hold nothing. Throws `usage_error` when the files do not take each piece
+/// once, and `io_error` in place of what a writer throws that is no error of ours.
 template <int D>
 class any_piecewise_writer {
 public:
@@ -63,10 +65,32 @@ public:
   explicit operator bool() const { return static_cast<bool>(begin_); }
   piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
                             const std::filesystem::path& unfinished) const {
-    return begin_(mesh, unfinished);
+    auto output = guarded([&] { return begin_(mesh, unfinished); });
+    check(output, static_cast<local_id>(mesh.counts.size()));
+    output.finish = [finish = std::move(output.finish)](const std::filesystem::path& folder) {
+      return guarded([&] { return finish(folder); });
+    };
+    return output;
   }
 
 private:
+  template <class F>
+  static auto guarded(const F& f) {
+    return call_policy<io_error>([] { return std::string("the writer"); }, f);
+  }
+  static void check(const piecewise_output<D>& output, local_id pieces) {
+    const auto& bounds = output.bounds;
+    if (bounds.empty() || bounds.front() != 0 || bounds.back() != pieces ||
+        !std::is_sorted(bounds.begin(), bounds.end()))
+      throw usage_error("the writer's files do not take pieces 0 to " + std::to_string(pieces - 1) +
+                        " one after the other");
+    if (output.names.size() + 1 != bounds.size())
+      throw usage_error("the writer has " + std::to_string(output.names.size()) + " names for " +
+                        std::to_string(bounds.size() - 1) + " files");
+    if (!output.open || !output.finish)
+      throw usage_error("the writer does not say how a file is opened or how all are finished");
+  }
+
   std::function<piecewise_output<D>(const distributed_simplicial_mesh<D>&, const std::filesystem::path&)>
       begin_;
 };

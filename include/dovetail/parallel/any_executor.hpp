@@ -2,9 +2,12 @@
 /// Any executor behind one type, so that the stages are compiled once and not once per executor.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
 #include <concepts>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <string>
 #include <utility>
@@ -12,7 +15,9 @@
 
 namespace dovetail {
 
-/// Holds any executor by value; an executor converts to it. A run costs one indirect call.
+/// Holds any executor by value; an executor converts to it. A run costs one indirect call. Throws
+/// `usage_error` that names the executor when it gives other than one outcome per task, or throws what is no
+/// error of ours.
 class any_executor {
 public:
   template <class E>
@@ -31,10 +36,38 @@ public:
   bool shares_process() const { return shares_process_; }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
-    return run_(count, task, options);
+    const auto who = [&] { return named_policy("executor", name_); };
+    auto outcomes = call_policy<usage_error>(who, [&] { return run_(count, marked(task), options); });
+    if (outcomes.size() != count)
+      throw usage_error(who() + " gave " + std::to_string(outcomes.size()) + " outcomes for " +
+                        std::to_string(count) + " tasks");
+    for (std::size_t i = 0; i < count; ++i)
+      if (outcomes[i].ok && !take_mark(outcomes[i].result, i))
+        throw usage_error(who() + " gave for task " + std::to_string(i) + " another result than it returned");
+    return outcomes;
   }
 
 private:
+  /// Each result ends with its task's number, so that none is lost or taken for another's.
+  static task_function marked(const task_function& task) {
+    return [&task](std::size_t i) {
+      byte_buffer result = task(i);
+      const auto number = static_cast<std::uint64_t>(i);
+      const auto* bytes = reinterpret_cast<const std::byte*>(&number);
+      result.reserve(result.size() + sizeof number);
+      result.insert(result.end(), bytes, bytes + sizeof number);
+      return result;
+    };
+  }
+  static bool take_mark(byte_buffer& result, std::size_t i) {
+    std::uint64_t number = 0;
+    if (result.size() < sizeof number)
+      return false;
+    std::memcpy(&number, result.data() + result.size() - sizeof number, sizeof number);
+    result.resize(result.size() - sizeof number);
+    return number == i;
+  }
+
   std::string name_;
   int workers_;
   bool shares_process_;

@@ -27,7 +27,8 @@ public:
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    std::vector<local_id> part = call_(graph, parts);
+    std::vector<local_id> part = call_policy<partition_error>(
+        [&] { return named_policy("partitioner", name_); }, [&] { return call_(graph, parts); });
     check(part, graph.node_weights.size(), parts);
     return part;
   }
@@ -35,7 +36,7 @@ public:
 private:
   void check(const std::vector<local_id>& part, std::size_t nodes, int parts) const {
     const auto refuse = [&](const std::string& why) {
-      throw partition_error("the partitioner" + (name_.empty() ? name_ : " '" + name_ + "'") + " " + why);
+      throw partition_error(named_policy("partitioner", name_) + " " + why);
     };
     if (part.size() != nodes)
       refuse("put " + std::to_string(part.size()) + " nodes into parts, the graph has " +

@@ -2,6 +2,7 @@
 /// Any surface mesher behind one type, so that the stages are compiled once and not once per mesher.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/remesh/concepts.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 
@@ -30,7 +31,8 @@ public:
   bool may_run_in_threads() const { return runs_in_threads_; }
   patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
                         const any_sizing& size) const {
-    return call_(surface, boundary, size);
+    return call_policy<mesher_error>([&] { return named_policy("surface mesher", name_); },
+                                     [&] { return call_(surface, boundary, size); });
   }
 
 private:

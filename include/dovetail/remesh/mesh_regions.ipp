@@ -35,6 +35,20 @@ inline bool forbid_own_chords(const surface_region& region, const patch_mesh& ma
   return forbidden.size() > before;
 }
 
+/// Throws `mesher_error` unless points are where their parameters are, up to what another way of rounding
+/// does.
+inline void check_points_on(const any_surface_mesher& mesher, const any_surface& surface,
+                            const patch_boundary& boundary, const patch_mesh& made) {
+  box3 box;
+  for (const vec3 p : boundary.points)
+    box.include(p);
+  const double tolerance = 1e-6 * box.diagonal();
+  for (std::size_t v = 0; v < made.inner_uv.size(); ++v)
+    if (!(distance(surface.frame(made.inner_uv[v]).point, made.inner_points[v]) <= tolerance))
+      throw mesher_error(named_policy("surface mesher", mesher.name()) + ": its point " + std::to_string(v) +
+                         " is not where its parameters are on the surface");
+}
+
 /// A mesher's result, of which everything else may then look up what it names.
 inline patch_mesh mesh_once(const any_surface_mesher& mesher, const any_surface& surface,
                             const patch_boundary& boundary, const any_sizing& size) {
@@ -45,7 +59,9 @@ inline patch_mesh mesh_once(const any_surface_mesher& mesher, const any_surface&
     for (const local_id v : triangle)
       named = named && v >= 0 && v < points;
   if (!named)
-    throw mesher_error("its triangles name points that do not exist");
+    throw mesher_error(named_policy("surface mesher", mesher.name()) +
+                       ": its triangles name points that do not exist");
+  check_points_on(mesher, surface, boundary, made);
   return made;
 }
 
@@ -81,12 +97,18 @@ inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
 }
 
 /// Throws `mesher_error` when a mesh does not end at its region's boundary.
-inline void check_region(const patch_boundary& boundary, const patch_mesh& made) {
+inline void check_region(const any_surface_mesher& mesher, const patch_boundary& boundary,
+                         const patch_mesh& made) {
   if (!made.crossings.empty() || !made.misplaced.empty())
     return; // there is no mesh
-  passages_of(boundary, made).check();
+  const std::string who = named_policy("surface mesher", mesher.name()) + ": ";
+  try {
+    passages_of(boundary, made).check();
+  } catch (const mesher_error& lost) {
+    throw mesher_error(who + lost.what());
+  }
   if (!closes_up(boundary, made))
-    throw mesher_error("its triangles leave a hole or lie upon each other");
+    throw mesher_error(who + "its triangles leave a hole or lie upon each other");
 }
 
 /// The meshes of the regions of one set.
@@ -251,7 +273,7 @@ DOVETAIL_INLINE patch_mesh mesh_region(const any_surface_mesher& mesher, const a
       best = std::move(made);
     factor *= 0.8;
   }
-  detail::check_region(region.boundary, best);
+  detail::check_region(mesher, region.boundary, best);
   return best;
 }
 

@@ -2,17 +2,20 @@
 /// Any simplification rule behind one type, so that the pipeline is compiled once and not once per rule.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/simplification/concepts.hpp"
 
 #include <concepts>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace dovetail {
 
-/// Holds any simplification rule for D = 2 and 3; a rule converts to it. Copies share it.
+/// Holds any simplification rule for D = 2 and 3; a rule converts to it. Copies share it. What a rule throws
+/// that is no error of ours becomes a `usage_error` that names it.
 class any_simplification_rule {
 public:
   template <class R>
@@ -24,16 +27,27 @@ public:
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const {
-    return held_->judge(mesh, sides);
+    return asked([&] { return held_->judge(mesh, sides); });
   }
   side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
-    return held_->judge(mesh, sides);
+    return asked([&] { return held_->judge(mesh, sides); });
   }
-  bool first_goes(const wedge_side& a, const wedge_side& b) const { return held_->first_goes(a, b); }
-  std::optional<ridge_decision> couples(const side_below& below) const { return held_->couples(below); }
-  double price(const shortfall& missed) const { return held_->price(missed); }
+  bool first_goes(const wedge_side& a, const wedge_side& b) const {
+    return asked([&] { return held_->first_goes(a, b); });
+  }
+  std::optional<ridge_decision> couples(const side_below& below) const {
+    return asked([&] { return held_->couples(below); });
+  }
+  double price(const shortfall& missed) const {
+    return asked([&] { return held_->price(missed); });
+  }
 
 private:
+  template <class F>
+  std::invoke_result_t<const F&> asked(const F& f) const {
+    return call_policy<usage_error>([&] { return named_policy("simplification rule", name_); }, f);
+  }
+
   struct interface {
     virtual ~interface() = default;
     virtual side_judgement judge(const simplicial_mesh<2>&, const side_table<2>&) const = 0;

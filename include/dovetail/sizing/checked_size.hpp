@@ -15,10 +15,12 @@ namespace dovetail {
 /// A size that a mesher can work with, or `sizing_error` naming the place.
 template <sizing_field H>
 double checked_size(const H& size, vec3 p) {
-  const auto h = static_cast<double>(size(p));
+  const auto who = [&] {
+    return "the size at (" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + ")";
+  };
+  const double h = call_policy<sizing_error>(who, [&] { return static_cast<double>(size(p)); });
   if (!(h > 0) || !std::isfinite(h))
-    throw sizing_error("the size at (" + number_text(p.x) + ", " + number_text(p.y) + ", " +
-                       number_text(p.z) + ") is " + number_text(h) + "; it must be positive and finite");
+    throw sizing_error(who() + " is " + number_text(h) + "; it must be positive and finite");
   return h;
 }
 
