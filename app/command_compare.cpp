@@ -4,18 +4,25 @@
 #include "compare_runs.hpp"
 #include "compare_table.hpp"
 #include "failure.hpp"
+#include "file_checksums.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
+#include "run_identity.hpp"
 #include "run_setup.hpp"
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/version.hpp"
 #include "png.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace dovetail::app {
 namespace {
@@ -69,6 +76,7 @@ public:
     for (const char* name : {"compare.csv", "compare.html"})
       check_can_create(folder.path() / name);
     model_source source = load();
+    compared_.origin = origin_of(source);
     run_all(source);
     lines_.reset();
     write(folder.path());
@@ -84,6 +92,36 @@ private:
     if (options_.elements)
       source.size = size_for_elements(source, *options_.elements, policies_.front(), parameters_);
     return source;
+  }
+
+  /// What somebody needs who wants to make the same again, or has two files of which one is newer.
+  std::vector<known_fact> origin_of(const model_source& source) const {
+    const model_options& model = options_.model;
+    char date[32];
+    const std::time_t now = std::time(nullptr);
+    std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+    std::vector<known_fact> facts{{"command", "Command", options_.command_line},
+                                  {"version", "Version", std::string("dovetail ") + version},
+                                  {"date", "Begun at", date},
+                                  {"sizes", "Sizes", text_of_sizes()},
+                                  {"sizes_checksum", "Checksum of the sizes in the model's box",
+                                   values_of_field(source.size, source.geometry.bounds())}};
+    if (!model.input.empty())
+      facts.push_back({"input_checksum", "Checksum of " + source.name, checksum_of_file(model.input)});
+    return facts;
+  }
+  std::string text_of_sizes() const {
+    const model_options& model = options_.model;
+    std::ostringstream text;
+    if (!model.sizing.empty())
+      text << model.sizing;
+    else if (model.size)
+      text << *model.size;
+    else
+      text << "default";
+    if (options_.elements)
+      text << ", scaled for " << *options_.elements << " elements";
+    return text.str();
   }
 
   void run_all(const model_source& source) {

@@ -13,10 +13,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dovetail::app {
@@ -240,6 +243,28 @@ struct parser {
   }
 };
 
+/// The command line as a shell takes it.
+std::string text_of_command_line(int argc, char** argv) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-_./,=:+@").find(c) != std::string_view::npos;
+  };
+  std::string text = "dovetail";
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view word = argv[k];
+    text += ' ';
+    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char c : word)
+      text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += '\'';
+  }
+  return text;
+}
+
 /// CLI11 only says that a command is required when the one given is none.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-' || !app.get_subcommands().empty())
@@ -265,6 +290,7 @@ int run_command_line(int argc, char** argv) {
     complain(problem.what() + std::string(" (see dovetail --help)"));
     return exit_usage;
   }
+  line.compare.command_line = text_of_command_line(argc, argv);
   const unfinished_output unfinished(line.outputs);
   return run_supervised([&] { return run_guarded(line.chosen); }, [&] { return unfinished.remove(); });
 }

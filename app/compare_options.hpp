@@ -29,6 +29,7 @@ struct compare_options {
   int workers = 0;
   std::string executor;
   std::string out = "compare";
+  std::string command_line; ///< as it was given
   bool quiet = false;
 };
 

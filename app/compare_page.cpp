@@ -51,6 +51,7 @@ json json_of(const comparison_row& row, const element_words& words) {
           {"improver", row.policies.improver},
           {"simplifier", row.policies.simplifier},
           {"error", row.error},
+          {"hash", row.mesh_hash},
           {"reused", row.background_reused},
           {"elements", row.elements},
           {"imbalance", row.imbalance},
@@ -86,7 +87,11 @@ json json_of(const std::vector<captioned_picture>& pictures) {
 
 std::string page_html(const comparison& compared, const comparison_pictures& pictures) {
   const element_words words = words_of(compared.dimension);
+  json origin = json::array();
+  for (const auto& fact : compared.origin)
+    origin.push_back({{"meaning", fact.meaning}, {"text", fact.text}});
   json data{{"model", compared.model},
+            {"origin", std::move(origin)},
             {"dimension", compared.dimension},
             {"workers", compared.workers},
             {"threshold", compared.angle_threshold},

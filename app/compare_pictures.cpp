@@ -14,8 +14,8 @@
 namespace dovetail::app {
 namespace {
 
-constexpr int width = 560;
-constexpr int height = 400;
+constexpr int width = 1120; // the page shows them at half of that, a browser's zoom all of it
+constexpr int height = 800;
 constexpr rgb red{205, 40, 40};
 constexpr rgb orange{240, 150, 30};
 constexpr rgb blue{70, 120, 200};
@@ -30,7 +30,7 @@ vec3 direction_to_viewer(const raster_scene& scene) {
 
 raster_image rendered(const raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
   const raster_view view = fitted(view_from(from), scene, width, height);
-  return render(scene, view, width, height);
+  return render(scene, view, width, height, 2);
 }
 
 /// Soft colours, neighbours in number far apart in hue: hues go round by the golden ratio.
@@ -74,9 +74,12 @@ std::vector<vec3> centers_of_subdomains(const fine_skeleton& skeleton) {
   return sums;
 }
 
-void add_edges(raster_scene& scene, const std::array<vec3, 3>& p) {
+/// A triangle and its edges, in a dark shade of its colour: where triangles are too small to be told apart
+/// the colour is left.
+void add_with_edges(raster_scene& scene, const std::array<vec3, 3>& p, rgb colour) {
+  scene.triangles.push_back({p, colour});
   for (std::size_t k = 0; k < 3; ++k)
-    scene.lines.push_back({{p[k], p[(k + 1) % 3]}, {70, 70, 80}, 0.5});
+    scene.lines.push_back({{p[k], p[(k + 1) % 3]}, darkened(colour, 0.4), 0.6});
 }
 
 /// The edges on CAD curves.
@@ -85,13 +88,13 @@ void add_outline(raster_scene& scene, const fine_skeleton& skeleton) {
     scene.lines.push_back(
         {{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
          outline,
-         0.8});
+         1.6});
 }
 
 void add_outline(raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (skeleton.side_hosts[e] != no_id)
-      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), outline, 0.8});
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), outline, 1.6});
 }
 
 /// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.
@@ -141,12 +144,13 @@ std::vector<ranked_element<D>> worst_elements(const distributed_simplicial_mesh<
 /// The triangles that bound an element: its sides, or itself.
 void add_faces(raster_scene& scene, const std::array<vec3, 4>& p, rgb colour) {
   for (const auto& side : numbering::sides<3>)
-    scene.triangles.push_back({{p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
-                                p[static_cast<std::size_t>(side[2])]},
-                               colour});
+    add_with_edges(scene,
+                   {p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
+                    p[static_cast<std::size_t>(side[2])]},
+                   colour);
 }
 void add_faces(raster_scene& scene, const std::array<vec3, 3>& p, rgb colour) {
-  scene.triangles.push_back({p, colour});
+  add_with_edges(scene, p, colour);
 }
 
 /// An element, scaled about its middle if it is smaller than `least` across.
@@ -170,8 +174,7 @@ void add_element(raster_scene& scene, const ranked_element<D>& element, double l
 
 raster_image picture_of_decomposition(const generated<3>& result) {
   const fine_skeleton& skeleton = result.mesh.skeleton;
-  constexpr double explosion = 0.35;           // of the way from the middle of all to one's own
-  constexpr std::size_t few_triangles = 12000; // so many have edges that can be told apart
+  constexpr double explosion = 0.35; // of the way from the middle of all to one's own
   box3 box;
   for (const vec3 p : skeleton.points)
     box.include(p);
@@ -184,27 +187,18 @@ raster_image picture_of_decomposition(const generated<3>& result) {
       auto p = corners(std::span(skeleton.points), skeleton.sides[t]);
       for (vec3& corner : p)
         corner += explosion * (centers[static_cast<std::size_t>(s)] - box.center());
-      scene.triangles.push_back({p, colour_of_subdomain(s)});
-      if (skeleton.sides.size() < few_triangles)
-        add_edges(scene, p);
+      add_with_edges(scene, p, colour_of_subdomain(s));
     }
   return rendered(scene);
 }
 
 raster_image picture_of_decomposition(const generated<2>& result) {
-  constexpr std::int64_t few_triangles = 12000; // so many have edges that can be told apart
-  std::int64_t triangles = 0;
-  for (const piece_counts& piece : result.mesh.counts)
-    triangles += piece.elements;
   raster_scene scene;
   for (std::size_t s = 0; s < result.mesh.counts.size(); ++s) {
     const auto piece = result.mesh.load(static_cast<local_id>(s));
-    for (const simplex<2>& triangle : piece.mesh.elements) {
-      const auto p = corners(std::span(piece.mesh.points), triangle);
-      scene.triangles.push_back({p, colour_of_subdomain(static_cast<local_id>(s))});
-      if (triangles < few_triangles)
-        add_edges(scene, p);
-    }
+    for (const simplex<2>& triangle : piece.mesh.elements)
+      add_with_edges(scene, corners(std::span(piece.mesh.points), triangle),
+                     colour_of_subdomain(static_cast<local_id>(s)));
   }
   add_outline(scene, result.mesh.skeleton);
   return rendered(scene, direction_to_viewer(scene));
@@ -213,25 +207,20 @@ raster_image picture_of_decomposition(const generated<2>& result) {
 raster_image picture_of_interfaces(const generated<3>& result) {
   const fine_skeleton& skeleton = result.mesh.skeleton;
   const interface_angles& angles = result.fine_angles;
-  constexpr std::size_t few_triangles = 12000;
   raster_scene scene;
   add_outline(scene, skeleton);
-  std::vector<std::array<vec3, 3>> interfaces;
   for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
     if (skeleton.side_hosts[t] == no_id) {
-      interfaces.push_back(corners(std::span(skeleton.points), skeleton.sides[t]));
       const auto& [first, second] = skeleton.subdomains[t];
-      scene.triangles.push_back({interfaces.back(), colour_of_subdomain(first + 3 * second)});
+      add_with_edges(scene, corners(std::span(skeleton.points), skeleton.sides[t]),
+                     colour_of_subdomain(first + 3 * second));
     }
-  if (interfaces.size() < few_triangles)
-    for (const auto& triangle : interfaces)
-      add_edges(scene, triangle);
   const vec3 before_all = 2 * scene.bounds().diagonal() * normalized({0.8, -1, 0.65});
   const auto mark = [&](local_id a, local_id b) {
     scene.lines.push_back(
         lifted({{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
                 red,
-                2.5},
+                5},
                before_all));
   };
   for (const angle_violation& violation : angles.violations) {
@@ -253,7 +242,7 @@ raster_image picture_of_interfaces(const generated<2>& result) {
   add_outline(scene, skeleton);
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (skeleton.side_hosts[e] == no_id)
-      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), blue, 1.5});
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), blue, 3});
   const vec3 from = direction_to_viewer(scene);
   const double diagonal = scene.bounds().diagonal();
   const raster_view view = view_from(from);
@@ -261,8 +250,8 @@ raster_image picture_of_interfaces(const generated<2>& result) {
     // The vertices of lines are those of the background mesh.
     const vec3 at = result.background.surface.mesh.points[static_cast<std::size_t>(violation.edge[0])];
     for (const vec3 along : {view.right + view.up, view.right - view.up})
-      scene.lines.push_back(lifted({{at - arm * diagonal * along, at + arm * diagonal * along}, red, 2.5},
-                                   2 * diagonal * from));
+      scene.lines.push_back(
+          lifted({{at - arm * diagonal * along, at + arm * diagonal * along}, red, 5}, 2 * diagonal * from));
   }
   return rendered(scene, from);
 }

@@ -48,6 +48,8 @@ struct comparison_row {
   interface_row coarse; ///< on the background mesh; its faces are the cut
   interface_row fine;   ///< on the finished mesh
 
+  std::string mesh_hash; ///< hexadecimal, as `mesh` reports it
+
   bool failed() const { return !error.empty(); }
 };
 
@@ -66,10 +68,18 @@ inline element_words words_of(int dimension) {
   return {"triangles", "angle", limits_of(2).bad, limits_of(2).low, 60};
 }
 
+/// Something that is said of a whole comparison.
+struct known_fact {
+  std::string key; ///< in the CSV's head
+  std::string meaning;
+  std::string text;
+};
+
 /// All rows, and what they have in common.
 struct comparison {
   std::string model;
-  int dimension = 3; ///< of the elements
+  std::vector<known_fact> origin; ///< by what command, when, from which files it was made
+  int dimension = 3;              ///< of the elements
   int workers = 1;
   double angle_threshold = 30; ///< degrees
   std::vector<comparison_row> rows;

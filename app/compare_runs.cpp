@@ -1,9 +1,11 @@
 #include "compare_runs.hpp"
 
 #include "failure.hpp"
+#include "file_checksums.hpp"
 #include "policies.hpp"
 #include "stage_figures.hpp"
 
+#include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/sizing/compose.hpp"
 
 #include <algorithm>
@@ -145,6 +147,8 @@ comparison_row run_combination(const model_source& source, const combination& po
                          ": " + joined_reasons(first.reasons));
     }
     add_figures(result, row);
+    row.mesh_hash = hexadecimal(
+        io::finish_mesh<D>(result.mesh, {}, {}, chosen.executor, {.on_progress = options.on_progress}).hash);
     observe(row, result);
   } catch (const cancelled&) {
     throw;

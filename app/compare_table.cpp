@@ -213,6 +213,9 @@ std::string csv_text(const comparison& compared) {
   text_row head{"partitioner", "mesher", "improver", "simplifier", "error", "background_reused"};
   for (const auto& column : columns)
     head.push_back(column.key);
+  head.emplace_back("mesh_hash");
+  for (const auto& fact : compared.origin)
+    head.push_back(fact.key);
   std::string text = csv_line(head);
   for (const auto& row : compared.rows) {
     const combination& by = row.policies;
@@ -220,6 +223,9 @@ std::string csv_text(const comparison& compared) {
                     by.simplifier,  row.error, row.background_reused ? "yes" : "no"};
     for (const auto& column : columns)
       fields.push_back(column.text(row));
+    fields.push_back(row.mesh_hash);
+    for (const auto& fact : compared.origin)
+      fields.push_back(fact.text);
     text += csv_line(fields);
   }
   return text;

@@ -32,7 +32,7 @@ std::vector<table_column> time_columns();
 std::string terminal_text(const comparison& compared);
 
 /// One line of keys, then one per row (RFC 4180). Columns: partitioner, mesher, improver, simplifier,
-/// error, background_reused, then all of the above.
+/// error, background_reused, then all of the above, mesh_hash, and where the comparison comes from.
 std::string csv_text(const comparison& compared);
 
 } // namespace dovetail::app

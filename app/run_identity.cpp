@@ -21,23 +21,6 @@ std::string all_digits(double value) {
   return text;
 }
 
-/// The field itself, at points of a lattice of irrational steps: whatever file or option it comes from.
-std::string values_of_field(const any_sizing& size, const box3& box) {
-  constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-  constexpr int samples = 4096;
-  const vec3 extent = box.upper - box.lower;
-  content_hash hash;
-  for (int i = 0; i < samples; ++i) {
-    vec3 p = box.lower;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double t = i * steps[static_cast<std::size_t>(axis)];
-      p[axis] += (t - std::floor(t)) * extent[axis];
-    }
-    hash.number(size(p));
-  }
-  return hexadecimal(hash.value());
-}
-
 /// The shared libraries that this program runs with: a mesh may be another one with the next version of one.
 std::string checksum_of_libraries() {
   content_hash hash;
@@ -58,6 +41,22 @@ std::string checksum_of_libraries() {
 }
 
 } // namespace
+
+std::string values_of_field(const any_sizing& size, const box3& box) {
+  constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  constexpr int samples = 4096;
+  const vec3 extent = box.upper - box.lower;
+  content_hash hash;
+  for (int i = 0; i < samples; ++i) {
+    vec3 p = box.lower;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double t = i * steps[static_cast<std::size_t>(axis)];
+      p[axis] += (t - std::floor(t)) * extent[axis];
+    }
+    hash.number(size(p));
+  }
+  return hexadecimal(hash.value());
+}
 
 run_identity identity_of_run(const mesh_options& options, const model_source& source) {
   run_identity identity{{"model", source.name}};

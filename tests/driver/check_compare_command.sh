@@ -15,7 +15,7 @@ page=$sandbox/work/out/compare.html
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
 diff "$sandbox/listing" - <<<$'compare.csv\ncompare.html' || fault "other files than expected"
 (($(wc -l <"$table") == 9)) || fault "$(wc -l <"$table") lines in the table"
-[[ $(awk -F, '{ print NF }' "$table" | sort -u | wc -l) == 1 ]] || fault "lines of different lengths"
+[[ $(sed 's/"[^"]*"/-/g' "$table" | awk -F, '{ print NF }' | sort -u | wc -l) == 1 ]] || fault "lines of different lengths"
 column() { # key: the values
   awk -F, -v key="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == key) at = k; next } at { print $at }' "$table"
 }
@@ -33,6 +33,17 @@ done
 awk -F, 'NR > 1 { print $1 "," $4 }' "$table" | paste -d, - <(column cut) | sort -u >"$sandbox/cuts"
 (($(wc -l <"$sandbox/cuts") == 4)) || fault "the improver changes the cut"
 grep -q "^metis  *tetgen  *native  *none" "$sandbox/stdout" || fault "no table on the terminal"
+
+# Where the figures come from is said with them.
+command="dovetail compare $inputs/cube.off --workers 1 --out out --size 0.1 --subdomains 4 --partitioners metis,greedy"
+command+=" --meshers tetgen --improvers none,native"
+(($(grep -cF "\"$command\"" "$table") == 8)) || fault "the command line is not in every row"
+for origin in "$command" "$("$driver" --version)" 'Checksum of cube.off'; do
+  grep -qF "$origin" "$page" || fault "not on the page: $origin"
+done
+grep -qE ',dovetail [0-9.]+,20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z,0\.1,[0-9a-f]{16},[0-9a-f]{16}$' "$table" ||
+  fault "version, date, sizes or checksums are not in the table"
+mapfile -t hashes < <(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "mesh_hash") at = k; next } { print $at }' "$table")
 
 # One page with nothing from outside; what its script draws is well-formed.
 [[ $(head -n 1 "$page") == "<!DOCTYPE html>" ]] || fault "the page has no doctype"
@@ -57,6 +68,7 @@ check_drawn_page tetrahedra
 elements=$(column elements | sed -n 3p)
 expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --format none --report report.json
 grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
+grep -q "\"mesh_hash\": \"${hashes[2]}\"" "$sandbox/work/report.json" || fault "mesh makes another mesh than ${hashes[2]}"
 
 # Other rules, and what mesh makes by one of them.
 compare --size 0.1 --subdomains 4 --simplifiers none,wedges,shape --quiet
