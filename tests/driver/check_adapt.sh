@@ -66,7 +66,7 @@ for workers in 1 2; do
   cp "$sandbox/work/next.vtu" "$inputs/by_$workers.vtu"
 done
 cmp "$inputs/by_1.vtu" "$inputs/by_2.vtu" || fault "another mesh by two workers"
-grep -qa 'Name="material_names"' "$inputs/by_1.vtu" || fault "the names of the materials are lost"
+grep -qa 'Name="region_names"' "$inputs/by_1.vtu" || fault "the names of the materials are lost"
 expect_success check "$inputs/by_1.vtu"
 
 # Wrong sizes, and meshes that are none.
