@@ -50,6 +50,14 @@ expect_usage_error "--preset: there is no 'nonsense'; there are: .*hard" \
   improve no_such_file.vtu -o better.vtu --preset nonsense
 expect_usage_error "--dimension 2" mesh no_such_file.svg
 
+# A variable of a script that is not set does not mean the default.
+expect_usage_error "INPUT: the value is empty" mesh ""
+for option in --size --sizing --mesher --model --out --report; do
+  expect_usage_error "$option: the value is empty" mesh no_such_file.step $option ""
+done
+expect_usage_error "MESH: the value is empty" stats ""
+expect_usage_error "give a mesh file, or --report" check
+
 # A sizing file is looked at before the model is; what it says of a model or a mesh, when that is there.
 echo '{ "size": 1, "soruces": [] }' >"$inputs/misspelt.json"
 echo '{ "curvature": 0 }' >"$inputs/zero.json"
@@ -64,6 +72,13 @@ expect_error "no_such_mesh.vtu" mesh --model combustor --sizing "$inputs/backgro
 expect_error "larger than the model" mesh --model combustor --size 1e9
 ((status == 1)) || fault "exit code is $status, not 1"
 expect_error "--size: 1e-20 is less" mesh --model combustor --size 1e-20
+echo '{ "size": 1e-300 }' >"$inputs/tiny.json"
+echo '{ "proximity": 1e9 }' >"$inputs/across.json"
+expect_error "sizes down to 1e-300, less than a billionth" mesh --model combustor --sizing "$inputs/tiny.json"
+expect_error 'across.json:1: "proximity" is 1e\+09; give .* at most 1000' mesh --model combustor --sizing "$inputs/across.json"
+expect_error "100000000 subdomains are more than" mesh --model combustor --subdomains 100000000
+write_cube >"$inputs/cube.off"
+limit=10 expect_error "more than any machine can hold" plan "$inputs/cube.off" --size 3e-9
 
 # The examples at the end of each help are command lines: what is missing are their files.
 examples=0

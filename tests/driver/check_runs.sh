@@ -327,6 +327,17 @@ rm -rf "$sandbox/work/out" && mkdir -p "$sandbox/work/out/spool" && echo "dove" 
 resume
 expect_same_files "$inputs/resumed"
 what="another run in the folder of a finished one"
+piped() { # the sizes
+  what="resuming with the sizes $1 from a pipe"
+  (cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --sizing <(echo "$1") --out piped --resume >"$sandbox/stdout" 2>"$sandbox/stderr") ||
+    fault "exit code is $?"
+}
+piped '{ "size": 0.2 }'
+piped '{ "size": 0.2 }'
+grep -q "this run is finished" "$sandbox/stdout" || fault "the same sizes are meshed again"
+piped '{ "size": 0.2, "scale": 1 }'
+grep -q "this run is finished" "$sandbox/stdout" && fault "a mesh of another text is taken for this one's"
+
 (cd "$sandbox/work" && "$driver" mesh "$inputs/cube.off" --size 0.2 --subdomains 2 --resume) >"$sandbox/stdout" 2>"$sandbox/stderr"
 status=$?
 ((status == 0)) || fault "exit code is $status"

@@ -80,6 +80,11 @@ TEST_CASE("Another run is not resumed, and the message says what differs") {
     CHECK_THROWS_WITH_AS(spool::resume(scratch.path, other), doctest::Contains(size), usage_error);
   other.pop_back();
   CHECK_THROWS_AS(spool::resume(scratch.path, other), usage_error);
+  for (const char* damaged : {"", "dovetail", "dovetail 0.1.0\n\x1b[2J\n", "something else\n"}) {
+    std::ofstream(scratch.path / "manifest.txt", std::ios::binary) << damaged;
+    CHECK_THROWS_WITH_AS(spool::resume(scratch.path, identity), doctest::Contains("manifest.txt is damaged"),
+                         usage_error);
+  }
 }
 
 TEST_CASE("A truncated, altered, foreign or misnamed blob counts as absent") {

@@ -127,7 +127,7 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
                        " elements, more than any machine can hold; give larger sizes");
   if (options.subdomains > std::max(1.0, predicted.elements))
     throw sizing_error(std::to_string(options.subdomains) + " subdomains are more than the about " +
-                       number_text(predicted.elements, 3) +
+                       std::to_string(std::llround(predicted.elements)) +
                        " elements that the sizes predict; give fewer, or smaller sizes");
   mesh_plan plan;
   plan.predicted_elements = predicted.elements;
