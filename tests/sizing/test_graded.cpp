@@ -183,5 +183,6 @@ TEST_CASE("a background field interpolates linearly and extends by the nearest p
   CHECK_THROWS_AS(background_field(mesh, sizes), sizing_error);
   sizes.pop_back();
   CHECK_THROWS_AS(background_field(mesh, sizes), sizing_error);
-  CHECK_THROWS_AS(background_field({}, {}), sizing_error);
+  CHECK_THROWS_AS(background_field(simplicial_mesh<3>{}, {}), sizing_error);
+  CHECK_THROWS_AS(background_field(simplicial_mesh<2>{}, {}), sizing_error);
 }
