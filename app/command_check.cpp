@@ -112,6 +112,8 @@ int check_mesh(const check_options& options) {
 } // namespace
 
 int run_check(const check_options& options) {
+  if (options.mesh.empty() && options.report.empty())
+    throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
   const int files = options.report.empty() ? exit_ok : check_files(options.report);
   const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options);
   return files == exit_ok ? mesh : files;

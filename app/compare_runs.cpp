@@ -147,8 +147,10 @@ comparison_row run_combination(const model_source& source, const combination& po
                          ": " + joined_reasons(first.reasons));
     }
     add_figures(result, row);
-    row.mesh_hash = hexadecimal(
-        io::finish_mesh<D>(result.mesh, {}, {}, chosen.executor, {.on_progress = options.on_progress}).hash);
+    if (result.mesh.load)
+      row.mesh_hash = hexadecimal(
+          io::finish_mesh<D>(result.mesh, {}, {}, chosen.executor, {.on_progress = options.on_progress})
+              .hash);
     observe(row, result);
   } catch (const cancelled&) {
     throw;

@@ -133,8 +133,10 @@ TEST_CASE("a held executor runs every task once, and knows its workers") {
   struct backwards {
     std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
       std::vector<task_outcome> outcomes(count);
-      for (std::size_t i = count; i-- > 0;)
+      for (std::size_t i = count; i-- > 0;) {
+        outcomes[i].ok = true;
         outcomes[i].result = task(i);
+      }
       return outcomes;
     }
     int workers() const { return 3; }

@@ -86,7 +86,7 @@ mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --files 1 -
 # The names that --help offers for a mesher: its kind, its help.
 offered() {
   local names
-  names=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n "s/.*$2: \\([a-z, ]*\\) --.*/\\1/p" | tr -d ,)
+  names=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n "s/.*$2: \\([a-z, ]*\\) -.*/\\1/p" | tr -d ,)
   [[ $names == native* ]] && echo "$names" || echo "no_native_$1_mesher_among_$names" | tr ' ' _
 }
 
@@ -109,7 +109,8 @@ mesh_by() { # name, kind
     tail -n 12 "$inputs/cube.off" | awk -v first=$first '{ print 3, $2 + first, $3 + first, $4 + first }'
   done
 } >"$inputs/cubes.off"
-for name in $(offered background "Mesher of the coarse mesh that is decomposed"); do
+background_meshers=$(offered background "Mesher of the coarse mesh that is decomposed")
+for name in $background_meshers; do
   mesh_by "$name" background
   [[ $name == native ]] ||
     expect_error "2 solids.*native" mesh "$inputs/cubes.off" --size 0.2 --background-mesher "$name"
@@ -120,7 +121,8 @@ expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --background-mesher nonsense
 
 # The surface by every mesher that is offered.
-for name in $(offered surface "Mesher of the surface of --dimension 3"); do
+surface_meshers=$(offered surface "Mesher of the surface of --dimension 3")
+for name in $surface_meshers; do
   mesh_by "$name" surface
 done
 expect_error "--surface-mesher: there is no 'nonsense'; there are: native" \

@@ -30,7 +30,9 @@ inline void check_topology(const geometry_topology& topology) {
     for (const local_id v : curve.vertices)
       if (!exists(v, topology.vertices))
         refuse("curve", c, "ends at vertex " + std::to_string(v) + ", which does not exist");
-    if (!std::isfinite(curve.t[0]) || !std::isfinite(curve.t[1]) || !(curve.t[0] < curve.t[1]))
+    if (!std::isfinite(curve.t[0]) || !std::isfinite(curve.t[1]))
+      refuse("curve", c, "has an infinite parameter range; its coordinates may be too large to measure");
+    if (!(curve.t[0] < curve.t[1]))
       refuse("curve", c, "has no parameter range");
   }
   for (std::size_t f = 0; f < topology.faces.size(); ++f) {
