@@ -161,7 +161,7 @@ private:
     return make.key();
   }
 
-  /// In tasks of many regions; those of a task that fails are made once more when it is known which did.
+  /// In tasks of many regions.
   void make_missing() {
     std::vector<std::size_t> regions;
     std::vector<double> costs;
@@ -185,8 +185,6 @@ private:
         run_, run_options{.on_progress = options_.on_progress, .stage = options_.stage});
     for (const entity_failure& failure : failures)
       result_.failures[regions[failure.entity]] = failure.reason;
-    if (!failures.empty())
-      make_missing();
   }
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
