@@ -17,6 +17,8 @@ struct two_faces {
   std::vector<vec3> points;
   coarse_skeleton skeleton;
   std::size_t matched = 0; ///< lines, by the last `remesh`
+  batched_entities made_segments{std::make_shared<entity_store>()};
+  progress on_progress = {}; ///< of the matching
 
   explicit two_faces(std::vector<vec3> corners) : points(std::move(corners)) {
     for (const auto& [a, b] : {simplex<1>{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}})
@@ -38,7 +40,8 @@ struct two_faces {
                              any_surface_mesher(), parallel::serial{}, made_patches);
     };
     auto made = fill();
-    matched = match_segments(no_lines_on_it, points, skeleton, lines, made, size, least_angle_deg);
+    matched = match_segments(no_lines_on_it, points, skeleton, lines.lines, made, size, least_angle_deg,
+                             any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
     return matched == 0 ? made : fill();
   }
 };
@@ -83,4 +86,27 @@ TEST_CASE("a face whose corner is too small itself does not get worse") {
   CHECK(untouched < 10);
   const double tried = least_angle(faces.remesh(30).fine);
   CHECK(tried >= untouched - 1e-9);
+}
+
+TEST_CASE("what was found for a face is found again, for the same lines and threshold only") {
+  two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
+  const auto first = faces.remesh(30).fine.points;
+  const std::size_t made = faces.made_segments.made();
+  CHECK(made > 0);
+  const auto start_again = [&] {
+    for (skeleton_line& line : faces.skeleton.lines)
+      line.segments = 0, line.bias = 0;
+  };
+  start_again();
+  CHECK(faces.remesh(30).fine.points == first);
+  CHECK(faces.made_segments.made() == made);
+  start_again();
+  faces.remesh(31);
+  CHECK(faces.made_segments.made() > made);
+}
+
+TEST_CASE("a request to stop ends the matching") {
+  two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
+  faces.on_progress.stop_requested = [] { return true; };
+  CHECK_THROWS_AS(faces.remesh(30), cancelled);
 }

@@ -25,12 +25,15 @@ struct realized {
   report summary;
 };
 
-/// The lines and patches made so far, by their keys. After a merge of subdomains most are as before.
+/// The lines, patches and matching segments made so far, by their keys. After a merge of subdomains most are
+/// as before.
 struct skeleton_store {
-  explicit skeleton_store(const std::shared_ptr<entity_store>& store) : lines(store), patches(store) {}
+  explicit skeleton_store(const std::shared_ptr<entity_store>& store)
+      : lines(store), patches(store), segments(store) {}
 
   batched_entities lines;
   batched_entities patches;
+  batched_entities segments;              ///< of lines, per interface face
   std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
 };
 

@@ -3,6 +3,7 @@
 /// remeshed.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
@@ -190,6 +191,15 @@ inline std::array<local_id, 3> lines_of(const skeleton_face& face, const std::ve
   const simplex<2> key = key_order(face);
   return {find_line(lines, key[1], key[2]), find_line(lines, key[2], key[0]),
           find_line(lines, key[0], key[1])};
+}
+
+/// The interface faces at each line, growing. O(n log n).
+inline compressed_rows<local_id> faces_of_lines(const coarse_skeleton& skeleton) {
+  return sorted_into_rows<local_id>(skeleton.lines.size(), [&](const auto& put) {
+    for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
+      for (const local_id line : lines_of(skeleton.faces[f], skeleton.lines))
+        put(line, static_cast<local_id>(f));
+  });
 }
 
 /// Builds the patch of an interface face.

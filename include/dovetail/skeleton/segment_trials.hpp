@@ -1,0 +1,312 @@
+/// @file
+/// What other numbers of segments would make of an interface face and the faces beside it: meshes of them, as
+/// few as the angles at the corners allow.
+#pragma once
+
+#include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/triangle_surface.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
+#include "dovetail/skeleton/patches.hpp"
+#include "dovetail/skeleton/remesh_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <map>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Other segments for a line; none leave it as it is.
+struct line_segments {
+  int count = 0;
+  double bias = 0;
+
+  friend auto operator<=>(const line_segments&, const line_segments&) = default;
+};
+/// Of the lines of a face.
+using face_segments = std::array<line_segments, 3>;
+
+/// A skeleton whose lines may get other segments, and the lines as they are.
+struct matched_skeleton {
+  std::span<const vec3> coarse_points;
+  coarse_skeleton& coarse;
+  std::vector<fine_line> lines;
+  const refined_sizing& size;
+  double threshold;
+  compressed_rows<local_id> faces_of_line;
+
+  const skeleton_line& line(local_id l) const { return coarse.lines[static_cast<std::size_t>(l)]; }
+  vec3 point(local_id v) const { return coarse_points[static_cast<std::size_t>(v)]; }
+  any_sizing size_near(local_id l) const { return size.near(place_of(line(l), coarse_points)); }
+  std::array<local_id, 3> sides(local_id face) const {
+    return lines_of(coarse.faces[static_cast<std::size_t>(face)], coarse.lines);
+  }
+  std::array<vec3, 3> corners(local_id face) const {
+    const simplex<2> key = key_order(coarse.faces[static_cast<std::size_t>(face)]);
+    return {point(key[0]), point(key[1]), point(key[2])};
+  }
+  box3 place(local_id face) const { return roomy_box_around(corners(face)); }
+  /// Calls `visit(other)` for the faces at the lines of a face; itself is one of them, for each line.
+  template <class Visit>
+  void for_each_beside(local_id face, const Visit& visit) const {
+    for (const local_id side : sides(face))
+      for (const local_id other : faces_of_line[side])
+        visit(other);
+  }
+};
+
+/// The trials of one task, during which the lines stay as they are.
+class segment_trials {
+public:
+  segment_trials(const any_geometry& model, const matched_skeleton& skeleton,
+                 const any_surface_mesher& mesher)
+      : model_(model), skeleton_(skeleton), mesher_(mesher) {}
+
+  /// What becomes of the lines of a face: the change that lifts its angle the most, less what the faces
+  /// beside it lose; the cheapest of several. Nothing when no change gains.
+  face_segments mend(local_id f) {
+    const double before = deficit(f, {});
+    face_segments best{};
+    double most = least_gain;
+    if (before <= most)
+      return best;
+    int left = most_trials;
+    for (const auto& [price, other] : changes_of(f, before)) {
+      if (before - least_deficit(f, other) <= most)
+        continue;
+      if (left-- == 0)
+        break;
+      const double gain = before - deficit(f, other);
+      if (gain <= most)
+        continue;
+      const double loss = loss_beside(f, other, gain - most);
+      if (gain - loss <= most)
+        continue;
+      most = gain - loss;
+      best = other;
+      if (most >= before) // the face is mended, and no other one spoilt
+        break;
+    }
+    return best;
+  }
+
+private:
+  static constexpr double least_gain = 1e-9;
+  /// Meshes of a face; each has some more of the faces beside it where it gains.
+  static constexpr int most_trials = 256;
+  /// Bounds of the length of a segment beside the sizes.
+  static constexpr double shortest = 0.45, longest = 1.8;
+
+  struct change {
+    double price = 0; ///< how far lengths come away from the sizes; more for lines on the surface
+    face_segments lines{};
+  };
+  /// What one line may become.
+  struct choice {
+    double price = 0;
+    line_segments segments{};
+  };
+
+  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+
+  /// The changes of a face that may gain, the cheapest first.
+  std::vector<change> changes_of(local_id f, double before) {
+    const std::array<local_id, 3> sides = skeleton_.sides(f);
+    const auto is_straight = [&](local_id line) { return skeleton_.line(line).on.dimension == 3; };
+    if (std::all_of(sides.begin(), sides.end(), is_straight) && // its corners stay as they are
+        before - (skeleton_.threshold - smallest_corner_angle(skeleton_.corners(f))) <= least_gain)
+      return {};
+    std::array<std::vector<choice>, 3> choices;
+    for (std::size_t i = 0; i < 3; ++i)
+      choices[i] = choices_of(sides[i]);
+    /// Per corner, of the choices of the side behind it and the one before.
+    std::array<std::vector<double>, 3> limits;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t i = (corner + 1) % 3, j = (corner + 2) % 3;
+      for (const choice& a : choices[i])
+        for (const choice& b : choices[j]) {
+          face_segments segments{};
+          segments[i] = a.segments;
+          segments[j] = b.segments;
+          limits[corner].push_back(corner_limit(f, segments, corner));
+        }
+    }
+    const auto limit = [&](std::size_t corner, const std::array<std::size_t, 3>& chosen) {
+      const std::size_t i = (corner + 1) % 3, j = (corner + 2) % 3;
+      return limits[corner][chosen[i] * choices[j].size() + chosen[j]];
+    };
+    std::vector<change> all;
+    std::array<std::size_t, 3> c{};
+    for (c[0] = 0; c[0] < choices[0].size(); ++c[0])
+      for (c[1] = 0; c[1] < choices[1].size(); ++c[1])
+        for (c[2] = 0; c[2] < choices[2].size(); ++c[2])
+          if (c[0] + c[1] + c[2] > 0 &&
+              before - (skeleton_.threshold - std::min({limit(0, c), limit(1, c), limit(2, c)})) >
+                  least_gain) {
+            all.emplace_back();
+            for (std::size_t i = 0; i < 3; ++i) {
+              all.back().price += choices[i][c[i]].price;
+              all.back().lines[i] = choices[i][c[i]].segments;
+            }
+          }
+    sort_all(all, [](const change& a, const change& b) {
+      return std::tie(a.price, a.lines) < std::tie(b.price, b.lines);
+    });
+    return all;
+  }
+
+  /// The first is to leave it.
+  std::vector<choice> choices_of(local_id l) {
+    const skeleton_line& line = skeleton_.line(l);
+    const double wanted = wanted_segments(l);
+    const int now = static_cast<int>(skeleton_.lines[at(l)].points.size()) + 1;
+    std::vector<choice> choices{{}};
+    for (int n = std::max(1, now - 2); n <= now + 2; ++n)
+      for (const double bias : {0.0, -0.4, 0.4}) {
+        const double length = wanted / n, uneven = std::abs(bias) * (1 - 1.0 / n);
+        if ((n == now && bias == line.bias) || (n == 1 && bias != 0) || length * (1 - uneven) < shortest ||
+            length * (1 + uneven) > longest)
+          continue;
+        choices.push_back(
+            {0.2 + std::abs(std::log(length)) + std::abs(bias) + (3 - line.on.dimension), {n, bias}});
+      }
+    return choices;
+  }
+
+  double wanted_segments(local_id l) const {
+    const skeleton_line& line = skeleton_.line(l);
+    const any_sizing size = skeleton_.size_near(l);
+    vec3 before = skeleton_.point(line.vertices[0]);
+    double sum = 0;
+    const auto pass = [&](vec3 p) {
+      sum += distance(before, p) / size(midpoint(before, p));
+      before = p;
+    };
+    for (const vec3& p : skeleton_.lines[at(l)].points)
+      pass(p);
+    pass(skeleton_.point(line.vertices[1]));
+    return sum;
+  }
+
+  const std::vector<vec3>& points_of(local_id l, line_segments wanted) {
+    if (wanted.count == 0)
+      return skeleton_.lines[at(l)].points;
+    const auto [found, is_new] = tried_.try_emplace({l, wanted});
+    if (is_new) {
+      skeleton_line line = skeleton_.line(l);
+      line.segments = wanted.count;
+      line.bias = wanted.bias;
+      found->second = remesh_line(model_, line, skeleton_.coarse_points, skeleton_.size_near(l)).points;
+    }
+    return found->second;
+  }
+
+  /// By how much the other faces at changed lines come under the threshold, less what they gain; gives up
+  /// when that is more than `bound`.
+  double loss_beside(local_id f, const face_segments& changed, double bound) {
+    const std::array<local_id, 3> sides = skeleton_.sides(f);
+    double loss = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (changed[i].count != 0)
+        for (const local_id other : skeleton_.faces_of_line[sides[i]])
+          if (other != f && loss < bound) {
+            face_segments beside{};
+            const std::array<local_id, 3> its = skeleton_.sides(other);
+            for (std::size_t k = 0; k < 3; ++k)
+              for (std::size_t j = 0; j < 3; ++j)
+                if (its[k] == sides[j])
+                  beside[k] = changed[j];
+            const double now = deficit(other, {});
+            const double least = least_deficit(other, beside);
+            loss += (loss + least - now < bound ? deficit(other, beside) : least) - now;
+          }
+    return loss;
+  }
+
+  /// The largest that the smallest angle at a corner can be when some lines are changed: its first segments
+  /// and the edge between their ends make a triangle, or something halves it.
+  double corner_limit(local_id f, const face_segments& changed, std::size_t corner) {
+    const local_id vertex = key_order(skeleton_.coarse.faces[at(f)])[corner];
+    const std::array<local_id, 3> sides = skeleton_.sides(f);
+    const vec3 p = skeleton_.point(vertex);
+    const auto beside = [&](std::size_t i) {
+      const auto& ends = skeleton_.line(sides[i]).vertices;
+      const std::vector<vec3>& inner = points_of(sides[i], changed[i]);
+      const bool forwards = ends[0] == vertex;
+      return inner.empty() ? skeleton_.point(ends[forwards ? 1 : 0])
+             : forwards    ? inner.front()
+                           : inner.back();
+    };
+    const vec3 a = beside((corner + 1) % 3), b = beside((corner + 2) % 3);
+    double halved = 0.5 * angle_between(a - p, b - p);
+    if (std::any_of(sides.begin(), sides.end(),
+                    [&](local_id line) { return skeleton_.line(line).on.dimension < 3; }))
+      halved = std::acos(std::cos(halved) * std::cos(15 / degrees_per_radian)); // it may stand out so far
+    return std::max(degrees_per_radian * halved, smallest_corner_angle({p, a, b})) + rounding;
+  }
+  static constexpr double rounding = 1e-9;
+
+  /// What `deficit` is at least, by the corners alone.
+  double least_deficit(local_id f, const face_segments& changed) {
+    return std::max(0.0,
+                    skeleton_.threshold - std::min({corner_limit(f, changed, 0), corner_limit(f, changed, 1),
+                                                    corner_limit(f, changed, 2)}));
+  }
+
+  /// By how much the smallest angle of a face is under the threshold when some lines are changed.
+  double deficit(local_id f, const face_segments& changed) {
+    const auto [found, is_new] = deficits_.try_emplace({f, changed});
+    if (is_new)
+      found->second = skeleton_.threshold - std::min(skeleton_.threshold, least_angle(f, changed));
+    return found->second;
+  }
+
+  double least_angle(local_id f, const face_segments& changed) {
+    const simplex<2> key = key_order(skeleton_.coarse.faces[at(f)]);
+    const std::array<local_id, 3> sides = skeleton_.sides(f);
+    std::array<std::vector<vec3>, 3> points;
+    std::array<std::vector<local_id>, 3> labels;
+    local_id label = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& ends = skeleton_.line(sides[i]).vertices;
+      points[i].push_back(skeleton_.point(ends[0]));
+      append(points[i], points_of(sides[i], changed[i]));
+      points[i].push_back(skeleton_.point(ends[1]));
+      if (ends[0] != key[(i + 1) % 3])
+        std::reverse(points[i].begin(), points[i].end());
+      for (std::size_t j = 0; j < points[i].size(); ++j)
+        labels[i].push_back(label++);
+    }
+    const remesh::triangle_surface surface(skeleton_.corners(f), points);
+    const patch_boundary boundary = remesh::triangle_boundary(surface, points, labels);
+    const patch_mesh made =
+        mesher_(any_surface::holding(surface), boundary, skeleton_.size.near(skeleton_.place(f)));
+    if (!made.ok())
+      return 0;
+    const auto frozen = static_cast<local_id>(boundary.points.size());
+    const auto place = [&](local_id v) {
+      return v < frozen ? boundary.points[at(v)] : made.inner_points[at(v - frozen)];
+    };
+    double least = 180;
+    for (const simplex<2>& t : made.triangles)
+      least = std::min(least, smallest_corner_angle({place(t[0]), place(t[1]), place(t[2])}));
+    return least;
+  }
+
+  const any_geometry& model_;
+  const matched_skeleton& skeleton_;
+  const any_surface_mesher& mesher_;
+  std::map<std::pair<local_id, line_segments>, std::vector<vec3>> tried_;
+  std::map<std::pair<local_id, face_segments>, double> deficits_;
+};
+
+} // namespace dovetail::detail
