@@ -239,6 +239,17 @@ TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, i
   }
 }
 
+TEST_CASE("a request to stop ends simplification and decomposition") {
+  const auto mesh = jittered_cubes(4, 0.15, 3);
+  const auto sides = build_sides(mesh);
+  const progress stop{{}, [] { return true; }};
+  CHECK_THROWS_AS(simplify<3>(mesh, sides, simplifier::paper{}, {}, {}, stop), cancelled);
+  const auto simplified = simplify<3>(mesh, sides, simplifier::paper{});
+  CHECK_THROWS_AS(decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, {},
+                               partition::greedy{}, 4, 1.05, stop),
+                  cancelled);
+}
+
 TEST_CASE("D = 2 goes through the same code") {
   const auto mesh = shuffled(jittered_squares(24, 0.2, 3), 4);
   const auto sides = build_sides(mesh);

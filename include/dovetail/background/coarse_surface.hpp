@@ -7,6 +7,7 @@
 /// again.
 #pragma once
 
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
@@ -27,6 +28,7 @@ struct coarse_surface_parameters {
   int rounds = 10;                 ///< most rounds of refinement where faces fail
   std::vector<size_ball> refinement = {}; ///< places that need a smaller size, e.g. where two sheets are near
   any_surface_mesher mesher = {};
+  progress on_progress = {};
 };
 
 struct coarse_surface_result {

@@ -86,9 +86,11 @@ private:
   /// Faces are kept apart from each other when each is right: what is done about the others moves points.
   void mesh() {
     const auto mesh_missing = [&](int chords) {
-      meshed_ = mesh_regions(
-          model_, faces_, parameters_.mesher, size_, run_tasks_, store_,
-          {.attempts = {.chords = chords, .folds = 0}, .triangles_per_task = 512, .stage = "coarse surface"});
+      meshed_ = mesh_regions(model_, faces_, parameters_.mesher, size_, run_tasks_, store_,
+                             {.attempts = {.chords = chords, .folds = 0},
+                              .triangles_per_task = 512,
+                              .on_progress = parameters_.on_progress,
+                              .stage = "coarse surface"});
       meshes_.assign(face_count(), {});
       meshed_.for_each(store_, [&](std::size_t f, patch_mesh mesh) { meshes_[f] = std::move(mesh); });
     };

@@ -20,9 +20,14 @@ struct progress {
   void operator()(std::string_view stage, std::size_t done, std::size_t total) const {
     if (update)
       update(stage, done, total);
+    stop_if_requested();
+  }
+  void stop_if_requested() const {
     if (stop_requested && stop_requested())
       throw cancelled();
   }
+  /// The same without the updates, for the parts of a stage.
+  progress only_stopping() const { return {.update = {}, .stop_requested = stop_requested}; }
 };
 
 } // namespace dovetail

@@ -2,6 +2,7 @@
 /// Balance and cut of a decomposition, improved without losing what it already has.
 #pragma once
 
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
@@ -24,8 +25,9 @@ namespace dovetail {
 template <int D>
 class connected_refinement {
 public:
-  explicit connected_refinement(reassignable_parts<D>& parts)
-      : parts_(parts), repair_(parts), gains_(parts.graph(), parts.part_of_supers(), parts.part_count()) {}
+  explicit connected_refinement(reassignable_parts<D>& parts, progress on_progress = {})
+      : parts_(parts), repair_(parts), gains_(parts.graph(), parts.part_of_supers(), parts.part_count()),
+        on_progress_(std::move(on_progress)) {}
 
   void run(int max_rounds = 10) {
     for (int round = 0; round < max_rounds; ++round) {
@@ -65,6 +67,7 @@ private:
   void balance() {
     std::vector<bool> stuck(parts_.part_count(), false);
     for (local_id moves = 0; moves < parts_.super_count(); ++moves) {
+      on_progress_.stop_if_requested();
       local_id heaviest = no_id;
       for (const local_id part : parts_.overweight())
         if (!stuck[index(part)] &&
@@ -106,6 +109,8 @@ private:
   /// One sweep of moves that shrink the cut.
   void shrink_cut() {
     for (local_id s = 0; s < parts_.super_count(); ++s) {
+      if (s % 4096 == 0)
+        on_progress_.stop_if_requested();
       move best{rounding, no_id, no_id};
       gains_.for_each_target(s, [&](local_id p, double gain) {
         if (gain > best.gain)
@@ -140,6 +145,7 @@ private:
   reassignable_parts<D>& parts_;
   manifold_repair<D> repair_;
   move_gains gains_;
+  progress on_progress_;
 };
 
 } // namespace dovetail

@@ -17,6 +17,7 @@
 ///         measure_interface_angles({volume.points, boundary.sides, boundary.subdomains, origins});
 #pragma once
 
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
@@ -46,12 +47,13 @@ struct decomposition {
 /// may cross CAD curves. Every subdomain is non-empty and connected through sides; its boundary is
 /// manifold but at `defective_points`. Parts are kept under `imbalance` times the average of their component
 /// where that is possible. Deterministic for a deterministic partitioner. Throws `partition_error` when the
-/// mesh is empty or the partitioner fails.
+/// mesh is empty or the partitioner fails, `cancelled` when `on_progress` asks to stop; a partitioner is not
+/// interrupted.
 template <int D>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
                         std::span<const local_id> material, const any_partitioner& partitioner, int parts,
-                        double imbalance = 1.05);
+                        double imbalance = 1.05, const progress& on_progress = {});
 
 } // namespace dovetail
 

@@ -82,7 +82,8 @@ inline csr_graph graph_of_component(const csr_graph& graph, std::span<const loca
 inline std::vector<local_id> partition_components(const csr_graph& graph,
                                                   const labelled_components& components,
                                                   const any_partitioner& partitioner,
-                                                  std::span<const int> parts_of_component) {
+                                                  std::span<const int> parts_of_component,
+                                                  const progress& on_progress) {
   if (components.count == 1)
     return partitioner(graph, parts_of_component[0]);
   const auto nodes_of =
@@ -97,6 +98,7 @@ inline std::vector<local_id> partition_components(const csr_graph& graph,
   std::vector<local_id> part(number.size(), no_id);
   local_id first_part = 0;
   for (std::size_t c = 0; c < nodes_of.size(); ++c) {
+    on_progress.stop_if_requested();
     const auto nodes = nodes_of[c];
     const auto local = partitioner(graph_of_component(graph, nodes, number), parts_of_component[c]);
     for (std::size_t k = 0; k < local.size(); ++k)
@@ -122,7 +124,7 @@ template <int D>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
                         std::span<const local_id> material, const any_partitioner& partitioner, int parts,
-                        double imbalance) {
+                        double imbalance, const progress& on_progress) {
   const stopwatch time;
   if (mesh.elements.empty())
     throw partition_error("cannot decompose a mesh without elements");
@@ -140,17 +142,19 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   const std::vector<int> parts_of_component = apportion_parts(weights, nodes, parts);
 
   decomposition result;
-  result.part_of_super = detail::partition_components(graph, components, partitioner, parts_of_component);
+  result.part_of_super =
+      detail::partition_components(graph, components, partitioner, parts_of_component, on_progress);
+  on_progress.stop_if_requested();
   for (const int count : parts_of_component)
     result.parts += count;
   const double cut = edge_cut(graph, result.part_of_super);
   const std::size_t joined = join_stray_components(graph, result.part_of_super, result.parts);
   reassignable_parts<D> reassignable(mesh, sides, super_of_element, graph, result.part_of_super,
                                      detail::part_limits(weights, parts_of_component, imbalance));
-  manifold_repair<D> repair(reassignable);
+  manifold_repair<D> repair(reassignable, on_progress);
   repair.run();
   const std::size_t repaired = reassignable.assignments();
-  connected_refinement<D>(reassignable).run();
+  connected_refinement<D>(reassignable, on_progress).run();
   repair.run();
   const std::size_t refined = reassignable.assignments() - repaired;
   result.defective_points = repair.defective_points();
@@ -189,11 +193,11 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
 template decomposition decompose<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
                                     std::span<const local_id> super_of_element, const csr_graph& super_graph,
                                     std::span<const local_id> material, const any_partitioner& partitioner,
-                                    int parts, double imbalance);
+                                    int parts, double imbalance, const progress& on_progress);
 template decomposition decompose<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
                                     std::span<const local_id> super_of_element, const csr_graph& super_graph,
                                     std::span<const local_id> material, const any_partitioner& partitioner,
-                                    int parts, double imbalance);
+                                    int parts, double imbalance, const progress& on_progress);
 #endif
 
 } // namespace dovetail

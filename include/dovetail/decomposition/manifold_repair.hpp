@@ -2,6 +2,7 @@
 /// Makes the boundaries of parts manifold by reassigning whole super-elements.
 #pragma once
 
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/gap_filling.hpp"
 #include "dovetail/decomposition/reassignment.hpp"
@@ -25,7 +26,8 @@ namespace dovetail {
 template <int D>
 class manifold_repair {
 public:
-  explicit manifold_repair(reassignable_parts<D>& parts) : parts_(parts), gaps_(parts) {}
+  explicit manifold_repair(reassignable_parts<D>& parts, progress on_progress = {})
+      : parts_(parts), gaps_(parts), on_progress_(std::move(on_progress)) {}
 
   /// Repairs what can be repaired.
   void run() { repair(defective_points()); }
@@ -35,6 +37,7 @@ public:
     std::set<local_id> open(points.begin(), points.end());
     std::set<local_id> filled;
     while (!open.empty()) {
+      on_progress_.stop_if_requested();
       const local_id v = *open.begin();
       open.erase(open.begin());
       if (!parts_.defects_at(v).any())
@@ -149,6 +152,7 @@ private:
 
   reassignable_parts<D>& parts_;
   gap_filler<D> gaps_;
+  progress on_progress_;
 };
 
 } // namespace dovetail

@@ -28,12 +28,12 @@ struct crossing_parameters {
 
 /// Crossing pairs among `triangles`, sorted, each once. A pair for which `excluded(i, j)` is true is not
 /// tested. O(n log n) for triangles of bounded overlap; exact. Tasks go through `run`; the result does not
-/// depend on its workers. Memory beside the triangles: some lists of 4 bytes per triangle.
-std::vector<triangle_pair> crossing_triangles(std::span<const vec3> points,
-                                              std::span<const simplex<2>> triangles,
-                                              const std::function<bool(local_id, local_id)>& excluded,
-                                              const any_executor& run,
-                                              const crossing_parameters& parameters = {});
+/// depend on its workers. Memory beside the triangles: some lists of 4 bytes per triangle. Throws
+/// `time_limit_error` when a task is stopped by the clock, `mesher_error` when one fails otherwise.
+std::vector<triangle_pair>
+crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
+                   const std::function<bool(local_id, local_id)>& excluded, const any_executor& run,
+                   const crossing_parameters& parameters = {}, const progress& on_progress = {});
 
 } // namespace dovetail
 

@@ -11,6 +11,7 @@
 #include "dovetail/intersection/triangle_separation.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
 #include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/run_task.hpp"
 
 #include <algorithm>
 #include <array>
@@ -156,8 +157,9 @@ private:
 DOVETAIL_INLINE std::vector<triangle_pair>
 crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
                    const std::function<bool(local_id, local_id)>& excluded, const any_executor& run,
-                   const crossing_parameters& parameters) {
-  const auto most_tasks = 8 * static_cast<std::size_t>(run.workers());
+                   const crossing_parameters& parameters, const progress& on_progress) {
+  constexpr std::size_t triangles_per_task = 50'000; // a request to stop is seen after each
+  const auto most_tasks = 8 * static_cast<std::size_t>(run.workers()) + triangles.size() / triangles_per_task;
   const auto cells = detail::crossing_search(points, triangles, excluded, parameters).start(most_tasks);
   const std::size_t tasks = std::min(cells.size(), most_tasks);
   const auto outcomes = run.run(
@@ -176,12 +178,11 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
         out.array(flat);
         return out.take();
       },
-      run_options{.stage = "intersection"});
+      run_options{.on_progress = on_progress, .stage = "intersection"});
 
   std::vector<triangle_pair> pairs;
   for (const task_outcome& outcome : outcomes) {
-    if (!outcome.ok)
-      throw error("intersection test failed: " + outcome.failure);
+    detail::require_done(outcome, "the intersection test");
     const auto flat = byte_reader(outcome.result).array<local_id>();
     for (std::size_t k = 0; k < flat.size(); k += 2)
       pairs.push_back({flat[k], flat[k + 1]});

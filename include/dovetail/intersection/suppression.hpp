@@ -71,7 +71,8 @@ known_apart known_from_patches(const fine_skeleton& skeleton, std::span<const lo
 /// the rest is searched.
 suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
                                   const any_executor& run, const known_apart& known = {},
-                                  const crossing_parameters& parameters = {});
+                                  const crossing_parameters& parameters = {},
+                                  const progress& on_progress = {});
 
 } // namespace dovetail
 

@@ -40,14 +40,15 @@ inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, 
 inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleton,
                                                     const std::vector<bool>& planar, const any_executor& run,
                                                     const known_apart& known,
-                                                    const crossing_parameters& parameters) {
+                                                    const crossing_parameters& parameters,
+                                                    const progress& on_progress) {
   const auto both = [](const std::vector<bool>& set, local_id i, local_id j) {
     return set[static_cast<std::size_t>(i)] && set[static_cast<std::size_t>(j)];
   };
   if (known.triangles.empty())
     return crossing_triangles(
         skeleton.points, skeleton.sides, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
-        parameters);
+        parameters, on_progress);
   const std::vector<local_id> near = triangles_to_search(skeleton, known);
   std::vector<simplex<2>> triangles;
   for (const local_id t : near)
@@ -58,7 +59,7 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
       [&](local_id i, local_id j) {
         return both(planar, of_all(i), of_all(j)) || both(known.triangles, of_all(i), of_all(j));
       },
-      run, parameters);
+      run, parameters, on_progress);
   for (auto& [i, j] : pairs)
     i = of_all(i), j = of_all(j);
   return pairs;
@@ -90,8 +91,9 @@ DOVETAIL_INLINE known_apart known_from_patches(const fine_skeleton& skeleton,
 DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
                                                   const std::vector<bool>& planar, const any_executor& run,
                                                   const known_apart& known,
-                                                  const crossing_parameters& parameters) {
-  const auto pairs = detail::unknown_crossings(skeleton, planar, run, known, parameters);
+                                                  const crossing_parameters& parameters,
+                                                  const progress& on_progress) {
+  const auto pairs = detail::unknown_crossings(skeleton, planar, run, known, parameters, on_progress);
   suppression_plan plan;
   plan.crossings = pairs.size();
   std::set<std::array<local_id, 2>> merges;

@@ -47,7 +47,7 @@ public:
       if (done_ != before)
         options_.on_progress(options_.stage, done_, outcomes_.size());
       else
-        stop_if_requested(options_.on_progress);
+        options_.on_progress.stop_if_requested();
     }
     return std::move(outcomes_);
   }

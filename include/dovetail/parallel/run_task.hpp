@@ -62,10 +62,5 @@ inline std::vector<std::size_t> start_order(std::size_t count, const run_options
   return order;
 }
 
-inline void stop_if_requested(const progress& on_progress) {
-  if (on_progress.stop_requested && on_progress.stop_requested())
-    throw cancelled();
-}
-
 } // namespace detail
 } // namespace dovetail

@@ -48,7 +48,7 @@ DOVETAIL_INLINE std::vector<task_outcome> threads::run(std::size_t count, const 
       if (now != reported)
         options.on_progress(options.stage, now, count);
       else
-        detail::stop_if_requested(options.on_progress);
+        options.on_progress.stop_if_requested();
       reported = now;
       lock.lock();
     }

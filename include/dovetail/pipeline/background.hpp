@@ -47,7 +47,8 @@ simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_top
 background::coarse_surface_result surface_without_crossings(const any_geometry& model, const any_sizing& size,
                                                             const any_executor& run,
                                                             const any_surface_mesher& mesher,
-                                                            int refinement_rounds);
+                                                            int refinement_rounds,
+                                                            const progress& on_progress = {});
 
 /// Chooses the decomposition from the predicted size of a mesh, in subdomains of `per_subdomain` elements.
 /// The numbers of background elements in the options are those of D = 3; a surface has as many per length.

@@ -90,14 +90,17 @@ DOVETAIL_INLINE simplicial_mesh<2> outer_surface(const surface_mesh& surface,
 
 DOVETAIL_INLINE background::coarse_surface_result
 surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
-                          const any_surface_mesher& mesher, int refinement_rounds) {
+                          const any_surface_mesher& mesher, int refinement_rounds,
+                          const progress& on_progress) {
   background::coarse_surface_parameters parameters;
   parameters.mesher = mesher;
+  parameters.on_progress = on_progress.only_stopping();
   // Sheets that lie upon each other, or pass through each other, cross at more and more triangles.
   double most_pairs = 0, most_late = 0;
   for (int round = 0;; ++round) {
     auto result = background::coarse_surface(model, size, parameters, run);
-    const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run);
+    const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run,
+                                          {}, parameters.on_progress);
     result.summary.set("refinement_rounds", round);
     if (pairs.empty())
       return result;
@@ -182,9 +185,9 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
   options.on_progress("planning", 0, 0);
-  const auto first =
-      surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),
-                                given.run_tasks, given.mesh_surface, options.refinement_rounds);
+  const auto first = surface_without_crossings(
+      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, given.mesh_surface,
+      options.refinement_rounds, options.on_progress);
   const mesh_plan plan =
       plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
                                    given.mesh_it.elements_per_inverse_cubed_size()),
@@ -238,7 +241,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
     const generate_options& options = given.options;
     options.on_progress("background surface", 0, 0);
     auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
-                                             options.refinement_rounds);
+                                             options.refinement_rounds, options.on_progress);
     result.summary.children.push_back(std::move(surface.summary));
     if constexpr (D == 2)
       result.bounds = std::move(surface.bounds);
@@ -247,11 +250,10 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
       if (result.plan.subdomains == 1)
         return;
       options.on_progress("background volume", 0, 0);
-      auto volume = background::coarse_volume(
-          result.mesh.surface, model.topology(), coarse, given.mesh_it, given.improve_background,
-          given.run_tasks,
-          {.on_failure = write_facets_of_failures(options.failure_folder),
-           .on_progress = {.update = {}, .stop_requested = options.on_progress.stop_requested}});
+      auto volume = background::coarse_volume(result.mesh.surface, model.topology(), coarse, given.mesh_it,
+                                              given.improve_background, given.run_tasks,
+                                              {.on_failure = write_facets_of_failures(options.failure_folder),
+                                               .on_progress = options.on_progress.only_stopping()});
       result.mesh.volume = std::move(volume.mesh);
       result.summary.children.push_back(std::move(volume.summary));
     }

@@ -33,11 +33,12 @@ template <int D>
   requires(D == 2)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
                                    std::span<const double> weights, int subdomains,
-                                   const any_simplification_rule& rule, report& summary) {
+                                   const any_simplification_rule& rule, report& summary,
+                                   const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
   auto simplified = simplify<D>(mesh.surface.mesh, sides, rule,
                                 {.fixed_sides = span_of(on_curves), .element_weights = weights},
-                                {.subdomains = static_cast<double>(subdomains)});
+                                {.subdomains = static_cast<double>(subdomains)}, on_progress);
   summary = simplified.summary;
   return simplified;
 }
@@ -46,11 +47,12 @@ template <int D>
   requires(D == 3)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
                                    std::span<const double> weights, int subdomains,
-                                   const any_simplification_rule& rule, report& summary) {
+                                   const any_simplification_rule& rule, report& summary,
+                                   const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
   auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
                                   {.curve_edges = span_of(on_curves), .element_weights = weights},
-                                  {.subdomains = static_cast<double>(subdomains)});
+                                  {.subdomains = static_cast<double>(subdomains)}, on_progress);
   summary = std::move(coupled.summary);
   return std::move(coupled.volume);
 }

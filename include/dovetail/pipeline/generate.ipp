@@ -67,13 +67,14 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   result.sides = build_sides(coarse.elements());
   result.weights = predict_elements<D>(coarse.elements(), size).per_element;
   auto simplified = simplify_background(coarse, result.sides, result.weights, subdomains, given.simplify_by,
-                                        result.simplification);
+                                        result.simplification, options.on_progress);
   result.simplification.seconds = simplification_clock.seconds();
 
   options.on_progress("partition", 0, 0);
   const stopwatch partition_clock;
-  result.pieces = decompose<D>(coarse.elements(), result.sides, simplified.super_of_element, simplified.graph,
-                               materials_of(coarse), given.partition_it, subdomains);
+  result.pieces =
+      decompose<D>(coarse.elements(), result.sides, simplified.super_of_element, simplified.graph,
+                   materials_of(coarse), given.partition_it, subdomains, 1.05, options.on_progress);
   result.angles = coarse_interface_angles(coarse, result.sides, simplified.side_states,
                                           result.pieces.part_of_element, size, options);
   result.side_states = std::move(simplified.side_states);

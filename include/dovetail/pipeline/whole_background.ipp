@@ -31,7 +31,7 @@ DOVETAIL_INLINE background_result<3> make_background_by(const any_line_keeping_m
     given.options.on_progress("background surface", 0, 0);
     auto domain = surface_without_crossings(
         model, [coarse](vec3 p) { return finer * coarse(p); }, given.run_tasks, given.mesh_surface,
-        given.options.refinement_rounds);
+        given.options.refinement_rounds, given.options.on_progress);
     result.summary.children.push_back(domain.summary);
 
     given.options.on_progress("background volume", 0, 0);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
@@ -45,10 +46,10 @@ template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule R
 class bounded_contraction {
 public:
   bounded_contraction(const Elements& elements, const Sides& sides, const side_judgement& judged,
-                      const Rule& rule, const contraction_bound& bound)
+                      const Rule& rule, const contraction_bound& bound, const progress& on_progress)
       : elements_(elements), judged_(judged), rule_(rule), weights_(weights_of(elements)), runs_(sides),
         supers_(weights_), refusals_(elements.side_count()), fixed_(elements.side_count(), 0),
-        bound_(heaviest_allowed(bound)) {
+        bound_(heaviest_allowed(bound)), on_progress_(on_progress) {
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
     require_judgement();
@@ -85,6 +86,7 @@ public:
     queue_ = wedge_queue(std::greater<>(), std::move(first));
     queue_is_open_ = true;
     while (!queue_.empty()) {
+      poll();
       const auto [angle, w] = queue_.top();
       queue_.pop();
       if (runs_.is_end(w) && runs_.angle(w) == angle) // else an older state of a run that has grown
@@ -169,11 +171,19 @@ private:
       };
       return key(a) < key(b);
     });
-    for (const coupled_side& c : candidates)
+    for (const coupled_side& c : candidates) {
+      poll();
       if (c.decision.only_penalise)
         refuse(c.side, c.decision.missed);
       else
         remove_or_refuse(c.side, c.decision.missed);
+    }
+  }
+
+  /// Asks whether to stop, at some steps of many.
+  void poll() {
+    if (++steps_ % 16384 == 0)
+      on_progress_.stop_if_requested();
   }
 
   void treat_wedge(wedge_id w, double angle) {
@@ -281,6 +291,8 @@ private:
   std::vector<forced_wedge> forced_;
   wedge_queue queue_;
   bool queue_is_open_ = false; ///< before S2 the queue is not filled
+  const progress& on_progress_;
+  std::size_t steps_ = 0;
 };
 
 } // namespace detail
@@ -291,12 +303,13 @@ private:
 /// Afterwards every wedge under `judged.wanted_angle_deg`, measured across super-elements, lies between two
 /// fixed sides or touches a refused one. Deterministic: ties break by side and wedge number. Complexity: n
 /// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities, and for what a
-/// rule says that is not a number or negative.
+/// rule says that is not a number or negative, `cancelled` when `on_progress` asks to stop.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 simplification contract_bounded(const Elements& elements, const Sides& sides, const side_judgement& judged,
                                 const Rule& rule, const contraction_bound& bound = {},
-                                std::span<const coupled_side> coupled = {}) {
-  detail::bounded_contraction<Elements, Sides, Rule> run(elements, sides, judged, rule, bound);
+                                std::span<const coupled_side> coupled = {},
+                                const progress& on_progress = {}) {
+  detail::bounded_contraction<Elements, Sides, Rule> run(elements, sides, judged, rule, bound, on_progress);
   run.contract_coupled_sides(coupled);
   run.contract_bad_shapes();
   run.delete_small_wedges();

@@ -78,16 +78,18 @@ std::vector<coupled_side> sides_at_ridges(const side_table<D>& sides, std::size_
 /// fixed. For the rest see `contract_bounded`. Throws `usage_error` for a wrong number of weights.
 template <int D, simplification_rule<D> Rule>
 simplification simplify(const simplicial_mesh<D>& mesh, const side_table<D>& sides, const Rule& rule,
-                        const simplify_constraints<D>& given = {}, const contraction_bound& bound = {}) {
+                        const simplify_constraints<D>& given = {}, const contraction_bound& bound = {},
+                        const progress& on_progress = {}) {
   const stopwatch time;
   if (!given.element_weights.empty() && given.element_weights.size() != mesh.elements.size())
     throw usage_error("simplify: " + std::to_string(given.element_weights.size()) + " element weights for " +
                       std::to_string(mesh.elements.size()) + " elements; give one each or none");
+  on_progress.stop_if_requested();
   const auto fixed = detail::fixed_inside(mesh, sides, given.fixed_sides);
   const auto coupled = detail::sides_at_ridges<D>(sides, mesh.points.size(), given.coupled_ridges);
-  simplification out =
-      contract_bounded(element_dual<D>(sides, given.element_weights, span_of(fixed)),
-                       side_dual<D>(mesh, sides), rule(mesh, sides), rule, bound, span_of(coupled));
+  simplification out = contract_bounded(element_dual<D>(sides, given.element_weights, span_of(fixed)),
+                                        side_dual<D>(mesh, sides), rule(mesh, sides), rule, bound,
+                                        span_of(coupled), on_progress);
   out.summary.seconds = time.seconds();
   return out;
 }

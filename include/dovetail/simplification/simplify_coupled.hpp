@@ -56,22 +56,21 @@ struct coupled_constraints {
 /// one. `surface` consists of the boundary and the material faces of `volume`; `sides` is
 /// `build_sides(volume)`.
 template <class Rule>
-  requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3>
-      coupled_simplification simplify_coupled(const simplicial_mesh<2>& surface,
-                                              const simplicial_mesh<3>& volume, const side_table<3>& sides,
-                                              const Rule& rule, const coupled_constraints& given = {},
-                                              const contraction_bound& bound = {}) {
+  requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3> coupled_simplification
+  simplify_coupled(const simplicial_mesh<2>& surface, const simplicial_mesh<3>& volume,
+                   const side_table<3>& sides, const Rule& rule, const coupled_constraints& given = {},
+                   const contraction_bound& bound = {}, const progress& on_progress = {}) {
     const stopwatch time;
     coupled_simplification out;
     const side_table<2> edges = build_sides(surface);
-    out.surface = simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges}, bound);
+    out.surface = simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges}, bound, on_progress);
     out.surface.summary.name = "surface";
     const side_judgement judged = rule(surface, edges);
     detail::require_one_each(judged, edges.size());
     const auto ridges = coupled_ridges(edges, out.surface, span_of(judged.quality), rule, given.volume_point);
-    out.volume =
-        simplify<3>(volume, sides, rule,
-                    {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights}, bound);
+    out.volume = simplify<3>(volume, sides, rule,
+                             {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights},
+                             bound, on_progress);
     out.volume.summary.name = "volume";
     out.summary.name = "simplification";
     out.summary.children = {out.surface.summary, out.volume.summary};
