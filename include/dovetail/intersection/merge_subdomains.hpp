@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,10 +105,13 @@ double measure_of_side(const std::vector<vec3>& points, const simplex<D - 1>& si
 
 /// The neighbours that failed subdomains are merged with: of the same material, across the largest shared
 /// interface by area or length, ties to the smaller number. A subdomain without such a neighbour is left out.
-/// In D = 2 subsurfaces may be merged across CAD curves. Linear.
+/// In D = 2 subsurfaces may be merged across CAD curves. Linear; nothing is done when none has failed.
 template <int D>
 std::vector<std::array<local_id, 2>> merges_of_failed(const simplicial_skeleton<D>& skeleton,
                                                       const std::vector<local_id>& failed) {
+  if (failed.empty())
+    return {};
+  const std::set<local_id> has_failed(failed.begin(), failed.end());
   std::map<std::array<local_id, 2>, double> shared; // {failed, neighbour}
   const auto& sides = skeleton.sides;
   for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -115,8 +119,9 @@ std::vector<std::array<local_id, 2>> merges_of_failed(const simplicial_skeleton<
     if ((D == 3 && skeleton.side_hosts[s] != no_id) || b == no_id || a == b)
       continue;
     const double measure = detail::measure_of_side<D>(skeleton.points, sides[s]);
-    shared[{a, b}] += measure;
-    shared[{b, a}] += measure;
+    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+      if (has_failed.contains(one))
+        shared[{one, other}] += measure;
   }
   std::vector<std::array<local_id, 2>> merges;
   for (const local_id s : failed) {

@@ -68,6 +68,7 @@ inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
                                                 const std::vector<patch_failure>& failures) {
   suppression_plan plan;
   std::set<std::array<local_id, 2>> pairs;
+  const auto faces_at = faces_of_lines(coarse);
   for (const patch_failure& failure : failures) {
     if (!failure.folded.empty() && failure.region != no_id) {
       const local_id face = coarse.regions[static_cast<std::size_t>(failure.region)].cad_face;
@@ -81,14 +82,9 @@ inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
     if (can_go)
       pairs.insert(coarse.faces[static_cast<std::size_t>(failure.face)].subdomains);
     for (const local_id line : failure.removable_lines) {
-      const auto& ends = coarse.lines[static_cast<std::size_t>(line)].vertices;
-      for (const skeleton_face& face : coarse.faces)
-        if (std::count(face.vertices.begin(), face.vertices.end(), ends[0]) +
-                std::count(face.vertices.begin(), face.vertices.end(), ends[1]) ==
-            2) {
-          pairs.insert(face.subdomains);
-          can_go = true;
-        }
+      for (const local_id face : faces_at[line])
+        pairs.insert(coarse.faces[static_cast<std::size_t>(face)].subdomains);
+      can_go = can_go || !faces_at[line].empty();
     }
     for (const size_ball& edge : failure.edges)
       plan.interface_crossings.push_back({{no_id, no_id}, edge.center, edge.size});
@@ -120,7 +116,8 @@ inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_st
     }
   auto plan = plan_suppression(
       made.fine, planar, given.run_tasks,
-      known_from_patches(made.fine, patches.first_triangle, patches.keys, store.patches_apart));
+      known_from_patches(made.fine, patches.first_triangle, patches.keys, store.patches_apart), {},
+      given.options.on_progress);
   if (plan.empty()) {
     store.patches_apart = patches.keys;
     sort_unique(store.patches_apart);
@@ -147,7 +144,8 @@ inline suppression_plan plan_for_pieces(const any_geometry& model, const realize
     return plan;
   const stopwatch clock;
   const simplicial_mesh<2> whole = detail::joined_pieces(made.fine, meshed);
-  for (const auto& [i, j] : crossing_triangles(whole.points, whole.elements, {}, given.run_tasks))
+  for (const auto& [i, j] :
+       crossing_triangles(whole.points, whole.elements, {}, given.run_tasks, {}, given.options.on_progress))
     plan.surface_crossings.push_back(detail::describe_crossing(
         whole.points, whole.elements, whole.tags, static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
   plan.crossings = plan.surface_crossings.size();

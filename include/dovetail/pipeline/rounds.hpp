@@ -134,17 +134,6 @@ private:
     return !plan.interface_crossings.empty() && refinements_ < std::min(given_.options.refinement_rounds, 2);
   }
 
-  /// Many triangles cross at one place: one ball does there.
-  static std::vector<surface_crossing> one_of_each_place(std::span<const surface_crossing> crossings) {
-    std::vector<surface_crossing> places;
-    for (const surface_crossing& crossing : crossings)
-      if (std::none_of(places.begin(), places.end(), [&](const surface_crossing& place) {
-            return place.size <= 1.2 * crossing.size && distance(place.center, crossing.center) < place.size;
-          }))
-        places.push_back(crossing);
-    return places;
-  }
-
   void refine(std::span<const surface_crossing> crossings) {
     size_.refine(balls_around(crossings));
     ++refinements_;
