@@ -102,7 +102,7 @@ public:
 private:
   static constexpr double least_gain = 1e-9;
   /// Meshes of a face; each has some more of the faces beside it where it gains.
-  static constexpr int most_trials = 256;
+  static constexpr int most_trials = 96;
   /// Bounds of the length of a segment beside the sizes.
   static constexpr double shortest = 0.45, longest = 1.8;
 
