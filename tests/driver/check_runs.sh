@@ -365,7 +365,7 @@ rm "$sandbox/work/out/mesh_0000.vtu"
 check_report "mesh_0000.vtu is missing, .*mesh_0001.vtu has another size" 1
 expect_error "not a report" check --report "$inputs/cube.off"
 expect_error "cannot read" check --report nowhere.json
-expect_error "required" check
+expect_usage_error "give a mesh file" check
 
 # Triangles by every mesher that is offered.
 surface_meshers=$("$driver" mesh --help | sed -n 's/.*of --dimension 2: //p' | tr -d ,)
