@@ -368,9 +368,9 @@ expect_error "cannot read" check --report nowhere.json
 expect_usage_error "give a mesh file" check
 
 # Triangles by every mesher that is offered.
-surface_meshers=$("$driver" mesh --help | sed -n 's/.*of --dimension 2: //p' | tr -d ,)
-[[ $surface_meshers == *native* ]] || fault "no mesher of triangles is listed"
-for name in $surface_meshers; do
+of_triangles=$("$driver" mesh --help | sed -n 's/.*; of triangles: //p' | tr -d ,)
+[[ $of_triangles == *native* ]] || fault "no mesher of triangles is listed"
+for name in $of_triangles; do
   mesh --dimension 2 --size 0.1 --subdomains 3 --mesher "$name"
   [[ $(figure mesher) == "$name" ]] || fault "the mesher was $(figure mesher)"
   rm -rf "$inputs/triangles" && cp -r "$sandbox/work/out" "$inputs/triangles"

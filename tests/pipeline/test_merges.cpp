@@ -219,8 +219,8 @@ TEST_CASE(
   options.subdomains = 16;
   options.store = spool::start(scratch, {});
   int rounds = 0;
-  options.on_progress.update = [&rounds](std::string_view stage, std::size_t, std::size_t) {
-    rounds += stage == "intersection" ? 1 : 0;
+  options.on_progress.update = [&rounds](std::string_view stage, std::size_t, std::size_t tasks) {
+    rounds += stage == "intersection" && tasks == 0 ? 1 : 0; // where a round begins
   };
   const auto run = [&] {
     asked.clear();

@@ -13,8 +13,8 @@ namespace dovetail::io {
 /// The mesh file that is meant: of a folder, the PVTU or MSH file in it. Throws `input_error`.
 std::filesystem::path find_mesh_file(const std::filesystem::path& path);
 
-/// Reads a VTU, PVTU, VTP or MSH file; of a folder, the PVTU or MSH file in it. `expand` is for compressed arrays,
-/// see `vtu_reader`. Throws `input_error` naming the file and what is wrong with it.
+/// Reads a VTU, PVTU, VTP or MSH file; of a folder, the PVTU or MSH file in it. `expand` is for compressed
+/// arrays, see `vtu_reader`. Throws `input_error` naming the file and what is wrong with it.
 loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr);
 
 /// Calls `f(piece, file)` for each VTU file of a PVTU file, one in memory at a time, its points merged and in
