@@ -5,9 +5,9 @@
 ///
 ///     const auto sides = build_sides(volume); // simplicial_mesh<3>, tags = materials
 ///     const auto simplified =
-///         simplify_coupled(surface, volume, sides,
+///         simplify_coupled(surface, volume, sides, simplifier::paper{},
 ///                          {.curve_edges = edges_on_cad_curves, .element_weights = weights},
-///                          {.subdomains = parts}, {.subdomains = parts});
+///                          {.subdomains = parts});
 ///     const auto parts =
 ///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,
 ///                      volume.tags, partition::metis{}, parts);

@@ -19,9 +19,9 @@ DOVETAIL_INLINE std::vector<task_outcome> threads::run(std::size_t count, const 
                                                        const run_options& options) const {
   const auto order = detail::start_order(count, options);
   std::vector<task_outcome> outcomes(count);
-  std::mutex mutex;
+  std::mutex mutex; // guards the outcomes and what follows
   std::condition_variable finished;
-  std::size_t next = 0; // all three guarded by the mutex
+  std::size_t next = 0;
   std::size_t done = 0;
   bool stopped = false;
 

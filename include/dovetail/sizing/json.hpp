@@ -80,16 +80,6 @@ private:
       }
   }
 
-  /// Around a circle, or across a wall.
-  static constexpr double most_elements_asked = 1000;
-
-  double at_most(const json_value& v, const std::string& key, double most) const {
-    const double value = positive(v, key);
-    if (value > most)
-      fail(*v.find(key), "\"" + key + "\" is " + number_text(value) + "; give at most " + number_text(most));
-    return value;
-  }
-
   const json_value& required(const json_value& v, const std::string& key) const {
     if (const json_value* member = v.find(key))
       return *member;
@@ -106,6 +96,12 @@ private:
     if (!(value > 0))
       fail(*v.find(key), "\"" + key + "\" is " + number_text(value) + "; give a positive number");
     return value;
+  }
+  /// Around a circle, or across a wall.
+  double checked_count(const json_value& v, const std::string& key) const {
+    if (v.type != json_value::kind::number || !(v.number > 0 && v.number <= 1000))
+      fail(v, "\"" + key + "\" is " + number_text(v.number) + "; give a number of elements, at most 1000");
+    return v.number;
   }
   std::string text(const json_value& v, const std::string& key) const {
     const json_value& member = required(v, key);
@@ -275,18 +271,15 @@ private:
     if (v.type == json_value::kind::boolean)
       return options;
     if (v.type == json_value::kind::number && curvature != proximity) {
-      if (!(v.number > 0) || v.number > most_elements_asked)
-        fail(v, "\"" + key + "\" is " + number_text(v.number) + "; give a number of elements, at most " +
-                    number_text(most_elements_asked));
-      (curvature ? options.elements_per_circle : options.elements_across) = v.number;
+      (curvature ? options.elements_per_circle : options.elements_across) = checked_count(v, key);
       return options;
     }
     require_keys(v, {"elements_per_circle", "elements_across", "where", "smallest", "largest", "growth"},
                  "\"" + key + "\"");
-    if (v.find("elements_per_circle"))
-      options.elements_per_circle = at_most(v, "elements_per_circle", most_elements_asked);
-    if (v.find("elements_across"))
-      options.elements_across = at_most(v, "elements_across", most_elements_asked);
+    if (const json_value* given = v.find("elements_per_circle"))
+      options.elements_per_circle = checked_count(*given, "elements_per_circle");
+    if (const json_value* given = v.find("elements_across"))
+      options.elements_across = checked_count(*given, "elements_across");
     if (v.find("where")) {
       const std::string where = text(v, "where");
       if (where != "inside" && where != "outside" && where != "both")
