@@ -221,13 +221,15 @@ public:
     std::array<vec3, 2> change;
   };
   lift at(vec3 p, vec3 du = {}, vec3 dv = {}) const {
-    const auto& [corners, along, inner] = triangles_[nearest(p)];
+    const auto& triangle = triangles_[nearest(p)];
+    const auto& corners = triangle.corners; // named, since clang 14 captures no structured binding
+    const vec3& inner = triangle.inner;
     const auto b = nearest_on_triangle(corners[0], corners[1], corners[2], p);
     lift result{6 * b[0] * b[1] * b[2] * inner, {}};
     std::array<vec3, 3> slope{6 * b[1] * b[2] * inner, 6 * b[2] * b[0] * inner, 6 * b[0] * b[1] * inner};
     for (std::size_t i = 0; i < 3; ++i)
       for (const std::size_t j : {(i + 1) % 3, (i + 2) % 3}) { // the control point a third of the way to j
-        const vec3& d = along[i][j == (i + 1) % 3 ? 0 : 1];
+        const vec3& d = triangle.along[i][j == (i + 1) % 3 ? 0 : 1];
         result.to += 3 * b[i] * b[i] * b[j] * d;
         slope[i] += 6 * b[i] * b[j] * d;
         slope[j] += 3 * b[i] * b[i] * d;
