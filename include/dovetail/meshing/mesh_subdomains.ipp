@@ -210,9 +210,11 @@ private:
       finished = attempt(piece, input, rung);
     receipt.summary = summary_of(*finished);
     receipt.skeleton_points = std::move(input.skeleton_points);
+    byte_buffer bytes; // of the piece, where the parent keeps it
     if (!receipt.reused && store.is_shared())
       store.keep(receipt.key, *std::move(finished));
-    byte_buffer bytes = receipt.reused || store.is_shared() ? byte_buffer{} : *std::move(finished);
+    else if (!receipt.reused)
+      bytes = *std::move(finished);
     const byte_buffer said = receipt.encoded();
     byte_writer length;
     length.value<std::uint64_t>(said.size());
