@@ -4,7 +4,6 @@
 #include "compare_runs.hpp"
 #include "compare_table.hpp"
 #include "failure.hpp"
-#include "file_checksums.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
 #include "run_identity.hpp"
@@ -12,6 +11,7 @@
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/version.hpp"
 #include "png.hpp"
@@ -20,7 +20,6 @@
 #include <cstdio>
 #include <ctime>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -96,7 +95,6 @@ private:
 
   /// What somebody needs who wants to make the same again, or has two files of which one is newer.
   std::vector<known_fact> origin_of(const model_source& source) const {
-    const model_options& model = options_.model;
     char date[32];
     const std::time_t now = std::time(nullptr);
     std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
@@ -106,22 +104,17 @@ private:
                                   {"sizes", "Sizes", text_of_sizes()},
                                   {"sizes_checksum", "Checksum of the sizes in the model's box",
                                    values_of_field(source.size, source.geometry.bounds())}};
-    if (!model.input.empty())
-      facts.push_back({"input_checksum", "Checksum of " + source.name, checksum_of_file(model.input)});
+    if (!source.file.empty())
+      facts.push_back({"input_checksum", "Checksum of " + source.name, source.file});
     return facts;
   }
   std::string text_of_sizes() const {
     const model_options& model = options_.model;
-    std::ostringstream text;
-    if (!model.sizing.empty())
-      text << model.sizing;
-    else if (model.size)
-      text << *model.size;
-    else
-      text << "default";
-    if (options_.elements)
-      text << ", scaled for " << *options_.elements << " elements";
-    return text.str();
+    const std::string given = !model.sizing.empty() ? model.sizing
+                              : model.size          ? number_text(*model.size)
+                                                    : "default";
+    return options_.elements ? given + ", scaled for " + number_text(*options_.elements) + " elements"
+                             : given;
   }
 
   void run_all(const model_source& source) {

@@ -134,10 +134,6 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
   throw mesher_error(text);
 }
 
-} // namespace detail
-
-namespace detail {
-
 /// The boundary of a model's solids. Throws `geometry_error` when there is none or it is open.
 inline oriented_boundary closed_boundary(const surface_mesh& surface, const geometry_topology& topology) {
   if (topology.solids.empty())

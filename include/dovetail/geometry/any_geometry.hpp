@@ -17,7 +17,9 @@ namespace dovetail {
 
 /// Holds any geometry model by value; a geometry model converts to it. Copies of a model that threads may
 /// share do share it; of another one they are copies, so that each thread may have its own. A query costs one
-/// share do share it; of another one they are copies, so that each thread may have its own. A query costs one
+/// virtual call more than the model's own. Throws `geometry_error` that names the entity when the topology
+/// refers to what is not there, when a query at finite parameters gives a point that is not finite, and for
+/// what a model throws that is no error of ours.
 class any_geometry {
 public:
   template <class G>

@@ -33,13 +33,10 @@ struct finished_pieces {
 enum class finishing_reply : std::uint8_t { finished, not_written, no_mesh };
 
 /// What the files of pieces depend on beside the pieces: the numbers of all points and elements.
-template <int D>
-std::uint64_t hash_of_numbering(const distributed_simplicial_mesh<D>& mesh, const global_numbering& numbers) {
-  mesh_hasher skeleton;
-  hash_skeleton(skeleton, mesh.skeleton);
+inline std::uint64_t hash_of_numbering(const mesh_hasher& skeleton, const global_numbering& numbers) {
   content_hash hash;
   hash.word(skeleton.value());
-  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+  for (std::size_t p = 0; p < numbers.first_point.size(); ++p) {
     hash.word(static_cast<std::uint64_t>(numbers.first_point[p]));
     hash.word(static_cast<std::uint64_t>(numbers.first_element[p]));
   }
@@ -52,7 +49,9 @@ public:
   finishing_tasks(const distributed_simplicial_mesh<D>& mesh, std::vector<piecewise_output<D>> outputs,
                   const unfinished_folder* unfinished, bool release)
       : mesh_(mesh), outputs_(std::move(outputs)), unfinished_(unfinished), numbers_(number_globally(mesh)),
-        numbering_(hash_of_numbering(mesh, numbers_)), sides_(mesh), release_(release && mesh.release) {
+        sides_(mesh), release_(release && mesh.release) {
+    hash_skeleton(skeleton_hash_, mesh.skeleton);
+    numbering_ = hash_of_numbering(skeleton_hash_, numbers_);
     bounds_.resize(mesh.counts.size() + 1);
     std::iota(bounds_.begin(), bounds_.end(), 0);
     for (const auto& output : outputs_) {
@@ -93,8 +92,7 @@ public:
     }
     result.summary.set("peak_rss_bytes", peak);
 
-    mesh_hasher hash;
-    hash_skeleton(hash, mesh_.skeleton);
+    mesh_hasher hash = skeleton_hash_;
     for (const auto& pieces : found) {
       hash.merge(pieces.hash);
       result.quality.merge(pieces.quality, 0);
@@ -266,7 +264,8 @@ private:
   const std::vector<piecewise_output<D>> outputs_;
   const unfinished_folder* unfinished_; ///< none where nothing is written
   const global_numbering numbers_;
-  const std::uint64_t numbering_;
+  mesh_hasher skeleton_hash_;
+  std::uint64_t numbering_ = 0;
   const sides_by_subdomain<D> sides_;
   const bool release_;
   std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1

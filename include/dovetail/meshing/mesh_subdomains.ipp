@@ -315,9 +315,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
     return;
   for (const any_mesher<D>& rung : ladder_of(mesh_it))
     if (!rung.actual_traits().thread_safe)
-      throw usage_error("the mesher '" + rung.name() + "'" + why);
+      throw usage_error(named_policy("mesher", rung.name()) + why);
   if (!improve.actual_traits().thread_safe)
-    throw usage_error("this improver" + why);
+    throw usage_error(named_policy("improver", improve.name()) + why);
 }
 
 template <int D>
