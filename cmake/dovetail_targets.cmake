@@ -72,6 +72,13 @@ dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nl
 find_package(ZLIB QUIET)
 dovetail_adapter(zlib FOUND "${ZLIB_FOUND}" LIBRARIES ZLIB::ZLIB)
 
+find_package(MPI QUIET COMPONENTS CXX)
+find_package(boost_mpi QUIET CONFIG)
+if(MPI_CXX_FOUND AND boost_mpi_FOUND)
+  set(dovetail_mpi_found TRUE)
+endif()
+dovetail_adapter(mpi FOUND "${dovetail_mpi_found}" LIBRARIES Boost::mpi MPI::MPI_CXX)
+
 message(STATUS "dovetail adapters: ${dovetail_components}")
 if(dovetail_missing_components)
   message(STATUS "dovetail adapters without their library: ${dovetail_missing_components}")

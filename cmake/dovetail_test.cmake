@@ -1,8 +1,9 @@
-# dovetail_test(NAME <name> SOURCES <files> [LIBRARIES <targets>] [NEEDS_SHARED] [TIMEOUT <seconds>])
+# dovetail_test(NAME <name> SOURCES <files> [LIBRARIES <targets>] [NEEDS_SHARED] [TIMEOUT <seconds>] [RANKS <n ...>])
 #
 # A doctest executable and its ctest entry. dovetail::dovetail and doctest's main are linked in. When a target of
 # LIBRARIES does not exist, nothing is built and the test is reported as skipped. A test that evaluates no assertion
 # (all cases skipped, or returned early for want of data) is reported as skipped too.
+# RANKS: the executable has its own main, which takes the number of ranks, and is run by mpirun with each of them.
 # NEEDS_SHARED: the test reads the models in the directory named by the environment variable DOVETAIL_SHARED.
 
 if(DEFINED ENV{DOVETAIL_SHARED})
@@ -18,6 +19,11 @@ endif()
 
 option(DOVETAIL_REQUIRE_ALL_TESTS "A test that lacks a library or tool fails instead of being skipped" OFF)
 
+# What OpenMPI needs to run in containers, as root, with more ranks than processors.
+set(dovetail_mpi_environment
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
+
 # A ctest entry that only says why the test is not there.
 function(dovetail_skipped_test name reason)
   if(DOVETAIL_REQUIRE_ALL_TESTS)
@@ -29,7 +35,7 @@ function(dovetail_skipped_test name reason)
 endfunction()
 
 function(dovetail_test)
-  cmake_parse_arguments(arg "NEEDS_SHARED" "NAME;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "NEEDS_SHARED" "NAME;TIMEOUT" "SOURCES;LIBRARIES;RANKS" ${ARGN})
   if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dovetail_test: NAME and SOURCES are needed, and not ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -46,6 +52,15 @@ function(dovetail_test)
   # The compiled library, in which the time goes, is optimised as it is shipped; a test's own code need not be.
   if(dovetail_compiled_targets AND CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${executable} PRIVATE -O1)
+  endif()
+  if(arg_RANKS)
+    target_link_libraries(${executable} PRIVATE doctest::doctest)
+    target_include_directories(${executable} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+    foreach(ranks IN LISTS arg_RANKS)
+      add_test(NAME ${arg_NAME}_${ranks} COMMAND ${MPIEXEC_EXECUTABLE} -n ${ranks} $<TARGET_FILE:${executable}> ${ranks})
+      set_tests_properties(${arg_NAME}_${ranks} PROPERTIES TIMEOUT 120 ENVIRONMENT "${dovetail_mpi_environment}")
+    endforeach()
+    return()
   endif()
   target_link_libraries(${executable} PRIVATE dovetail_test_main)
   add_test(NAME ${arg_NAME} COMMAND ${executable})

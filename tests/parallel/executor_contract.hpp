@@ -105,10 +105,9 @@ void check_progress_and_stop(const E& executor) {
 
 /// Large results arrive whole, several at a time.
 template <class E>
-void check_large_results(const E& executor) {
-  constexpr std::size_t size = std::size_t{48} << 20;
+void check_large_results(const E& executor, std::size_t size) {
   const auto outcomes = executor.run(4,
-                                     [](std::size_t i) {
+                                     [size](std::size_t i) {
                                        byte_buffer bytes(size + i, static_cast<std::byte>(i));
                                        bytes[size / 2] = std::byte{77};
                                        return bytes;
@@ -125,13 +124,13 @@ void check_large_results(const E& executor) {
 }
 
 template <class E>
-void check_executor(const E& executor) {
+void check_executor(const E& executor, std::size_t large = std::size_t{48} << 20) {
   CHECK(executor.workers() >= 1);
   check_results(executor);
   check_order_is_validated(executor);
   check_exceptions(executor);
   check_progress_and_stop(executor);
-  check_large_results(executor);
+  check_large_results(executor, large);
 }
 
 } // namespace contract

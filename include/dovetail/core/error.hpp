@@ -75,6 +75,12 @@ public:
   using error::error;
 };
 
+/// Another rank of the run goes no further, or is gone.
+class communication_error : public error {
+public:
+  using error::error;
+};
+
 /// The caller asked to stop.
 class cancelled : public error {
 public:

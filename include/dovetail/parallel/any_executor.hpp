@@ -24,16 +24,25 @@ public:
     requires(!std::same_as<E, any_executor> && executor<E>)
   any_executor(E policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
-        shares_process_(policy.shares_process()),
-        run_([held = std::move(policy)](std::size_t count, const task_function& task,
-                                        const run_options& options) {
-          return held.run(count, task, options);
-        }) {}
+        shares_process_(policy.shares_process()) {
+    if constexpr (requires(const E& e) {
+                    { e.leads() } -> std::same_as<bool>;
+                  }) {
+      leads_ = policy.leads();
+      once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
+    }
+    run_ = [held = std::move(policy)](std::size_t count, const task_function& task,
+                                      const run_options& options) { return held.run(count, task, options); };
+  }
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   int workers() const { return workers_; }
   bool shares_process() const { return shares_process_; }
+  /// Whether what is not a task, files for example, is this process's to do: not on all ranks of `ranks`.
+  bool leads() const { return leads_; }
+  /// What `work()` returns, made by the process that leads alone; an error of it is thrown by all.
+  byte_buffer once(const std::function<byte_buffer()>& work) const { return once_ ? once_(work) : work(); }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
     const auto who = [&] { return named_policy("executor", name_); };
@@ -71,6 +80,8 @@ private:
   std::string name_;
   int workers_;
   bool shares_process_;
+  bool leads_ = true;
+  std::function<byte_buffer(const std::function<byte_buffer()>&)> once_; ///< of `ranks`
   std::function<std::vector<task_outcome>(std::size_t, const task_function&, const run_options&)> run_;
 };
 static_assert(executor<any_executor>);

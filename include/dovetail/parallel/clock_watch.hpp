@@ -5,6 +5,7 @@
 #include "dovetail/parallel/any_executor.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,6 +28,8 @@ public:
   }
   int workers() const { return run_.workers(); }
   bool shares_process() const { return run_.shares_process(); }
+  bool leads() const { return run_.leads(); }
+  byte_buffer once(const std::function<byte_buffer()>& work) const { return run_.once(work); }
 
   /// Tasks that the limit has stopped so far, or one within them: what was done instead, the clock has
   /// decided.

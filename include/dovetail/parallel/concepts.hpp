@@ -56,7 +56,10 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 ///
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
-/// Models: serial, threads, processes, clock_watch, any_executor.
+/// An executor whose tasks are shared by several ranks, which all go through the same program, has besides
+/// `e.leads()` and `e.once(work)`; see `ranks`.
+///
+/// Models: serial, threads, processes, ranks, clock_watch, any_executor.
 template <class E>
 concept executor = std::copy_constructible<E> &&
     requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {

@@ -43,13 +43,20 @@ public:
 
   bool is_taken_by(worker_id worker, std::size_t place) const { return takers_[place].load() == worker; }
 
-  /// Makes a task free for a worker that is started later.
+  /// Nobody here may take a task until it is given back: others may have it.
+  void keep_all_back() {
+    for (std::size_t place = 0; place < count_; ++place)
+      takers_[place].store(kept_back);
+    first_free_ = count_;
+  }
+  /// Makes a task free for whoever comes next.
   void give_back(std::size_t place) {
     takers_[place].store(0);
     first_free_ = std::min(first_free_, place);
   }
 
 private:
+  static constexpr worker_id kept_back = ~worker_id{0};
   using word = std::atomic<std::uint32_t>;
   static_assert(word::is_always_lock_free, "a lock would not be shared between processes");
 

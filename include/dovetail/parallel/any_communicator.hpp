@@ -1,0 +1,204 @@
+/// @file
+/// Any communicator behind one type, and what ranks do together, made of its messages.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/communicator.hpp"
+#include "dovetail/parallel/error_codec.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// Holds any communicator; copies share it. The functions of the second half are collective: all ranks call
+/// the same ones in the same order. They throw `communication_error` when another rank goes no further.
+class any_communicator {
+public:
+  template <class C>
+    requires(!std::same_as<C, any_communicator> && communicator<C>)
+  any_communicator(C policy) // NOLINT: converts, as std::function does
+      : state_(std::make_shared<state>(std::make_unique<model<C>>(std::move(policy)))) {}
+
+  int rank() const { return state_->link->rank(); }
+  int size() const { return state_->link->size(); }
+  bool leads() const { return rank() == 0; }
+  bool shares_process() const { return state_->link->shares_process(); }
+  int descriptor() const { return state_->link->descriptor(); }
+  void abandon(const std::string& reason) { state_->link->abandon(reason); }
+  void wait(std::chrono::milliseconds at_most) { state_->link->wait(at_most); }
+
+  void send(int to, std::int32_t tag, byte_buffer bytes) {
+    if (to < 0 || to >= size() || to == rank())
+      throw usage_error("rank " + std::to_string(rank()) + " cannot send to rank " + std::to_string(to) +
+                        " of " + std::to_string(size()));
+    state_->link->send(to, tag, std::move(bytes));
+  }
+  /// The next message with this tag that has arrived.
+  std::optional<rank_message> receive(std::int32_t tag) {
+    while (auto arrived = state_->link->receive())
+      state_->waiting[arrived->tag].push_back(*std::move(arrived));
+    const auto found = state_->waiting.find(tag);
+    if (found == state_->waiting.end())
+      return std::nullopt;
+    rank_message next = std::move(found->second.front());
+    found->second.pop_front();
+    if (found->second.empty())
+      state_->waiting.erase(found);
+    return next;
+  }
+  /// The same, once there is one.
+  rank_message await(std::int32_t tag) {
+    for (;;) {
+      if (auto next = receive(tag))
+        return *std::move(next);
+      wait(std::chrono::milliseconds(100));
+    }
+  }
+
+  /// A tag of a conversation that is to come, which nothing else has. Collective.
+  std::int32_t next_tag() {
+    state_->tag = (state_->tag + 1) & 0x3fffffff;
+    return state_->tag;
+  }
+
+  /// What the root has, on all ranks. Over a binomial tree: O(log size) messages on each rank.
+  byte_buffer broadcast(byte_buffer bytes, int root = 0) {
+    const std::int32_t tag = next_tag();
+    const int from_root = (rank() - root + size()) % size();
+    int reach = 1;
+    for (; reach < size() && (from_root & reach) == 0; reach *= 2) {
+    }
+    if (from_root != 0)
+      bytes = await(tag).bytes;
+    for (reach /= 2; reach > 0; reach /= 2)
+      if (from_root + reach < size())
+        send((from_root + reach + root) % size(), tag, bytes);
+    return bytes;
+  }
+
+  /// What each rank has, on the root, by rank; nothing on the others.
+  std::vector<byte_buffer> gather(byte_buffer bytes, int root = 0) {
+    const std::int32_t tag = next_tag();
+    if (rank() != root) {
+      send(root, tag, std::move(bytes));
+      return {};
+    }
+    std::vector<byte_buffer> all(static_cast<std::size_t>(size()));
+    all[static_cast<std::size_t>(root)] = std::move(bytes);
+    for (int others = 1; others < size(); ++others) {
+      rank_message next = await(tag);
+      all[static_cast<std::size_t>(next.peer)] = std::move(next.bytes);
+    }
+    return all;
+  }
+
+  /// What each rank has, on all ranks, by rank.
+  std::vector<byte_buffer> all_gather(byte_buffer bytes) {
+    byte_writer joined;
+    for (const byte_buffer& part : gather(std::move(bytes)))
+      joined.array(part);
+    const byte_buffer whole = broadcast(joined.take());
+    std::vector<byte_buffer> all;
+    for (byte_reader from(whole); !from.at_end();)
+      all.push_back(from.array<std::byte>());
+    return all;
+  }
+
+  /// The sum of the values of all lower ranks, and of all ranks.
+  struct scan {
+    std::int64_t before = 0;
+    std::int64_t in_all = 0;
+  };
+  scan exclusive_scan(std::int64_t value) {
+    byte_writer bytes;
+    bytes.value(value);
+    scan sums;
+    int from = 0;
+    for (const byte_buffer& part : all_gather(bytes.take())) {
+      const auto theirs = byte_reader(part).value<std::int64_t>();
+      sums.before += from++ < rank() ? theirs : 0;
+      sums.in_all += theirs;
+    }
+    return sums;
+  }
+
+  /// To some ranks (`peer` of each message), none twice, the own one allowed; returns what has come, by rank.
+  /// Nobody needs to know from whom something comes. Tags are not looked at.
+  std::vector<rank_message> exchange(std::vector<rank_message> out) {
+    byte_writer to;
+    for (const rank_message& message : out)
+      to.value(static_cast<std::int32_t>(message.peer));
+    const std::vector<byte_buffer> receivers = all_gather(to.take());
+    const std::int32_t tag = next_tag();
+    std::vector<rank_message> in;
+    for (rank_message& message : out)
+      if (message.peer == rank())
+        in.push_back(std::move(message));
+      else
+        send(message.peer, tag, std::move(message.bytes));
+    std::size_t coming = 0;
+    for (const byte_buffer& theirs : receivers)
+      for (byte_reader from(theirs); !from.at_end();)
+        coming += from.value<std::int32_t>() == rank() ? 1 : 0;
+    while (in.size() < coming)
+      in.push_back(await(tag));
+    std::sort(in.begin(), in.end(), [](const auto& a, const auto& b) { return a.peer < b.peer; });
+    return in;
+  }
+
+  /// Returns when all ranks have come here. Where one comes with an error, all throw it: that of the lowest
+  /// rank, of the same type.
+  void agree(const std::exception_ptr& failure = nullptr) {
+    for (const byte_buffer& theirs : all_gather(failure ? encode_error(failure) : byte_buffer{}))
+      if (!theirs.empty())
+        throw_error(theirs);
+  }
+
+private:
+  struct link {
+    virtual ~link() = default;
+    virtual int rank() = 0;
+    virtual int size() = 0;
+    virtual void send(int to, std::int32_t tag, byte_buffer bytes) = 0;
+    virtual std::optional<rank_message> receive() = 0;
+    virtual void wait(std::chrono::milliseconds at_most) = 0;
+    virtual int descriptor() = 0;
+    virtual bool shares_process() = 0;
+    virtual void abandon(const std::string& reason) = 0;
+  };
+  template <class C>
+  struct model final : link {
+    explicit model(C policy) : held(std::move(policy)) {}
+    int rank() override { return held.rank(); }
+    int size() override { return held.size(); }
+    void send(int to, std::int32_t tag, byte_buffer bytes) override { held.send(to, tag, std::move(bytes)); }
+    std::optional<rank_message> receive() override { return held.receive(); }
+    void wait(std::chrono::milliseconds at_most) override { held.wait(at_most); }
+    int descriptor() override { return held.descriptor(); }
+    bool shares_process() override { return held.shares_process(); }
+    void abandon(const std::string& reason) override { held.abandon(reason); }
+    C held;
+  };
+  struct state {
+    explicit state(std::unique_ptr<any_communicator::link> made) : link(std::move(made)) {}
+    std::unique_ptr<any_communicator::link> link;
+    std::map<std::int32_t, std::deque<rank_message>> waiting; ///< by tag: came before they were asked for
+    std::int32_t tag = 0;
+  };
+  std::shared_ptr<state> state_;
+};
+
+} // namespace dovetail

@@ -1,0 +1,149 @@
+/// @file
+/// The communicator over MPI, by Boost.MPI. The only header that includes it.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/communicator.hpp"
+
+#include <boost/mpi/communicator.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <list>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace dovetail::parallel {
+
+/// A model of `communicator`. Messages are byte arrays, in chunks far below the 2 GiB at which counts of MPI
+/// end, two-sided, each received from a sender that is known by then. Who waits sleeps, at most a millisecond
+/// at a time. MPI must be initialised before and finalised after. Made, and destroyed, on all ranks of
+/// `world` together, when nothing is under way: best once in a program.
+class mpi {
+public:
+  explicit mpi(const boost::mpi::communicator& world = {}, std::size_t chunk_bytes = std::size_t{1} << 28)
+      : world_(world, boost::mpi::comm_duplicate), chunk_bytes_(std::max(chunk_bytes, sizeof(header))) {}
+
+  mpi(mpi&&) = default;
+  mpi& operator=(mpi&&) = default;
+  ~mpi() {
+    finish_sending();
+    if (!sent_.empty())                         // nobody receives them; MPI still has the bytes
+      new std::list<pending>(std::move(sent_)); // NOLINT
+  }
+
+  int rank() const { return world_.rank(); }
+  int size() const { return world_.size(); }
+  void send(int to, std::int32_t tag, const byte_buffer& bytes) {
+    require_all();
+    post(to, tag, bytes);
+    drop_sent();
+  }
+
+  std::optional<rank_message> receive() {
+    require_all();
+    drop_sent();
+    while (const auto found = world_.iprobe(boost::mpi::any_source, mpi_tag)) {
+      const int from = found->source();
+      byte_buffer chunk(static_cast<std::size_t>(found->count<char>().value_or(0)));
+      world_.recv(from, mpi_tag, reinterpret_cast<char*>(chunk.data()), static_cast<int>(chunk.size()));
+      header head;
+      std::memcpy(&head, chunk.data(), sizeof head);
+      byte_buffer& bytes = incomplete_[from];
+      bytes.insert(bytes.end(), chunk.begin() + sizeof head, chunk.end());
+      if (bytes.size() < head.size)
+        continue;
+      rank_message whole{from, head.tag, std::exchange(bytes, {})};
+      if (whole.tag != abandoned)
+        return whole;
+      reason_ = "rank " + std::to_string(from) + ": " + byte_reader(whole.bytes).text();
+      require_all();
+    }
+    return std::nullopt;
+  }
+
+  void wait(std::chrono::milliseconds at_most) {
+    using clock = std::chrono::steady_clock;
+    const auto end = clock::now() + at_most;
+    auto pause = std::chrono::microseconds(20);
+    while (clock::now() < end && !world_.iprobe(boost::mpi::any_source, mpi_tag)) {
+      require_all();
+      drop_sent();
+      std::this_thread::sleep_for(pause);
+      pause = std::min(2 * pause, std::chrono::microseconds(1000));
+    }
+  }
+  int descriptor() const { return -1; }
+  bool shares_process() const { return false; }
+
+  /// Tells the others, and waits until they were told, at most two seconds.
+  void abandon(const std::string& reason) {
+    byte_writer text;
+    text.text(reason);
+    const byte_buffer bytes = text.take();
+    for (int r = 0; r < size(); ++r)
+      if (r != rank())
+        post(r, abandoned, bytes);
+    finish_sending();
+  }
+
+private:
+  /// Before each chunk.
+  struct header {
+    std::int32_t tag;
+    std::uint64_t size; ///< of the whole message
+  };
+  struct pending {
+    byte_buffer bytes;
+    boost::mpi::request request;
+  };
+  static constexpr int mpi_tag = 1;
+  static constexpr std::int32_t abandoned = -1;
+
+  void post(int to, std::int32_t tag, const byte_buffer& bytes) {
+    std::size_t at = 0;
+    do {
+      const std::size_t part = std::min(bytes.size() - at, chunk_bytes_);
+      const header head{tag, bytes.size()};
+      pending& next = sent_.emplace_back();
+      next.bytes.resize(sizeof head + part);
+      std::memcpy(next.bytes.data(), &head, sizeof head);
+      if (part > 0)
+        std::memcpy(next.bytes.data() + sizeof head, bytes.data() + at, part);
+      next.request = world_.isend(to, mpi_tag, reinterpret_cast<const char*>(next.bytes.data()),
+                                  static_cast<int>(next.bytes.size()));
+      at += part;
+    } while (at < bytes.size());
+  }
+  /// Waits until the others have what was sent, at most two seconds.
+  void finish_sending() {
+    drop_sent();
+    for (int tries = 0; tries < 2000 && !sent_.empty(); ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      drop_sent();
+    }
+  }
+  void drop_sent() {
+    sent_.remove_if([](pending& one) { return one.request.test().has_value(); });
+  }
+  void require_all() const {
+    if (!reason_.empty())
+      throw communication_error(reason_);
+  }
+
+  boost::mpi::communicator world_;
+  std::size_t chunk_bytes_;
+  std::list<pending> sent_;
+  std::map<int, byte_buffer> incomplete_; ///< by sender
+  std::string reason_;                    ///< why there is nobody to go on with
+};
+static_assert(communicator<mpi>);
+
+} // namespace dovetail::parallel

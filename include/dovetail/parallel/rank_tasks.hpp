@@ -1,0 +1,93 @@
+/// @file
+/// How the tasks of a run come to its ranks: some in the beginning, then one for each that is done.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
+#include "dovetail/parallel/task_feed.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// The feed of one rank. Each has `in_hand` tasks of its own in the beginning, dealt in turn without a word;
+/// rank 0 grants the others, in the order of the run, one for each request, and each task that is done is one
+/// request: so it knows when all is done. 12 bytes each way and task.
+class rank_tasks final : public task_feed {
+public:
+  /// Collective. `in_hand`: the same on all ranks, enough that no worker waits for an answer.
+  rank_tasks(any_communicator network, std::size_t count, std::size_t in_hand)
+      : network_(std::move(network)), requests_(network_.next_tag()), grants_(network_.next_tag()),
+        count_(count) {
+    const auto ranks = static_cast<std::size_t>(network_.size());
+    next_ = std::min(count, in_hand * ranks);
+    for (auto place = static_cast<std::size_t>(network_.rank()); place < next_; place += ranks)
+      granted_.push_back(place);
+    mine_ = granted_.size();
+  }
+
+  std::vector<std::size_t> granted() override {
+    if (network_.leads())
+      while (const auto request = network_.receive(requests_))
+        network_.send(request->peer, grants_, text_of(grant()));
+    else
+      while (const auto answer = network_.receive(grants_))
+        take(byte_reader(answer->bytes).value<std::int64_t>());
+    return std::exchange(granted_, {});
+  }
+  void finished(std::size_t place) override {
+    finished_.push_back(place);
+    if (network_.leads()) {
+      take(grant());
+    } else {
+      network_.send(0, requests_, {});
+      ++unanswered_;
+    }
+  }
+  bool ended() const override {
+    return network_.leads() ? answered_ == count_ : finished_.size() == mine_ && unanswered_ == 0;
+  }
+  std::size_t done() const override { return network_.leads() ? answered_ : finished_.size(); }
+  int descriptor() const override { return network_.descriptor(); }
+
+  /// Those of this rank.
+  const std::vector<std::size_t>& finished_places() const { return finished_; }
+
+private:
+  static constexpr std::int64_t nothing = -1;
+
+  static byte_buffer text_of(std::int64_t place) {
+    byte_writer to;
+    to.value(place);
+    return to.take();
+  }
+  /// On rank 0: the answer to a request.
+  std::int64_t grant() {
+    ++answered_;
+    return next_ < count_ ? static_cast<std::int64_t>(next_++) : nothing;
+  }
+  void take(std::int64_t place) {
+    unanswered_ -= network_.leads() ? 0 : 1;
+    if (place == nothing)
+      return;
+    granted_.push_back(static_cast<std::size_t>(place));
+    ++mine_;
+  }
+
+  any_communicator network_;
+  std::int32_t requests_;
+  std::int32_t grants_;
+  std::size_t count_;
+  std::size_t next_ = 0;     ///< on rank 0: the first place that nobody has
+  std::size_t answered_ = 0; ///< on rank 0: requests, its own too
+  std::vector<std::size_t> granted_;
+  std::size_t mine_ = 0;
+  std::vector<std::size_t> finished_;
+  std::size_t unanswered_ = 0;
+};
+
+} // namespace dovetail::detail

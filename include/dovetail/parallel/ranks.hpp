@@ -1,0 +1,53 @@
+/// @file
+/// The executor of a run whose ranks share the tasks.
+#pragma once
+
+#include "dovetail/parallel/any_communicator.hpp"
+#include "dovetail/parallel/concepts.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace dovetail::parallel {
+
+/// A model of `executor`. All ranks go through the same program and call `run` with the same tasks; each task
+/// is run on one of them, by request, and its outcome is known on all, so that they go on alike. What a task
+/// keeps in an entity store on a disk that all ranks see is not sent.
+///
+/// With `worker_count` above 0 a rank runs its tasks in so many forked processes, as `processes` does, and
+/// may have no other threads: then the network is `relayed`, not `mpi`. With 0 it runs them itself, one at a
+/// time; rank 0 then answers the others between two of its own.
+class ranks {
+public:
+  /// Collective. `worker_count` may differ from rank to rank.
+  explicit ranks(any_communicator network, int worker_count = 0);
+
+  /// Of all ranks.
+  int workers() const { return workers_; }
+  bool shares_process() const { return network_.shares_process(); }
+  bool leads() const { return network_.leads(); }
+
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options = {}) const;
+  /// What rank 0 makes, on all ranks; an error of it is thrown on all.
+  byte_buffer once(const std::function<byte_buffer()>& work) const;
+
+private:
+  any_communicator network_;
+  int worker_count_;
+  int workers_ = 0;
+};
+
+} // namespace dovetail::parallel
+
+namespace dovetail::parallel {
+
+static_assert(executor<ranks>);
+
+} // namespace dovetail::parallel
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/ranks.ipp"
+#endif

@@ -1,0 +1,130 @@
+/// @file
+/// What `ranks.hpp` declares.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/parallel/process_pool.hpp"
+#include "dovetail/parallel/rank_tasks.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/run_task.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// The tasks of one rank, one after another in this process; by place, those of other ranks empty.
+inline std::vector<task_outcome> run_here(std::size_t count, const task_function& task,
+                                          const run_options& options, task_feed& feed,
+                                          any_communicator network) {
+  const auto order = start_order(count, options);
+  std::vector<task_outcome> outcomes(count);
+  std::vector<std::size_t> left; // the next one is last
+  while (!left.empty() || !feed.ended()) {
+    const auto more = feed.granted();
+    left.insert(left.begin(), more.rbegin(), more.rend());
+    options.on_progress(options.stage, feed.done(), count);
+    if (left.empty()) {
+      if (!feed.ended())
+        network.wait(std::chrono::milliseconds(100));
+      continue;
+    }
+    const std::size_t place = left.back();
+    left.pop_back();
+    outcomes[order[place]] = run_task(task, order[place]);
+    feed.finished(place);
+  }
+  return outcomes;
+}
+
+inline void encode_outcome(byte_writer& to, std::size_t index, const task_outcome& outcome) {
+  to.value<std::uint64_t>(index);
+  to.value<std::uint8_t>(outcome.ok);
+  to.value<std::uint8_t>(outcome.crashed);
+  to.value<std::uint8_t>(outcome.timed_out);
+  to.value(outcome.seconds);
+  to.value(outcome.peak_rss_bytes);
+  to.text(outcome.failure);
+  to.array(outcome.result);
+}
+
+inline void decode_outcomes(const byte_buffer& bytes, std::vector<task_outcome>& outcomes) {
+  for (byte_reader from(bytes); !from.at_end();) {
+    task_outcome& outcome = outcomes.at(static_cast<std::size_t>(from.value<std::uint64_t>()));
+    outcome.ok = from.value<std::uint8_t>() != 0;
+    outcome.crashed = from.value<std::uint8_t>() != 0;
+    outcome.timed_out = from.value<std::uint8_t>() != 0;
+    outcome.seconds = from.value<double>();
+    outcome.peak_rss_bytes = from.value<std::uint64_t>();
+    outcome.failure = from.text();
+    outcome.result = from.array<std::byte>();
+  }
+}
+
+} // namespace dovetail::detail
+
+namespace dovetail::parallel {
+
+DOVETAIL_INLINE ranks::ranks(any_communicator network, int worker_count)
+    : network_(std::move(network)), worker_count_(worker_count) {
+  if (worker_count > 0 && network_.shares_process() && network_.size() > 1)
+    throw usage_error("ranks that are threads of one process cannot fork workers");
+  workers_ = static_cast<int>(network_.exclusive_scan(std::max(1, worker_count)).in_all);
+}
+
+DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const task_function& task,
+                                                     const run_options& options) const {
+  if (worker_count_ > 0)
+    detail::require_single_thread();
+  if (count == 0)
+    return {};
+  options.on_progress(options.stage, 0, count);
+  const int per_rank = (workers_ + network_.size() - 1) / network_.size();
+  detail::rank_tasks feed(network_, count, static_cast<std::size_t>(2 * per_rank));
+  auto mine =
+      worker_count_ > 0
+          ? detail::process_pool(count, task, options, static_cast<std::size_t>(worker_count_), &feed).run()
+          : detail::run_here(count, task, options, feed, network_);
+  const auto order = detail::start_order(count, options);
+  byte_writer done;
+  for (const std::size_t place : feed.finished_places())
+    detail::encode_outcome(done, order[place], mine[order[place]]);
+  auto network = network_;
+  for (const byte_buffer& theirs : network.all_gather(done.take()))
+    detail::decode_outcomes(theirs, mine);
+  options.on_progress(options.stage, count, count);
+  return mine;
+}
+
+DOVETAIL_INLINE byte_buffer ranks::once(const std::function<byte_buffer()>& work) const {
+  auto network = network_;
+  byte_writer reply;
+  std::exception_ptr failure;
+  if (network.leads()) {
+    byte_buffer made;
+    try {
+      made = work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    reply.value<std::uint8_t>(failure != nullptr);
+    reply.array(failure ? encode_error(failure) : made);
+  }
+  const byte_buffer known = network.broadcast(reply.take());
+  if (failure) // with its own type
+    std::rethrow_exception(failure);
+  byte_reader from(known);
+  const bool failed = from.value<std::uint8_t>() != 0;
+  byte_buffer bytes = from.array<std::byte>();
+  if (failed)
+    throw_error(bytes);
+  return bytes;
+}
+
+} // namespace dovetail::parallel

@@ -1,0 +1,54 @@
+/// @file
+/// Runs on all ranks of an mpirun; its own main initialises MPI.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include "dovetail/parallel/mpi.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "parallel/communicator_contract.hpp"
+#include "parallel/executor_contract.hpp"
+
+#include <boost/mpi/environment.hpp>
+
+#include <cstdlib>
+
+using namespace dovetail;
+
+namespace {
+
+any_communicator* world = nullptr; ///< of main
+
+}
+
+TEST_CASE("mpi is a communicator") {
+  contract::check_communicator(*world);
+}
+
+TEST_CASE("Messages that are longer than a chunk arrive whole") {
+  contract::check_communicator(parallel::mpi({}, 1000));
+}
+
+TEST_CASE("ranks is an executor over mpi") {
+  contract::check_executor(parallel::ranks(*world), 1 << 22);
+}
+
+TEST_CASE("Another rank that abandons the run ends the waiting") {
+  any_communicator& all = *world;
+  if (all.size() > 1 && all.rank() == 1)
+    all.abandon("no more");
+  else if (all.size() > 1)
+    CHECK_THROWS_WITH_AS(all.await(all.next_tag()), "rank 1: no more", communication_error);
+}
+
+int main(int argc, char** argv) {
+  const boost::mpi::environment started(argc, argv);
+  const int expected = argc > 1 ? std::atoi(argv[1]) : 1;
+  const int size = boost::mpi::communicator().size();
+  if (size != expected) {
+    std::fprintf(stderr, "%d ranks were asked for, and there are %d\n", expected, size);
+    return 1;
+  }
+  any_communicator all = parallel::mpi{};
+  world = &all;
+  return doctest::Context().run();
+}

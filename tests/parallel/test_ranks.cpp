@@ -1,0 +1,66 @@
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/self.hpp"
+#include "parallel/executor_contract.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+using namespace dovetail;
+
+TEST_CASE("ranks is an executor, whatever the number of ranks") {
+  for (const int count : {1, 2, 4, 7}) {
+    CAPTURE(count);
+    parallel::run_ranks(count,
+                        [](parallel::in_process& mine) { contract::check_executor(parallel::ranks(mine), 1 << 20); });
+  }
+}
+
+TEST_CASE("ranks runs tasks in forked workers where there is one rank in a process") {
+  contract::check_executor(parallel::ranks(parallel::self{}, 2));
+  CHECK_THROWS_AS(parallel::run_ranks(2, [](parallel::in_process& mine) { parallel::ranks(mine, 1); }),
+                  usage_error);
+}
+
+TEST_CASE("Each task is run once, on whichever rank is free") {
+  std::array<std::atomic<int>, 100> times{};
+  std::array<std::atomic<int>, 4> by_rank{};
+  parallel::run_ranks(4, [&](parallel::in_process& mine) {
+    const int rank = mine.rank();
+    const parallel::ranks run(mine);
+    CHECK(run.workers() == 4);
+    CHECK(run.leads() == (rank == 0));
+    run.run(100, [&](std::size_t i) {
+      ++times[i];
+      ++by_rank[static_cast<std::size_t>(rank)];
+      std::this_thread::sleep_for(std::chrono::milliseconds(rank == 1 ? 40 : 1));
+      return byte_buffer{};
+    });
+  });
+  for (const auto& count : times)
+    CHECK(count == 1);
+  CHECK(by_rank[1] < 15); // two in the beginning, and one per request
+  CHECK(by_rank[2] > 20);
+}
+
+TEST_CASE("What is made once is made by rank 0 and known to all, and so is its error") {
+  std::atomic<int> made = 0;
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    const any_executor run = parallel::ranks(mine);
+    CHECK(run.leads() == (mine.rank() == 0));
+    CHECK(contract::decoded(run.once([&] {
+            ++made;
+            return contract::encoded(static_cast<std::size_t>(40 + mine.rank()));
+          })) == 40);
+    const auto fail = [&]() -> byte_buffer { throw sizing_error("not a size"); };
+    CHECK_THROWS_WITH_AS(run.once(fail), "not a size", sizing_error);
+  });
+  CHECK(made == 1);
+
+  const any_executor alone = parallel::ranks(parallel::self{});
+  CHECK(contract::decoded(alone.once([] { return contract::encoded(7); })) == 7);
+}
