@@ -7,6 +7,7 @@
 #include "output.hpp"
 #include "output_formats.hpp"
 #include "policies.hpp"
+#include "rank_supervision.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/version.hpp"
@@ -109,6 +110,7 @@ struct parser {
   adapt_options adapt;
   compare_options compare;
   std::function<int()> chosen;
+  std::function<int(const any_communicator&)> on_ranks; ///< of a command that several ranks share
   command_outputs outputs;
 
   parser() {
@@ -144,6 +146,10 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
+      on_ranks = [this](const any_communicator& network) {
+        mesh.network = network;
+        return run_mesh(mesh);
+      };
       outputs = {.files = {mesh.report}, .folder = mesh.out, .resumable = true};
     });
   }
@@ -274,21 +280,36 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
 } // namespace
 
 int run_command_line(int argc, char** argv) {
+  const mpirun_rank process = rank_of_mpirun();
+  const bool speaks = process.rank == 0;
+  const auto refuse = [&](const std::string& text) {
+    if (!speaks)
+      return exit_ok; // or mpirun would end the one that speaks
+    complain(text + " (see dovetail --help)");
+    return exit_usage;
+  };
   parser line;
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::Success& request) { // --help, --version
-    return line.app.exit(request);
+    return speaks ? line.app.exit(request) : exit_ok;
   } catch (const CLI::RequiredError& problem) {
-    complain(unknown_command(line.app, argc, argv).value_or(problem.what()) + " (see dovetail --help)");
-    return exit_usage;
+    return refuse(unknown_command(line.app, argc, argv).value_or(problem.what()));
   } catch (const CLI::ParseError& problem) {
-    complain(problem.what() + std::string(" (see dovetail --help)"));
-    return exit_usage;
+    return refuse(problem.what());
   }
   line.compare.command_line = text_of_command_line(argc, argv);
   const unfinished_output unfinished(line.outputs);
-  return run_supervised([&] { return run_guarded(line.chosen); }, [&] { return unfinished.remove(); });
+  const auto clean_up = [&] { return unfinished.remove(); };
+  if (process.size > 1 && line.on_ranks)
+    return run_guarded([&] {
+      return run_on_ranks(
+          [&](const any_communicator& network) {
+            return run_guarded([&] { return line.on_ranks(network); });
+          },
+          clean_up);
+    });
+  return speaks ? run_supervised([&] { return run_guarded(line.chosen); }, clean_up) : exit_ok;
 }
 
 } // namespace dovetail::app

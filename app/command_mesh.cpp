@@ -11,10 +11,12 @@
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -27,12 +29,16 @@ namespace {
 /// worth keeping then, since they may have taken long.
 class run_spool {
 public:
-  run_spool(const std::filesystem::path& folder, const run_identity& identity, bool resume)
-      : folder_(folder), spool_(resume ? spool::resume(folder / "spool", identity)
-                                       : spool::start(folder / "spool", identity)) {}
+  /// Where it is not `own`, another rank has started it and removes it.
+  run_spool(const std::filesystem::path& folder, const run_identity& identity, bool resume, bool own)
+      : folder_(folder), spool_(resume || !own ? spool::resume(folder / "spool", identity)
+                                               : spool::start(folder / "spool", identity)),
+        own_(own) {}
   run_spool(const run_spool&) = delete;
   run_spool& operator=(const run_spool&) = delete;
   ~run_spool() {
+    if (!own_)
+      return;
     const kept_work kept = work_kept_in(folder_);
     if (finished_ || !(interrupted_ ? kept.anything : kept.pieces))
       spool_.clear();
@@ -47,6 +53,7 @@ public:
 private:
   std::filesystem::path folder_;
   spool spool_;
+  bool own_;
   bool finished_ = false;
   bool interrupted_ = false;
 };
@@ -134,44 +141,88 @@ public:
         formats_(make_formats<D>(options.formats, options.files)) {}
 
   int run() {
-    if (!options_.report.empty())
+    if (leads_ && !options_.report.empty())
       check_can_create(options_.report);
-    if (!options_.quiet)
+    if (leads_ && !options_.quiet)
       lines_.emplace(stderr);
     show("geometry");
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
-    const output_folder folder(options_.out);
-    const bool started = spool::is_started(folder.path() / "spool");
     const run_identity identity = identity_of_run(options_, source);
-    const finished_run finished(folder.path(), identity, options_);
-    if (options_.resume && finished.is_there()) {
-      if (started) // killed when all was done but this
-        run_spool(folder.path(), identity, true).finish();
+    require_one_identity(identity);
+    std::optional<output_folder> made;
+    std::optional<run_spool> store;
+    const std::filesystem::path folder = options_.out;
+    const finished_run finished(folder, identity, options_);
+    const auto begin = once([&] {
+      made.emplace(options_.out);
+      return begin_in(folder, identity, finished, store);
+    });
+    if (begin == beginning::is_finished) {
       lines_.reset();
-      if (!options_.quiet)
+      if (leads_ && !options_.quiet)
         std::printf("The mesh is in %s: this run is finished, nothing is left to do%s\n",
                     options_.out.c_str(), options_.report.empty() ? "" : ", and no report is written");
       return exit_ok;
     }
-    const bool resumes = options_.resume && started;
-    if (!resumes)
-      io::unfinished_folder::remove(folder.path());
-    run_spool store(folder.path(), identity, resumes);
-    finished.forget();
-    parameters_.store = store.get();
-    parameters_.failure_folder = folder.path() / "failed";
+    if (!leads_)
+      store.emplace(folder, identity, true, false);
+    parameters_.store = store->get();
+    if (leads_)
+      parameters_.failure_folder = folder / "failed";
     try {
-      make(source, folder.path(), finished);
+      make(source, folder, finished);
     } catch (const cancelled&) {
-      store.interrupt();
+      store->interrupt();
       throw;
     }
-    store.finish();
+    store->finish();
     return exit_ok;
   }
 
 private:
+  enum class beginning : std::uint8_t { is_finished, goes_on };
+
+  /// What the rank that leads finds, or an error of it, on all ranks.
+  template <class Work>
+  auto once(const Work& work) const {
+    byte_writer to;
+    const byte_buffer made = policies_.executor.once([&] {
+      to.value(work());
+      return to.take();
+    });
+    return byte_reader(made).template value<decltype(work())>();
+  }
+
+  /// Throws `usage_error` when this rank has read something else than the one that leads.
+  void require_one_identity(const run_identity& identity) const {
+    byte_writer to;
+    for (const auto& [what, value] : identity)
+      to.text(what + " " + value);
+    const byte_buffer mine = to.take();
+    const byte_buffer theirs = policies_.executor.once([&] { return mine; });
+    byte_reader here(mine), there(theirs);
+    while (!here.at_end() && !there.at_end())
+      if (const std::string line = here.text(); line != there.text())
+        throw usage_error("this rank does not start from the same as rank 0: " + line);
+  }
+
+  beginning begin_in(const std::filesystem::path& folder, const run_identity& identity,
+                     const finished_run& finished, std::optional<run_spool>& store) const {
+    const bool started = spool::is_started(folder / "spool");
+    if (options_.resume && finished.is_there()) {
+      if (started) // killed when all was done but this
+        run_spool(folder, identity, true, true).finish();
+      return beginning::is_finished;
+    }
+    const bool resumes = options_.resume && started;
+    if (!resumes)
+      io::unfinished_folder::remove(folder);
+    store.emplace(folder, identity, resumes, true);
+    finished.forget();
+    return beginning::goes_on;
+  }
+
   void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
     const generated<D> result = generate(source, folder);
     describe(source, result);
@@ -181,7 +232,7 @@ private:
     }
     write(result.mesh, folder, finished);
     finish();
-    if (!formats_.empty())
+    if (leads_ && !formats_.empty())
       finished.record(figures_.files);
   }
 
@@ -196,7 +247,7 @@ private:
     else
       parameters_.on_progress.stop_requested = stop_was_requested;
     if (!options_.force)
-      parameters_.largest_prediction = elements_with_room(formats_, folder);
+      parameters_.largest_prediction = once([&] { return elements_with_room(formats_, folder); });
     try {
       return generate_mesh_from<D>(
           make_background_mesh<D>(source.geometry, source.size, policies_, parameters_), source.geometry,
@@ -258,13 +309,15 @@ private:
     std::error_code missing; // which is found when it is read
     for (const auto& name : names)
       files.push_back({name, std::filesystem::file_size(folder / name, missing), {}});
-    record.record(files);
+    if (leads_)
+      record.record(files);
     try {
       figures_.files = read_back(folder, names, policies_.executor, parameters_.on_progress);
     } catch (const cancelled&) {
       throw;
     } catch (...) { // what cannot be read is not finished
-      record.forget();
+      if (leads_)
+        record.forget();
       throw;
     }
   }
@@ -274,15 +327,16 @@ private:
     figures_.seconds.total = clock_.seconds();
     figures_.details.seconds = figures_.seconds.total;
     figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes, peak_rss_bytes());
-    if (!options_.report.empty())
+    if (leads_ && !options_.report.empty())
       write_report(figures_, options_.report);
-    if (!options_.quiet)
+    if (leads_ && !options_.quiet)
       std::fputs(summary_text(figures_).c_str(), stdout);
   }
 
   const stopwatch clock_;
   const mesh_options& options_;
   policies_of<D> policies_;
+  const bool leads_ = policies_.executor.leads();
   generate_options parameters_;
   std::vector<output_format<D>> formats_;
   std::optional<terminal_progress> lines_;

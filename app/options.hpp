@@ -2,6 +2,7 @@
 /// What the command line asks for, as plain data.
 #pragma once
 
+#include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/pipeline/adaptation_options.hpp"
 
 #include <optional>
@@ -24,7 +25,7 @@ struct mesh_options {
   int dimension = 3; ///< of the elements: 3, or 2 for triangles on the surface
   std::optional<int> subdomains;
   std::optional<double> coarsening; ///< background size over size
-  int workers = 0;                  ///< 0: as many as the machine has
+  int workers = 0;                  ///< 0: as many as the machine has; on several ranks one each
   std::string mesher;
   std::string partitioner;
   std::string simplifier;
@@ -39,6 +40,7 @@ struct mesh_options {
   bool resume = false;
   bool force = false;
   bool quiet = false;
+  std::optional<any_communicator> network = {}; ///< of the ranks, where there are several
 };
 
 struct plan_options {

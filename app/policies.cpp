@@ -7,6 +7,7 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/greedy.hpp"
@@ -168,12 +169,16 @@ any_line_keeping_mesher make_background_mesher(const std::string& name) {
 }
 
 any_executor make_executor(const std::string& name, int workers, const std::string& mesher,
-                           const mesher_traits& traits) {
+                           const mesher_traits& traits, const std::optional<any_communicator>& network) {
   if (workers < 0)
     throw command_line_error("--workers: " + std::to_string(workers) + " is negative");
+  const std::string kind = chosen_name(executor_names(), name, "--executor");
+  if (network && kind == "threads")
+    throw command_line_error("--executor: on several ranks it is processes or serial");
+  if (network)
+    return {parallel::ranks(*network, kind == "serial" ? 0 : std::max(1, workers)), "ranks"};
   if (workers == 0)
     workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const std::string kind = chosen_name(executor_names(), name, "--executor");
   if (kind == "threads") {
     if (!traits.thread_safe)
       throw command_line_error("--executor: the mesher " + mesher +

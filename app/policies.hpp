@@ -5,11 +5,13 @@
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,6 @@ any_line_keeping_mesher make_background_mesher(const std::string& name);
 /// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of
 /// these traits cannot run in this executor.
 any_executor make_executor(const std::string& name, int workers, const std::string& mesher,
-                           const mesher_traits& traits);
+                           const mesher_traits& traits, const std::optional<any_communicator>& network = {});
 
 } // namespace dovetail::app

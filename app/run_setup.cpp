@@ -16,7 +16,8 @@ policies_of<D> make_policies_of(const mesh_options& options) {
     throw command_line_error(
         "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
   auto mesher = make_mesher<D>(options.mesher);
-  auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits());
+  auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits(),
+                                options.network);
   auto surface_mesher = make_surface_mesher(options.surface_mesher);
   if (D == 2 && !options.surface_mesher.empty())
     throw command_line_error("--surface-mesher: with --dimension 2 the mesher of triangles is --mesher");

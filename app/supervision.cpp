@@ -43,51 +43,6 @@ sigset_t set_of(const std::vector<int>& signals) {
   return set;
 }
 
-/// Waits until the child has ended by itself or was ended, and returns its status.
-class watch {
-public:
-  /// The signals are those watched, which are blocked.
-  watch(pid_t child, const sigset_t& signals) : child_(child), signals_(signals) {}
-
-  int until_end() {
-    for (int status = 0;;) {
-      const timespec tenth{0, 100'000'000};
-      const int signal = sigtimedwait(&signals_, nullptr, &tenth);
-      const pid_t found = ::waitpid(child_, &status, WNOHANG);
-      if (found == child_)
-        return status;
-      if (found < 0 && errno == ECHILD) // somebody else has waited for it: how it ended nobody knows
-        return W_EXITCODE(exit_failure, 0);
-      if (signal > 0 && signal != SIGCHLD)
-        request();
-      if (requested_ && clock::now() - since_ > patience)
-        end();
-    }
-  }
-  bool ended() const { return ended_; }
-
-private:
-  void request() {
-    if (requested_ && clock::now() - since_ > one_request)
-      end();
-    if (requested_)
-      return;
-    requested_ = true;
-    since_ = clock::now();
-    ::kill(child_, SIGTERM);
-  }
-  void end() {
-    ended_ = true;
-    ::kill(child_, SIGKILL);
-  }
-
-  pid_t child_;
-  sigset_t signals_;
-  bool requested_ = false;
-  bool ended_ = false;
-  clock::time_point since_{};
-};
-
 std::string line_of(int signal) {
   if (lines != nullptr && lines->crashed[0] != 0)
     return (signal == SIGXCPU ? lines->endless : signal == SIGKILL ? lines->killed : lines->crashed).data();
@@ -99,7 +54,88 @@ void copy(const std::string& text, std::array<char, 2048>& to) {
   std::snprintf(to.data(), to.size(), "%s", text.c_str());
 }
 
-/// Whatever goes wrong in it, the supervisor still says how the command ended.
+} // namespace
+
+supervisor::supervisor() {
+  void* const memory =
+      ::mmap(nullptr, sizeof(shared_lines), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  lines = memory == MAP_FAILED ? nullptr : static_cast<shared_lines*>(memory);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1); // the workers of a child that is gone can be waited for
+  std::signal(SIGCHLD, SIG_DFL);      // who started us may ignore it, and then nothing is left to wait for
+  auto watched_signals = stop_signals();
+  watched_signals.push_back(SIGCHLD);
+  signals_ = set_of(watched_signals);
+  sigprocmask(SIG_BLOCK, &signals_, &before_);
+  std::fflush(nullptr);
+  const pid_t self = ::getpid();
+  child_ = ::fork();
+  if (child_ > 0)
+    return;
+  if (child_ == 0)
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (child_ == 0 && ::getppid() != self)
+    ::_exit(exit_failure);
+  if (child_ < 0)
+    lines = nullptr; // nobody would read them
+  catch_stop_signals();
+  sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+supervisor::~supervisor() {
+  if (supervises())
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+bool supervisor::has_ended(std::chrono::milliseconds at_most) {
+  if (over_)
+    return true;
+  const timespec time{0, static_cast<long>(at_most.count()) * 1'000'000};
+  const int signal = sigtimedwait(&signals_, nullptr, &time);
+  const pid_t found = ::waitpid(child_, &status_, WNOHANG);
+  if (found < 0 && errno == ECHILD) // somebody else has waited for it: how it ended nobody knows
+    status_ = W_EXITCODE(exit_failure, 0);
+  over_ = found == child_ || (found < 0 && errno == ECHILD);
+  if (over_)
+    return true;
+  if (signal > 0 && signal != SIGCHLD)
+    request();
+  if (requested_ && clock::now() - since_ > patience)
+    end();
+  return false;
+}
+
+void supervisor::request() {
+  if (requested_ && clock::now() - since_ > one_request)
+    end();
+  if (requested_)
+    return;
+  requested_ = true;
+  since_ = clock::now();
+  ::kill(child_, SIGTERM);
+}
+
+void supervisor::end() {
+  ended_ = true;
+  ::kill(child_, SIGKILL);
+}
+
+bool supervisor::was_killed() const {
+  return !WIFEXITED(status_);
+}
+
+int supervisor::code() const {
+  return !was_killed() ? WEXITSTATUS(status_) : ended_ ? exit_stopped : exit_failure;
+}
+
+std::string supervisor::killed_line() const {
+  return line_of(WTERMSIG(status_));
+}
+
+void supervisor::await_workers() const {
+  while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+  }
+}
+
 bool cleaned_up(const std::function<bool()>& clean_up) noexcept {
   try {
     return clean_up();
@@ -108,48 +144,19 @@ bool cleaned_up(const std::function<bool()>& clean_up) noexcept {
   }
 }
 
-} // namespace
-
 int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up) {
-  void* const memory =
-      ::mmap(nullptr, sizeof(shared_lines), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  lines = memory == MAP_FAILED ? nullptr : static_cast<shared_lines*>(memory);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1); // the workers of a child that is gone can be waited for
-  std::signal(SIGCHLD, SIG_DFL);      // who started us may ignore it, and then nothing is left to wait for
-  auto watched_signals = stop_signals();
-  watched_signals.push_back(SIGCHLD);
-  const sigset_t signals = set_of(watched_signals);
-  sigset_t before;
-  sigprocmask(SIG_BLOCK, &signals, &before);
-  std::fflush(nullptr);
-  const pid_t supervisor = ::getpid();
-  const pid_t child = ::fork();
-  if (child <= 0) { // or there can be no other process: without supervision then
-    if (child == 0)
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (child == 0 && ::getppid() != supervisor)
-      ::_exit(exit_failure);
-    if (child < 0)
-      lines = nullptr; // nobody would read them
-    catch_stop_signals();
-    sigprocmask(SIG_SETMASK, &before, nullptr);
+  supervisor watched;
+  if (!watched.supervises()) // or there can be no other process: without supervision then
     return command();
+  while (!watched.has_ended(std::chrono::milliseconds(100))) {
   }
-  watch watched(child, signals);
-  const int status = watched.until_end();
-  int code = WEXITSTATUS(status);
-  const bool was_killed = !WIFEXITED(status);
-  if (was_killed || code == exit_stopped) { // its workers die with it, also in the middle of a file
-    while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
-    }
+  if (watched.was_killed() || watched.code() == exit_stopped) { // its workers die with it, also in a file
+    watched.await_workers();
     const bool can_go_on = cleaned_up(clean_up);
-    if (was_killed) {
-      complain(watched.ended() ? stopped_line(can_go_on) : line_of(WTERMSIG(status)));
-      code = watched.ended() ? exit_stopped : exit_failure;
-    }
+    if (watched.was_killed())
+      complain(watched.ended() ? stopped_line(can_go_on) : watched.killed_line());
   }
-  sigprocmask(SIG_SETMASK, &before, nullptr);
-  return code;
+  return watched.code();
 }
 
 risky_step::risky_step(const std::string& what, const std::string& advice, double seconds) {

@@ -2,10 +2,13 @@
 /// A command runs in a child process: whatever becomes of that, this one ends in time and cleans up.
 #pragma once
 
+#include <chrono>
+#include <csignal>
 #include <functional>
 #include <string>
 
 #include <sys/resource.h>
+#include <sys/types.h>
 
 namespace dovetail::app {
 
@@ -17,6 +20,47 @@ namespace dovetail::app {
 /// when all its processes are gone, since a worker may leave part of a file; it returns whether another run
 /// can go on from what is left. Call it from a process without threads.
 int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up);
+
+/// Forks a child, and is its parent's side: from then on there are two processes in the program. Made in a
+/// process without threads. The parent gets the stop signals here alone.
+class supervisor {
+public:
+  supervisor();
+  supervisor(const supervisor&) = delete;
+  supervisor& operator=(const supervisor&) = delete;
+  ~supervisor();
+
+  /// Whether this is the parent; otherwise the child, or there can be no child.
+  bool supervises() const { return child_ > 0; }
+
+  /// Looks after the child, for so long (less than a second) or until there is something to see to.
+  bool has_ended(std::chrono::milliseconds at_most);
+  /// Ends the child now.
+  void end();
+
+  /// Once it has ended: whether it was ended from here; by a signal; its exit code; what a signal means; and
+  /// that its workers are gone too.
+  bool ended() const { return ended_; }
+  bool was_killed() const;
+  int code() const;
+  std::string killed_line() const;
+  void await_workers() const;
+
+private:
+  void request();
+
+  pid_t child_ = -1;
+  int status_ = 0;
+  bool over_ = false;
+  sigset_t signals_{};
+  sigset_t before_{};
+  bool requested_ = false;
+  bool ended_ = false;
+  std::chrono::steady_clock::time_point since_{};
+};
+
+/// What `clean_up` returns. Whatever goes wrong in it, the supervisor still says how the command ended.
+bool cleaned_up(const std::function<bool()>& clean_up) noexcept;
 
 /// While it lives, a crash of the process under supervision is told as "<what> crashed; <advice>", and so
 /// many more seconds of processor time end it as "<what> is not done after ...; <advice>", unless the limit

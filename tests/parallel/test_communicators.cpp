@@ -24,12 +24,13 @@ void with_relay(parallel::in_process& network, const std::function<void(any_comm
   REQUIRE(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) == 0);
   std::atomic<bool> done = false;
   std::thread speaker([&] {
+    parallel::relay relay(network, ends[0]);
     try {
-      parallel::relay relay(network, ends[0]);
       while (!done)
         if (!relay.step())
           std::this_thread::sleep_for(std::chrono::microseconds(100));
-    } catch (const communication_error&) { // the other end was told
+    } catch (const communication_error& problem) {
+      relay.tell_abandoned(problem.what());
     }
     while (!done)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -15,8 +15,8 @@ using namespace dovetail;
 TEST_CASE("ranks is an executor, whatever the number of ranks") {
   for (const int count : {1, 2, 4, 7}) {
     CAPTURE(count);
-    parallel::run_ranks(count,
-                        [](parallel::in_process& mine) { contract::check_executor(parallel::ranks(mine), 1 << 20); });
+    parallel::run_ranks(
+        count, [](parallel::in_process& mine) { contract::check_executor(parallel::ranks(mine), 1 << 20); });
   }
 }
 

@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/report_codec.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/finishing_pass.hpp"
@@ -66,9 +67,13 @@ public:
 
   finished_mesh run(const any_executor& run_tasks, const finishing_options& options) {
     std::vector<finished_pieces> found(ranges());
+    const byte_buffer taken_over = run_tasks.once([&] { return take_over_all(); });
     std::vector<std::size_t> left; // ranges, and behind them the other files
+    byte_reader taken(taken_over);
     for (std::size_t r = 0; r < ranges(); ++r)
-      if (!take_over(r, found[r]))
+      if (taken.value<std::uint8_t>() != 0)
+        found[r] = taken.value<finished_pieces>();
+      else
         left.push_back(r);
     finished_mesh result;
     result.summary.set("tasks", static_cast<double>(ranges() + others_.size()));
@@ -102,11 +107,17 @@ public:
   }
 
   /// All files are complete before the first gets its final name.
-  void finish(const std::filesystem::path& folder, report& summary) const {
-    for (const auto& output : outputs_)
-      output.complete();
-    for (const auto& output : outputs_)
-      summary.children.push_back(output.finish(folder));
+  void finish(const std::filesystem::path& folder, const any_executor& run_tasks, report& summary) const {
+    const byte_buffer said = run_tasks.once([&] {
+      for (const auto& output : outputs_)
+        output.complete();
+      byte_writer reports;
+      for (const auto& output : outputs_)
+        encode(reports, output.finish(folder));
+      return reports.take();
+    });
+    for (byte_reader reports(said); !reports.at_end();)
+      summary.children.push_back(decode_report(reports));
   }
 
 private:
@@ -151,6 +162,18 @@ private:
         .string();
   }
 
+  /// Of each range whether it is taken over, and the result.
+  byte_buffer take_over_all() const {
+    byte_writer taken;
+    for (std::size_t r = 0; r < ranges(); ++r) {
+      finished_pieces found;
+      const bool there = take_over(r, found);
+      taken.value<std::uint8_t>(there);
+      if (there)
+        taken.value(found);
+    }
+    return taken.take();
+  }
   /// Takes the result of a range whose pieces an earlier run gave up; false when there is none.
   bool take_over(std::size_t range, finished_pieces& found) const {
     if (!mesh_.released)
@@ -282,7 +305,7 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
   const stopwatch clock;
   std::optional<unfinished_folder> unfinished;
   if (!writers.empty())
-    unfinished.emplace(folder);
+    unfinished.emplace(folder, run_tasks.leads());
   std::vector<piecewise_output<D>> outputs;
   for (const auto& writer : writers) {
     const auto of_writer = unfinished->of_writer(outputs.size());
@@ -295,7 +318,7 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
   detail::finishing_tasks<D> tasks(mesh, std::move(outputs), unfinished ? &*unfinished : nullptr,
                                    resumable && unfinished);
   finished_mesh result = tasks.run(run_tasks, options);
-  tasks.finish(folder, result.summary);
+  tasks.finish(folder, run_tasks, result.summary);
   if (unfinished)
     unfinished->keep(false);
   result.summary.name = "finishing";

@@ -96,18 +96,20 @@ private:
 };
 
 /// Where files are until all of a mesh are complete: the folder "unfinished" in theirs. It goes with its
-/// content at the end, unless it is kept. Of a folder that was there before only files of meshes go.
+/// content at the end, unless it is kept, or is another rank's to remove. Of a folder that was there before
+/// only files of meshes go.
 class unfinished_folder {
 public:
-  explicit unfinished_folder(const std::filesystem::path& folder)
-      : path_(std::filesystem::absolute(folder) / "unfinished"), was_there_(std::filesystem::exists(path_)) {
+  explicit unfinished_folder(const std::filesystem::path& folder, bool own = true)
+      : path_(std::filesystem::absolute(folder) / "unfinished"), was_there_(std::filesystem::exists(path_)),
+        own_(own) {
     make_folder(path_);
   }
   unfinished_folder(const unfinished_folder&) = delete;
   unfinished_folder& operator=(const unfinished_folder&) = delete;
   ~unfinished_folder() {
     std::error_code ignored;
-    if (kept_)
+    if (kept_ || !own_)
       return;
     if (was_there_)
       remove(path_.parent_path());
@@ -140,6 +142,7 @@ public:
 private:
   std::filesystem::path path_;
   bool was_there_;
+  bool own_;
   bool kept_ = false;
 };
 

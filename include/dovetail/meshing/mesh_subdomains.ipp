@@ -257,7 +257,7 @@ private:
   void report_failures() {
     result_.failures = std::move(pending_);
     if constexpr (D == 3)
-      if (options_.on_failure)
+      if (options_.on_failure && run_tasks_.leads())
         for (piece_failure& failure : result_.failures)
           options_.on_failure(failure, source_(failure.subdomain).boundary.boundary);
   }

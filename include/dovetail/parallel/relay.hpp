@@ -27,7 +27,7 @@ public:
   }
 
   /// Passes what is there, both ways; returns whether there was anything. Throws `communication_error` when
-  /// another rank goes no further, after the computing process was told.
+  /// another rank goes no further: the owner tells the computing process, or ends it.
   bool step() {
     bool any = false;
     while (auto out = frames_.receive()) {
@@ -37,19 +37,19 @@ public:
       else
         network_.send(out->peer, out->tag, std::move(out->bytes));
     }
-    try {
-      while (auto in = network_.receive()) {
-        any = true;
-        frames_.send(in->peer, in->tag, std::move(in->bytes));
-      }
-    } catch (const communication_error& problem) {
-      byte_writer text;
-      text.text(problem.what());
-      frames_.send(network_.rank(), relay_tags::abandoned, text.take());
-      throw;
+    while (auto in = network_.receive()) {
+      any = true;
+      frames_.send(in->peer, in->tag, std::move(in->bytes));
     }
     frames_.flush();
     return any;
+  }
+
+  /// The computing process's next look for a message throws `communication_error`.
+  void tell_abandoned(const std::string& reason) {
+    byte_writer text;
+    text.text(reason);
+    frames_.send(network_.rank(), relay_tags::abandoned, text.take());
   }
 
 private:

@@ -215,7 +215,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   given.run_tasks = watch;
   const generate_options& options = given.options;
   const erased_sizing size = detail::usable_size<D>(model, given_size, given);
-  if (auto kept = find_background<D>(options.store, model, size)) {
+  if (auto kept = find_background<D>(options.store, model, size, given.run_tasks)) {
     detail::require_room(kept->plan, options);
     return *std::move(kept);
   }
@@ -229,7 +229,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = clock.seconds();
-  keep_background(options.store, model, size, result);
+  keep_background(options.store, model, size, result, given.run_tasks);
   return result;
 }
 

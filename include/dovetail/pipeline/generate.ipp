@@ -173,8 +173,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   report account; // of decompositions that were given up
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     const content_key key = detail::key_of_given_up(background);
-    if (const auto found = given_up ? given_up->find(key) : std::nullopt) {
-      byte_reader from(*found);
+    const auto find_given_up = [&] { return given_up->find(key).value_or(byte_buffer{}); };
+    if (const auto found = given_up ? watch.once(find_given_up) : byte_buffer{}; !found.empty()) {
+      byte_reader from(found);
       account = decode_report(from);
       continue;
     }
@@ -190,7 +191,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
         throw;
       account.warnings.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
                                  std::to_string(subdomains / 2) + " were asked for: " + refused.what());
-      if (given_up) {
+      if (given_up && watch.leads()) {
         report kept = account;
         if (watch.stops() > 0)
           kept.add("stops_by_clock", watch.stops());

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/report_codec.hpp"
 #include "dovetail/mesh/mesh_codec.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/background.hpp"
 
@@ -53,16 +54,22 @@ inline content_key background_key(int dimension, const any_geometry& model, cons
 } // namespace detail
 
 /// The background mesh that an earlier run of the spool's identity has kept; "kept" in its summary says so.
+/// All ranks have what the one finds that leads.
 template <int D>
 std::optional<background_result<D>> find_background(const std::optional<spool>& disk,
-                                                    const any_geometry& model, const erased_sizing& size) {
+                                                    const any_geometry& model, const erased_sizing& size,
+                                                    const any_executor& run) {
   const stopwatch clock;
   if (!disk)
     return std::nullopt;
-  const auto bytes = entity_store(disk, "background").find(detail::background_key(D, model, size));
-  if (!bytes)
+  const byte_buffer bytes = run.once([&] {
+    return entity_store(disk, "background")
+        .find(detail::background_key(D, model, size))
+        .value_or(byte_buffer{});
+  });
+  if (bytes.empty())
     return std::nullopt;
-  auto found = decode_background_result<D>(*bytes, size);
+  auto found = decode_background_result<D>(bytes, size);
   found.summary.seconds = clock.seconds(); // of this run
   found.summary.set("kept", 1);
   return found;
@@ -71,8 +78,8 @@ std::optional<background_result<D>> find_background(const std::optional<spool>& 
 /// Puts a background mesh into the spool, if there is one.
 template <int D>
 void keep_background(const std::optional<spool>& disk, const any_geometry& model, const erased_sizing& size,
-                     const background_result<D>& background) {
-  if (disk)
+                     const background_result<D>& background, const any_executor& run) {
+  if (disk && run.leads())
     entity_store(disk, "background").keep(detail::background_key(D, model, size), encode(background));
 }
 

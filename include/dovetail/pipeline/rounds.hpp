@@ -60,8 +60,9 @@ public:
   /// For a decomposition that is not gone on with: its finished pieces are removed from the store. Returns
   /// the account, with what was told as warnings.
   report give_up() {
-    for (const content_key key : finished_)
-      pieces_->release(key);
+    if (given_.run_tasks.leads())
+      for (const content_key key : finished_)
+        pieces_->release(key);
     report account = intersection();
     append(account.warnings, told_);
     return account;
