@@ -29,6 +29,7 @@ struct brep {
   std::vector<TopoDS_Face> faces;                 ///< per face, oriented FORWARD
   std::vector<TopoDS_Solid> solids;
   std::vector<std::pair<TopoDS_Edge, local_id>> collapsed; ///< edges that became a vertex, and that vertex
+  std::vector<local_id> crossing;    ///< faces whose boundary crosses itself in the parameter plane
   std::vector<std::string> faults;   ///< what keeps the shape from being meshed, one sentence per entity
   std::vector<std::string> warnings; ///< oddities that do not
 };

@@ -14,6 +14,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace dovetail::occt {
 
@@ -72,7 +73,15 @@ inline void make_solids_or_shells(attributed_shape& input, report& made) {
   }
 }
 
-/// Tries one repair on a copy and keeps it when it leaves fewer faults. Returns whether no fault is left.
+/// What is wrong first: a fault, else a face whose boundary crosses itself.
+inline std::string first_trouble(const brep& data) {
+  return data.faults.empty() ? face_text(data, data.crossing.front()) +
+                                   ", whose boundary crosses itself in the parameter plane"
+                             : data.faults.front();
+}
+
+/// Tries one repair on a copy and keeps it when it leaves fewer faults, or as few and fewer faces whose
+/// boundary crosses itself. Returns whether no fault is left.
 template <class Repair>
 bool try_repair(attributed_shape& input, brep& data, report& made, wanted entities, const std::string& what,
                 Repair&& repair) {
@@ -83,9 +92,10 @@ bool try_repair(attributed_shape& input, brep& data, report& made, wanted entiti
       return false;
     keep_oriented_solids(trial, entities);
     brep better = brep_builder(trial.shape, trial.names).build();
-    if (better.faults.size() >= data.faults.size())
+    const auto troubles = [](const brep& of) { return std::pair(of.faults.size(), of.crossing.size()); };
+    if (troubles(better) >= troubles(data))
       return false;
-    made.warnings.push_back("repaired by " + what + ", for " + data.faults.front());
+    made.warnings.push_back("repaired by " + what + ", for " + first_trouble(data));
     data = std::move(better);
     input = std::move(trial);
   } catch (const Standard_Failure&) { // this repair cannot cope with the shape; another one may
@@ -153,6 +163,13 @@ inline brep healed_brep(attributed_shape input, report& made, wanted what = want
                            (count > 1 ? " (and " + std::to_string(count - 1) + " more faults)" : "") +
                            "; repair the model in the CAD system");
   }
+  if (!data.crossing.empty())
+    try_repair(input, data, made, what, "fixing single faces", [&](auto& shape) {
+      std::vector<TopoDS_Face> faces;
+      for (const local_id f : data.crossing)
+        faces.push_back(data.faces[static_cast<std::size_t>(f)]);
+      fix_faces(shape, faces);
+    });
   imprint_touching_bodies(input, data, made);
   return data;
 }

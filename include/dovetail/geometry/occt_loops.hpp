@@ -2,7 +2,8 @@
 /// The loops of one face: its coedges in order, closed in the parameter plane, domain on the left.
 #pragma once
 
-#include "dovetail/geometry/occt_coedge.hpp"
+#include "dovetail/geometry/occt_brep.hpp"
+#include "dovetail/geometry/plane_segments.hpp"
 
 #include <TopExp.hxx>
 #include <TopoDS_Iterator.hxx>
@@ -26,6 +27,8 @@ struct loop_edge {
 struct face_loops {
   std::vector<std::vector<loop_edge>> loops;
   std::vector<std::string> faults; ///< what keeps the face from being meshed; empty when nothing does
+  std::string note = {};           ///< what was done beyond what every face needs
+  bool crosses_itself = false;     ///< still
 };
 
 /// The rectangle around loops in the parameter plane, by samples.
@@ -47,6 +50,43 @@ inline std::array<std::array<double, 2>, 2> box_of_loops(const face_loops& face,
   return box;
 }
 
+/// Whether loops, closed as `close_gaps` closes them, cross or touch themselves or each other when each
+/// coedge is made `parts` straight parts. An edge passed there and back in the same place is none.
+inline bool loops_cross(const face_loops& face, const face_surface& surface, int parts) {
+  std::vector<detail::drawn_segment> segments;
+  for (const auto& loop : face.loops) {
+    std::vector<coedge_curve> closed;
+    for (const auto& item : loop)
+      closed.push_back(item.curve);
+    close_gaps(closed, surface);
+    std::vector<vec2> points;
+    for (const auto& curve : closed) {
+      const auto [from, to] = curve.edge_range();
+      for (int i = 0; i < parts; ++i) {
+        const double s = static_cast<double>(curve.reversed() ? parts - i : i) / parts;
+        const vec2 uv = curve.at(from + s * (to - from), surface);
+        if (points.empty() || points.back() != uv)
+          points.push_back(uv);
+      }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (const vec2 next = points[(i + 1) % points.size()]; next != points[i])
+        segments.push_back({points[i], next, 0, segments.size()});
+  }
+  return detail::first_meeting(segments,
+                               [](const auto& s, const auto& t) {
+                                 return !(s.from == t.to && s.to == t.from) && detail::segments_meet(s, t);
+                               })
+      .has_value();
+}
+
+/// How loops are made of a face's edges.
+struct loop_manner {
+  bool with_projection = true; ///< of parameter curves that stray from their 3D curves
+  /// Small edges without a 3D curve whose images are longer than this share of the model are no poles.
+  double longest_pole = 1e-6;
+};
+
 /// Orders and closes the loops of one face.
 class loop_builder {
 public:
@@ -54,26 +94,48 @@ public:
   /// back; else they are left out, as they bound nothing.
   loop_builder(const TopoDS_Face& forward_face, const face_surface& surface, double size,
                bool with_inner_edges = false)
-      : face_(forward_face), surface_(surface), worth_projecting_(1e-9 * size),
+      : face_(forward_face), surface_(surface), size_(size), worth_projecting_(1e-9 * size),
         with_inner_edges_(with_inner_edges) {
     for (std::size_t k = 0; k < 2; ++k)
       width_[k] = std::max(surface.box()[k][1] - surface.box()[k][0], 1e-300);
   }
 
-  /// Parameter curves that stray from their 3D curves are projected, unless the loops then fail to close.
+  /// Parameter curves that stray from their 3D curves are projected, and small edges that are no poles left
+  /// out, unless the loops then fail to close. Where loops cross themselves, shorter ones are left out too.
   face_loops build() {
-    face_loops projected = build_once(true);
-    if (projected.faults.empty())
-      return projected;
-    face_loops as_stored = build_once(false);
-    return as_stored.faults.empty() ? as_stored : projected;
+    face_loops made = build_once({});
+    for (const loop_manner& manner : if_open)
+      if (!made.faults.empty())
+        if (face_loops other = build_once(manner); other.faults.empty())
+          made = std::move(other);
+    if (!made.faults.empty() || !crosses(made))
+      return made;
+    face_loops other = build_once({true, 0});
+    if (!other.faults.empty() || crosses(other)) {
+      made.crosses_itself = true;
+      return made;
+    }
+    other.note = "its boundary crossed itself in the parameter plane; " + other.note;
+    return other;
   }
 
 private:
-  face_loops build_once(bool with_projection) {
+  static constexpr double same_parameter = 1e-6;
+  static constexpr double small = 1e-3;
+  static constexpr double unreachable = std::numeric_limits<double>::infinity();
+  static constexpr std::array<loop_manner, 2> if_open{{{true, unreachable}, {false, unreachable}}};
+
+  /// Curves cross where all samplings do: a coarse one crosses where curves are close to each other, and what
+  /// only fine ones see is smaller than elements are.
+  bool crosses(const face_loops& made) const {
+    return loops_cross(made, surface_, 8) && loops_cross(made, surface_, 32) &&
+           loops_cross(made, surface_, 128);
+  }
+
+  face_loops build_once(const loop_manner& how) {
     result_ = {};
     inner_ = {};
-    with_projection_ = with_projection;
+    how_ = how;
     for (TopoDS_Iterator wires(face_); wires.More(); wires.Next())
       if (wires.Value().ShapeType() == TopAbs_WIRE)
         add_wire(TopoDS::Wire(wires.Value()));
@@ -100,10 +162,12 @@ private:
         result_.faults.emplace_back("has an edge without a curve in its parameter plane");
         return;
       }
-      if (BRep_Tool::Degenerated(edge) &&
-          gap(made.curve.start(surface_), made.curve.end(surface_)) <= same_parameter)
-        continue; // a pole without extent
-      if (with_projection_)
+      if (BRep_Tool::Degenerated(edge) && !is_pole(made.curve)) {
+        if (extent_of(made.curve) > same_parameter)
+          result_.note = "small edges that are no poles were left out";
+        continue;
+      }
+      if (how_.with_projection)
         improve(made);
       left.push_back(std::move(made));
     }
@@ -113,6 +177,30 @@ private:
         return;
       result_.loops.push_back(std::move(loop));
     }
+  }
+
+  /// A pole has an extent in the parameter plane, and none in space.
+  bool is_pole(const coedge_curve& curve) const {
+    const double extent = extent_of(curve);
+    return extent > small ||
+           (extent > same_parameter && length_on_surface(curve) <= how_.longest_pole * size_);
+  }
+
+  double extent_of(const coedge_curve& curve) const {
+    return gap(curve.start(surface_), curve.end(surface_));
+  }
+
+  double length_on_surface(const coedge_curve& curve) const {
+    constexpr int samples = 16;
+    const auto [from, to] = curve.edge_range();
+    double length = 0;
+    vec3 before = surface_.point(curve.at(from, surface_));
+    for (int i = 1; i <= samples; ++i) {
+      const vec3 now = surface_.point(curve.at(from + (to - from) * i / samples, surface_));
+      length += distance(before, now);
+      before = now;
+    }
+    return length;
   }
 
   void add_inner_edge(const TopoDS_Edge& edge) {
@@ -236,13 +324,12 @@ private:
     return 0.5 * twice;
   }
 
-  static constexpr double same_parameter = 1e-6;
-  static constexpr double unreachable = std::numeric_limits<double>::infinity();
   const TopoDS_Face& face_;
   const face_surface& surface_;
+  double size_;
   double worth_projecting_;
   bool with_inner_edges_;
-  bool with_projection_ = true;
+  loop_manner how_;
   std::array<double, 2> width_{};
   face_loops result_;
   std::vector<std::vector<loop_edge>> inner_; ///< of inner edges

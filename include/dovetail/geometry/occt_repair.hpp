@@ -7,16 +7,20 @@
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
+#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Face.hxx>
 #include <ShapeFix_FixSmallFace.hxx>
 #include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Wire.hxx>
 #include <ShapeFix_Wireframe.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 
 #include <string>
+#include <vector>
 
 namespace dovetail::occt {
 
@@ -33,6 +37,22 @@ inline void fix_shape(attributed_shape& input) {
   const TopoDS_Shape before = input.shape;
   input.shape = fix.Shape();
   inherit_attributes(input.names, before, [&](const TopoDS_Shape& old) { return fix.Context()->Apply(old); });
+}
+
+/// ShapeFix on single faces, whose curves are made to agree and whose edges are cut where they cross.
+inline void fix_faces(attributed_shape& input, const std::vector<TopoDS_Face>& faces) {
+  const Handle(ShapeBuild_ReShape) context = new ShapeBuild_ReShape;
+  const TopoDS_Shape before = input.shape;
+  for (const TopoDS_Face& face : faces) {
+    BRepLib::SameParameter(face, 1e-7, true);
+    ShapeFix_Face fix(face);
+    fix.SetContext(context);
+    fix.FixWireTool()->FixSelfIntersectionMode() = 1;
+    fix.FixWireTool()->FixLackingMode() = 1;
+    fix.Perform();
+  }
+  input.shape = context->Apply(before);
+  inherit_attributes(input.names, before, [&](const TopoDS_Shape& old) { return context->Apply(old); });
 }
 
 /// Joins edges shorter than `size` to their neighbours and removes faces narrower than that.

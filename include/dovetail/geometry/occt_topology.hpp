@@ -16,6 +16,11 @@
 
 namespace dovetail::occt {
 
+inline std::string face_text(const brep& data, local_id f) {
+  const auto& name = data.topology.faces[static_cast<std::size_t>(f)].name;
+  return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
+}
+
 /// Builds a `brep` from all solids of a shape and the faces beside them. The order of entities is that of
 /// OCCT's explorer.
 class brep_builder {
@@ -43,10 +48,7 @@ public:
   }
 
 private:
-  std::string face_text(local_id f) const {
-    const auto& name = result_.topology.faces[static_cast<std::size_t>(f)].name;
-    return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
-  }
+  std::string face_text(local_id f) const { return occt::face_text(result_, f); }
   std::string curve_text(local_id c) const {
     const auto& curve = result_.topology.curves[static_cast<std::size_t>(c)];
     const vec3 a = result_.topology.vertices[static_cast<std::size_t>(curve.vertices[0])].point;
@@ -99,6 +101,10 @@ private:
       result_.faults.push_back(face_text(f) + " " + fault);
     if (made.faults.empty())
       surface.set_box(box_of_loops(made, surface));
+    if (!made.note.empty())
+      result_.warnings.push_back(face_text(f) + ": " + made.note);
+    if (made.crosses_itself)
+      result_.crossing.push_back(f);
     auto& item = result_.topology.faces[index];
     auto& curves = result_.coedges.emplace_back();
     for (const auto& loop : made.loops) {

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/predicates.hpp"
-#include "dovetail/core/vector.hpp"
+#include "dovetail/geometry/plane_segments.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
 #include <algorithm>
@@ -13,7 +12,6 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,13 +32,6 @@ struct plane_drawing {
 };
 
 namespace detail {
-
-/// A segment of a drawing. Paths are numbered polygons first.
-struct drawn_segment {
-  vec2 from, to;
-  std::size_t path = 0;
-  std::size_t index = 0; ///< within its path
-};
 
 inline std::string name_of_path(const plane_drawing& drawing, std::size_t path) {
   const bool polygon = path < drawing.polygons.size();
@@ -99,27 +90,6 @@ inline void require_proper_path(const plane_drawing& drawing, std::size_t path, 
                            "; divide it there");
 }
 
-/// Whether c, on the line through a and b, lies between them or at one.
-inline bool lies_between(vec2 a, vec2 b, vec2 c) {
-  return std::min(a.x, b.x) <= c.x && c.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= c.y &&
-         c.y <= std::max(a.y, b.y);
-}
-
-/// Whether two segments have more in common than a common end; exact.
-inline bool segments_meet(const drawn_segment& s, const drawn_segment& t) {
-  const double t0 = orient2d(s.from, s.to, t.from), t1 = orient2d(s.from, s.to, t.to);
-  const double s0 = orient2d(t.from, t.to, s.from), s1 = orient2d(t.from, t.to, s.to);
-  const auto is_end = [](const drawn_segment& of, vec2 p) { return p == of.from || p == of.to; };
-  const auto touches = [&](const drawn_segment& of, double side, vec2 p) {
-    return side == 0 && lies_between(of.from, of.to, p) && !is_end(of, p);
-  };
-  if (touches(s, t0, t.from) || touches(s, t1, t.to) || touches(t, s0, s.from) || touches(t, s1, s.to))
-    return true;
-  if (is_end(s, t.from) && is_end(s, t.to))
-    return true;
-  return ((t0 > 0 && t1 < 0) || (t0 < 0 && t1 > 0)) && ((s0 > 0 && s1 < 0) || (s0 < 0 && s1 > 0));
-}
-
 [[noreturn]] inline void throw_meeting(const plane_drawing& drawing, const drawn_segment& s,
                                        const drawn_segment& t) {
   const std::string where = " near " + text_of(0.5 * (t.from + t.to));
@@ -129,28 +99,6 @@ inline bool segments_meet(const drawn_segment& s, const drawn_segment& t) {
   throw geometry_error(name_of_path(drawing, s.path) + " and " + name_of_path(drawing, t.path) +
                        " meet at segments " + std::to_string(s.index) + " and " + std::to_string(t.index) +
                        where + "; let them touch in common points only");
-}
-
-/// A sweep over x; about n log n for segments that are short beside the drawing.
-inline void require_no_crossings(const plane_drawing& drawing, std::vector<drawn_segment> segments) {
-  const auto left = [](const drawn_segment& s) { return std::min(s.from.x, s.to.x); };
-  const auto right = [](const drawn_segment& s) { return std::max(s.from.x, s.to.x); };
-  std::sort(segments.begin(), segments.end(), [&](const drawn_segment& a, const drawn_segment& b) {
-    return std::tuple(left(a), a.path, a.index) < std::tuple(left(b), b.path, b.index);
-  });
-  std::vector<const drawn_segment*> active;
-  for (const drawn_segment& s : segments) {
-    active.erase(std::remove_if(active.begin(), active.end(),
-                                [&](const drawn_segment* a) { return right(*a) < left(s); }),
-                 active.end());
-    for (const drawn_segment* a : active) {
-      const bool apart = std::max(a->from.y, a->to.y) < std::min(s.from.y, s.to.y) ||
-                         std::max(s.from.y, s.to.y) < std::min(a->from.y, a->to.y);
-      if (!apart && segments_meet(*a, s))
-        throw_meeting(drawing, a->path < s.path ? *a : s, a->path < s.path ? s : *a);
-    }
-    active.push_back(&s);
-  }
 }
 
 } // namespace detail
@@ -164,7 +112,13 @@ inline void check_drawing(const plane_drawing& drawing) {
     detail::require_proper_path(drawing, p, drawing.polygons[p], true);
   for (std::size_t l = 0; l < drawing.lines.size(); ++l)
     detail::require_proper_path(drawing, drawing.polygons.size() + l, drawing.lines[l], false);
-  detail::require_no_crossings(drawing, detail::segments_of(drawing));
+  const auto meet = [](const detail::drawn_segment& s, const detail::drawn_segment& t) {
+    return detail::segments_meet(s, t);
+  };
+  if (const auto meeting = detail::first_meeting(detail::segments_of(drawing), meet)) {
+    const auto& [s, t] = *meeting;
+    detail::throw_meeting(drawing, s.path < t.path ? s : t, s.path < t.path ? t : s);
+  }
 }
 
 } // namespace dovetail
