@@ -16,6 +16,7 @@
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
+#include "dovetail/redistribution/concepts.hpp"
 #include "dovetail/remesh/concepts.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
@@ -284,6 +285,13 @@ struct piecewise_writer : copyable_only {
   using copyable_only::copyable_only;
   report operator()(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
   io::piecewise_output<3> begin(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
+};
+// end
+
+// for redistributor
+struct redistributor : copyable_only {
+  using copyable_only::copyable_only;
+  redistribution operator()(const distributed_mesh&, int) const { return {}; }
 };
 // end
 

@@ -13,6 +13,7 @@
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
+#include "dovetail/redistribution/any_redistributor.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
 #include <doctest/doctest.h>
@@ -53,6 +54,8 @@ static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(piecewise_mesh_writer<archetype::piecewise_writer> &&
               !piecewise_mesh_writer<archetype::writer>);
 static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, archetype::piecewise_writer>);
+static_assert(redistributor<archetype::redistributor> && !redistributor<archetype::writer>);
+static_assert(std::is_constructible_v<any_redistributor<3>, archetype::redistributor>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
 static_assert(graph<archetype::path> && !weighted_graph<archetype::path>);

@@ -8,10 +8,10 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/apportion.hpp"
 #include "dovetail/decomposition/connected_refinement.hpp"
-#include "dovetail/decomposition/connectivity.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
 #include <algorithm>
