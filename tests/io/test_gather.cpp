@@ -165,6 +165,11 @@ TEST_CASE("triangles: an edge where three sheets meet is there once, with its fi
     mesh.skeleton.sides.push_back({0, 1}); // once per triangle
     mesh.skeleton.subdomains.push_back({s, no_id});
     mesh.skeleton.side_hosts.push_back(6);
+    for (const simplex<1>& outer : {simplex<1>{1, 2 + s}, simplex<1>{2 + s, 0}}) {
+      mesh.skeleton.sides.push_back(outer);
+      mesh.skeleton.subdomains.push_back({s, no_id});
+      mesh.skeleton.side_hosts.push_back(no_id);
+    }
     mesh.counts.push_back({0, 0, 1});
   }
   mesh.load = [](local_id s) {

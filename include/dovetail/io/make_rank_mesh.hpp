@@ -1,0 +1,27 @@
+/// @file
+/// From a distributed mesh to what one rank holds of it.
+#pragma once
+
+#include "dovetail/io/rank_numbering.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/rank_mesh.hpp"
+
+namespace dovetail::io {
+
+/// The mesh of one rank. Vertices that the rank owns: points of the skeleton, then inner points of its
+/// pieces; elements piece by piece. Loads the rank's own pieces, once; for ghosts also each piece of another
+/// rank that touches one of its points, whole, one in memory at a time, since who touches what is known of
+/// pieces only (with 20 pieces per rank about as many again). Pure; linear in what it loads and the skeleton,
+/// of which it reads all. Memory: the result, 8 bytes per point of the skeleton, and one piece.
+///
+/// Throws `mesh_error` when pieces and skeleton disagree, when a point of the rank is in none of its
+/// elements, or when it has more of them than local ids can number.
+template <int D>
+rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
+                            local_id rank, bool ghosts = false);
+
+} // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/io/make_rank_mesh.ipp"
+#endif

@@ -1,0 +1,118 @@
+/// @file
+/// Ids of vertices and elements that are contiguous per rank. They follow from the ranks of the pieces, the
+/// counts and the skeleton, so that every rank finds the same ones without asking another.
+#pragma once
+
+#include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/skeleton_index.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+/// What every rank knows of all: O(skeleton + pieces).
+struct rank_numbering {
+  std::vector<local_id> rank_of_piece;
+  compressed_rows<local_id> pieces_of_rank;    ///< growing
+  compressed_rows<local_id> ranks_at_point;    ///< per point of the skeleton, growing: the first is its owner
+  std::vector<global_id> first_vertex;         ///< per rank, and the number of all vertices
+  std::vector<global_id> first_element;        ///< per rank, and the number of all elements
+  std::vector<global_id> point_ids;            ///< per point of the skeleton; -1 when no element has it
+  std::vector<global_id> first_inner_of_piece; ///< id of each piece's first inner point
+  std::vector<global_id> first_element_of_piece; ///< id of each piece's first element
+
+  local_id ranks() const { return static_cast<local_id>(pieces_of_rank.size()); }
+  local_id owner_of_point(local_id point) const {
+    const auto at = ranks_at_point[point];
+    return at.empty() ? no_id : at.front();
+  }
+};
+
+namespace detail {
+
+template <int D>
+compressed_rows<local_id> ranks_at_points(const simplicial_skeleton<D>& skeleton,
+                                          std::span<const local_id> rank_of_piece) {
+  auto met = sorted_into_rows<local_id>(skeleton.points.size(), [&](const auto& put) {
+    for (std::size_t s = 0; s < skeleton.sides.size(); ++s)
+      for (const local_id v : skeleton.sides[s])
+        for (const local_id p : skeleton.subdomains[s])
+          if (p != no_id)
+            put(v, rank_of_piece[static_cast<std::size_t>(p)]);
+  });
+  compressed_rows<local_id> ranks;
+  ranks.begins.reserve(met.begins.size());
+  for (std::size_t v = 0; v < met.size(); ++v) {
+    const std::span<local_id> row = met[v];
+    sort_all(row);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (i == 0 || row[i] != row[i - 1])
+        ranks.items.push_back(row[i]);
+    ranks.begins.push_back(ranks.items.size());
+  }
+  return ranks;
+}
+
+} // namespace detail
+
+/// Numbers vertices and elements for `ranks` ranks, of which each piece has one: of a rank first the points
+/// of the skeleton that it owns, growing, then the inner points of its pieces. About linear in the skeleton.
+/// Throws `usage_error` when a piece has no rank, `mesh_error` when the skeleton refers to what is not there.
+template <int D>
+rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
+                               std::vector<local_id> rank_of_piece, local_id ranks) {
+  if (ranks < 1 || rank_of_piece.size() != mesh.counts.size())
+    throw usage_error(std::to_string(rank_of_piece.size()) + " ranks of pieces, of " + std::to_string(ranks) +
+                      " ranks, for " + std::to_string(mesh.counts.size()) + " pieces");
+  for (std::size_t p = 0; p < rank_of_piece.size(); ++p)
+    if (rank_of_piece[p] < 0 || rank_of_piece[p] >= ranks)
+      throw usage_error("piece " + std::to_string(p) + " is given to rank " +
+                        std::to_string(rank_of_piece[p]) + " of " + std::to_string(ranks));
+  sides_by_subdomain<D>{mesh}; // checks the skeleton's references
+  rank_numbering numbers;
+  numbers.ranks_at_point = detail::ranks_at_points(mesh.skeleton, rank_of_piece);
+  numbers.pieces_of_rank = sorted_into_rows<local_id>(static_cast<std::size_t>(ranks), [&](const auto& put) {
+    for (std::size_t p = 0; p < rank_of_piece.size(); ++p)
+      put(rank_of_piece[p], static_cast<local_id>(p));
+  });
+  numbers.rank_of_piece = std::move(rank_of_piece);
+
+  std::vector<global_id> next(static_cast<std::size_t>(ranks), 0); // owned points of the skeleton, then ids
+  for (std::size_t v = 0; v < mesh.skeleton.points.size(); ++v)
+    if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
+      ++next[static_cast<std::size_t>(owner)];
+  numbers.first_vertex = {0};
+  numbers.first_element = {0};
+  numbers.first_inner_of_piece.resize(mesh.counts.size());
+  numbers.first_element_of_piece.resize(mesh.counts.size());
+  for (std::size_t q = 0; q < next.size(); ++q) {
+    const global_id first = numbers.first_vertex.back();
+    global_id vertex = first + next[q];
+    global_id element = numbers.first_element.back();
+    for (const local_id piece : numbers.pieces_of_rank[q]) {
+      const auto p = static_cast<std::size_t>(piece);
+      numbers.first_inner_of_piece[p] = vertex;
+      numbers.first_element_of_piece[p] = element;
+      vertex += mesh.counts[p].inner_points;
+      element += mesh.counts[p].elements;
+    }
+    next[q] = first;
+    numbers.first_vertex.push_back(vertex);
+    numbers.first_element.push_back(element);
+  }
+  numbers.point_ids.assign(mesh.skeleton.points.size(), -1);
+  for (std::size_t v = 0; v < numbers.point_ids.size(); ++v)
+    if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
+      numbers.point_ids[v] = next[static_cast<std::size_t>(owner)]++;
+  return numbers;
+}
+
+} // namespace dovetail::io

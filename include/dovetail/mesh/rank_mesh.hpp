@@ -1,0 +1,96 @@
+/// @file
+/// What one rank of a parallel solver holds of a distributed mesh: plain data, in the order that solvers
+/// want it.
+#pragma once
+
+#include "dovetail/mesh/simplicial_mesh.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// What a rank shares with another one, by local ids. The other rank lists the same entities in the same
+/// order, under its own ids: what one packs along a list, the other unpacks along its own.
+struct rank_neighbour {
+  local_id rank = no_id;
+  std::vector<local_id> vertices;
+  std::vector<simplex<1>> edges; ///< each from the same end on both sides
+  /// Sides between two elements, one of each rank; D = 3. Outwards of this rank's element, so turned against
+  /// that of the other rank; both start with the same vertex.
+  std::vector<simplex<2>> faces;
+};
+
+/// Vertices come in three ranges: those the rank owns, those it holds but another rank owns, and those of
+/// ghosts alone. Elements come in two: those the rank owns, and ghosts, which are the elements of other ranks
+/// that touch a vertex it holds.
+///
+/// A vertex is owned by the lowest rank that has an element at it. Ids are contiguous per owner: vertex v of
+/// the owned ones has id vertex_ids[0] + v, element e has id element_ids[0] + e, and the ids of the next rank
+/// follow. The mesh's own numbers, which do not know of ranks (distributed_mesh.hpp), stand beside them.
+template <int D>
+struct rank_mesh {
+  local_id rank = 0;
+  local_id ranks = 1;
+  std::size_t owned_vertices = 0;
+  std::size_t held_vertices = 0; ///< the owned ones with them; the others are of ghosts alone
+  std::size_t owned_elements = 0;
+
+  simplicial_mesh<D> mesh;                ///< tags: materials (D = 3), CAD faces (D = 2)
+  std::vector<global_id> vertex_ids;      ///< per vertex
+  std::vector<local_id> vertex_owners;    ///< per vertex: a rank
+  std::vector<global_id> vertex_numbers;  ///< per vertex: its number in the distributed mesh
+  std::vector<global_id> element_ids;     ///< per element
+  std::vector<local_id> element_owners;   ///< per element: a rank
+  std::vector<global_id> element_numbers; ///< per element: its number in the distributed mesh
+  std::vector<local_id> subdomains;       ///< per element: its piece
+
+  /// Sides of owned elements on CAD faces (D = 3) or curves (D = 2), each once, outwards of the first of its
+  /// elements. One between two ranks is in the mesh of each.
+  std::vector<simplex<D - 1>> sides;
+  std::vector<local_id> side_hosts; ///< per side: its CAD face (D = 3) or curve (D = 2)
+  /// Per side: the element that it faces outwards of, and the one in front of it, or no_id where the rank's
+  /// elements end. Of an edge with more than two triangles (D = 2), the first two.
+  std::vector<std::array<local_id, 2>> side_elements;
+
+  std::vector<rank_neighbour> neighbours; ///< by growing rank: those with which it shares a vertex
+};
+
+/// The elements as ids of their vertices, `D + 1` for each, without ghosts: what `dolfinx::mesh::create_mesh`
+/// takes, whose order of a simplex's vertices is free. O(elements).
+template <int D>
+std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
+  std::vector<global_id> cells;
+  cells.reserve(mesh.owned_elements * (D + 1));
+  for (std::size_t e = 0; e < mesh.owned_elements; ++e)
+    for (const local_id v : mesh.mesh.elements[e])
+      cells.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
+  return cells;
+}
+
+/// The same with tetrahedra as `DMPlexCreateFromCellListParallel` takes them, whose first three vertices turn
+/// the other way: the first two vertices of each are exchanged (D = 3). O(elements).
+template <int D>
+std::vector<global_id> cells_for_dmplex(const rank_mesh<D>& mesh) {
+  auto cells = cells_by_ids(mesh);
+  if constexpr (D == 3)
+    for (std::size_t first = 0; first < cells.size(); first += 4)
+      std::swap(cells[first], cells[first + 1]);
+  return cells;
+}
+
+/// The coordinates that belong to these cells: of the vertices that the rank owns, in the order of their ids,
+/// three of each. O(vertices).
+template <int D>
+std::vector<double> owned_coordinates(const rank_mesh<D>& mesh) {
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * mesh.owned_vertices);
+  for (std::size_t v = 0; v < mesh.owned_vertices; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      coordinates.push_back(mesh.mesh.points[v][axis]);
+  return coordinates;
+}
+
+} // namespace dovetail
