@@ -88,9 +88,14 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("-o,--out", options.out, "Folder for the mesh")->capture_default_str();
   command
       .add_option("--format", options.formats,
-                  "File formats, several allowed: " + joined(format_names(3)) +
-                      "; for triangles: " + joined(format_names(2)) + " (default: the first)")
+                  "File formats, several allowed: " + joined(format_names(3, false)) +
+                      "; for triangles: " + joined(format_names(2, false)) +
+                      " (default: the first); with --ranks also: " + joined(format_names(3, true)) +
+                      "; for triangles: " + joined(format_names(2, true)) + " (default: the first)")
       ->delimiter(',');
+  command.add_option("--ranks", options.ranks, "Files for a parallel solver: number of its processes");
+  command.add_option("--redistribute", options.redistribute,
+                     "How the pieces come to ranks: " + joined(redistributor_names()));
   command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");

@@ -138,7 +138,7 @@ public:
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
         parameters_(make_generate_options(options)),
-        formats_(make_formats<D>(options.formats, options.files)) {}
+        formats_(make_formats<D>(options)) {}
 
   int run() {
     if (leads_ && !options_.report.empty())

@@ -36,7 +36,9 @@ struct mesh_options {
   std::string out = "out";
   std::vector<std::string> formats;
   std::string report;
-  int files = 0; ///< number of VTU files; 0: one per subdomain
+  int files = 0;            ///< number of VTU files; 0: one per subdomain
+  std::optional<int> ranks; ///< of the solver that the mesh is for
+  std::string redistribute;
   bool resume = false;
   bool force = false;
   bool quiet = false;

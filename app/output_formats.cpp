@@ -4,7 +4,11 @@
 #include "named_policies.hpp"
 
 #include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/pvtu_format.hpp"
+#include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/partition/metis.hpp"
+#include "dovetail/redistribution/any_redistributor.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -16,52 +20,92 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
+template <int D>
+std::vector<any_redistributor<D>> redistributors() {
+  return {{redistribution_by::pieces{.partitioner = partition::metis{}}, "by-pieces"},
+          {redistribution_by::blocks{}, "none"}};
+}
+
 /// All of them: a new format is one more line.
 template <int D>
-std::vector<output_format<D>> known_formats(int files) {
+std::vector<output_format<D>> known_formats(const mesh_options& options) {
   constexpr double msh_bytes = D == 3 ? 48 : 45;
   std::vector<output_format<D>> known;
-  known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.files = files}});
+  known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.files = options.files}});
   known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
+  const auto add_by_ranks = [&](double bytes_per_element, auto format) {
+    const io::rank_writer<decltype(format), any_redistributor<D>> writer{
+        options.ranks.value_or(1), format,
+        chosen(redistributors<D>(), options.redistribute, "--redistribute")};
+    known.push_back({format.name(), bytes_per_element, writer, true});
+  };
+  add_by_ranks(D == 3 ? 65.0 : 60.0, io::pvtu_format{});
   return known;
 }
 
 template <int D>
-std::vector<std::string> names_of_formats() {
+std::vector<std::string> names_of_formats(bool by_ranks) {
   std::vector<std::string> names;
-  for (const auto& format : known_formats<D>(0))
-    names.push_back(format.name);
-  names.push_back("none");
+  for (const auto& format : known_formats<D>({}))
+    if (format.by_ranks == by_ranks)
+      names.push_back(format.name);
+  if (!by_ranks)
+    names.push_back("none");
   return names;
 }
 
 template <int D>
-output_format<D> format_of(const std::string& name, int files) {
-  for (auto& format : known_formats<D>(files))
-    if (format.name == name)
-      return format;
-  throw command_line_error("--format: there is no '" + name + "' for --dimension " + std::to_string(D) +
-                           "; there are: " + joined(names_of_formats<D>()));
+void check_ranks(const mesh_options& options, const std::vector<output_format<D>>& formats) {
+  const bool by_ranks =
+      std::any_of(formats.begin(), formats.end(), [](const auto& format) { return format.by_ranks; });
+  if (!options.ranks) {
+    if (by_ranks || !options.redistribute.empty())
+      throw command_line_error("--ranks is missing: for how many ranks the mesh is");
+    return;
+  }
+  const std::string given = "--ranks: " + std::to_string(*options.ranks);
+  if (*options.ranks < 1)
+    throw command_line_error(given + " is less than 1");
+  if (options.subdomains && *options.subdomains < *options.ranks)
+    throw command_line_error(given + " are more than the " + std::to_string(*options.subdomains) +
+                             " subdomains; a rank has one at least");
+  if (!by_ranks)
+    throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)));
 }
 
 } // namespace
 
-std::vector<std::string> format_names(int dimension) {
-  return dimension == 3 ? names_of_formats<3>() : names_of_formats<2>();
+std::vector<std::string> format_names(int dimension, bool by_ranks) {
+  return dimension == 3 ? names_of_formats<3>(by_ranks) : names_of_formats<2>(by_ranks);
+}
+
+std::vector<std::string> redistributor_names() {
+  return names_of(redistributors<3>());
 }
 
 template <int D>
-std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int files) {
-  if (files < 0)
-    throw command_line_error("--files: " + std::to_string(files) + " is negative");
+std::vector<output_format<D>> make_formats(const mesh_options& options) {
+  if (options.files < 0)
+    throw command_line_error("--files: " + std::to_string(options.files) + " is negative");
+  const auto known = known_formats<D>(options);
+  const auto add = [&](std::vector<output_format<D>>& formats, const std::string& name) {
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& format) { return format.name == name; });
+    if (found == known.end())
+      throw command_line_error("--format: there is no '" + name + "' for --dimension " + std::to_string(D) +
+                               "; there are: " + joined(names_of_formats<D>(false)) + "; with --ranks also " +
+                               joined(names_of_formats<D>(true)));
+    formats.push_back(*found);
+  };
   std::vector<output_format<D>> formats;
-  for (const auto& name : names)
+  for (const auto& name : options.formats)
     if (name != "none")
-      formats.push_back(format_of<D>(name, files));
-  if (names.empty())
-    formats.push_back(known_formats<D>(files).front());
+      add(formats, name);
+  if (options.formats.empty())
+    add(formats, format_names(D, options.ranks.has_value()).front());
+  check_ranks<D>(options, formats);
   return formats;
 }
 
@@ -81,8 +125,8 @@ double elements_with_room(const std::vector<output_format<D>>& formats, const st
                  : static_cast<double>(space.available) / bytes_per_element(formats);
 }
 
-template std::vector<output_format<2>> make_formats<2>(const std::vector<std::string>&, int);
-template std::vector<output_format<3>> make_formats<3>(const std::vector<std::string>&, int);
+template std::vector<output_format<2>> make_formats<2>(const mesh_options&);
+template std::vector<output_format<3>> make_formats<3>(const mesh_options&);
 template double bytes_per_element<2>(const std::vector<output_format<2>>&);
 template double bytes_per_element<3>(const std::vector<output_format<3>>&);
 template double elements_with_room<2>(const std::vector<output_format<2>>&, const std::filesystem::path&);

@@ -2,6 +2,8 @@
 /// The file formats of meshes, by name.
 #pragma once
 
+#include "options.hpp"
+
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
@@ -17,15 +19,20 @@ struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of points
   io::any_piecewise_writer<D> writer;
+  bool by_ranks = false; ///< has files of its own for each rank of a solver
 };
 
-/// What `--format` may name, of that dimension; the first is the default.
-std::vector<std::string> format_names(int dimension);
+/// What `--format` may name, of that dimension; the first is the default. Either for files that say nothing
+/// of ranks, or for files by ranks.
+std::vector<std::string> format_names(int dimension, bool by_ranks);
+/// What `--redistribute` may name; the first is the default.
+std::vector<std::string> redistributor_names();
 
-/// The formats of the names; the default one when there are none; none for "none". Throws
-/// `command_line_error` for an unknown name and for a negative number of files.
+/// The formats that were chosen; the default one when none was; none for "none". Throws `command_line_error`
+/// for an unknown name, for a negative number of files, and for ranks that do not fit the formats or the
+/// subdomains.
 template <int D>
-std::vector<output_format<D>> make_formats(const std::vector<std::string>& names, int files);
+std::vector<output_format<D>> make_formats(const mesh_options& options);
 
 /// Disk that a mesh takes per element, about, with its spool and in all the formats.
 template <int D>

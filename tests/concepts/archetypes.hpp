@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -285,6 +286,18 @@ struct piecewise_writer : copyable_only {
   using copyable_only::copyable_only;
   report operator()(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
   io::piecewise_output<3> begin(const distributed_mesh&, const std::filesystem::path&) const { return {}; }
+};
+// end
+
+// for rank_format
+struct rank_format : copyable_only {
+  using copyable_only::copyable_only;
+  std::string name() const { return {}; }
+  std::vector<std::string> files_of_rank(local_id) const { return {}; }
+  std::vector<std::string> files_of_all() const { return {}; }
+  void write(const io::rank_source<3>&, const rank_mesh<3>&,
+             const std::vector<std::filesystem::path>&) const {}
+  void write_all(const io::rank_source<3>&, const std::vector<std::filesystem::path>&) const {}
 };
 // end
 

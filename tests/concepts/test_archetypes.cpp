@@ -8,6 +8,7 @@
 #include "dovetail/improver/native_by.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/rank_files.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -56,6 +57,9 @@ static_assert(piecewise_mesh_writer<archetype::piecewise_writer> &&
 static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, archetype::piecewise_writer>);
 static_assert(redistributor<archetype::redistributor> && !redistributor<archetype::writer>);
 static_assert(std::is_constructible_v<any_redistributor<3>, archetype::redistributor>);
+static_assert(rank_format<archetype::rank_format> && !rank_format<archetype::rank_format, 2>);
+using writer_by_ranks = io::rank_writer<archetype::rank_format, archetype::redistributor>;
+static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, writer_by_ranks>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
 static_assert(graph<archetype::path> && !weighted_graph<archetype::path>);

@@ -1,152 +1,48 @@
 #!/bin/bash
-# The driver on several ranks: the mesh of one process, one progress, one message and one exit code, also when a process
-# is killed; and a run that goes on with another number of ranks.
-#   check_ranks.sh <driver> <mpirun>
+# Files for the ranks of a parallel solver: the same for any workers, and read by somebody else's reader.
+#   check_ranks.sh <driver>
 driver=$1
-mpirun=$2
 source "$(dirname "$0")/expectations.sh"
-cd "$sandbox" || exit 1
+limit=120
+reader=$(dirname "$0")/../io/check_rank_files.py
+
 write_cube >"$inputs/cube.off"
-mesh=(mesh "$inputs/cube.off" --size 0.08 --subdomains 6 --report report.json)
+small=(mesh "$inputs/cube.off" --size 0.15 --improver none)
 
-# on_ranks <number> <folder> <arguments...>: sets $status.
-on_ranks() {
-  local ranks=$1 folder=$2
-  shift 2
-  what="$ranks ranks: dovetail $*"
-  (cd "$folder" && timeout "${limit:-100}" "$mpirun" -n "$ranks" "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
-  status=$?
-}
-figure() {
-  sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$2/report.json" | head -n 1
-}
-fresh() {
-  rm -rf "$sandbox/$1" && mkdir "$sandbox/$1"
-}
-# Files without the times and sizes of processes, and without what says how the run was made.
-files_of() {
-  (cd "$1/out" && find . -type f ! -name finished_run.txt -exec sha256sum {} + | sort)
-}
-nothing_left() {
-  local left
-  left=$(find "$1" -name '*.part' | head -n 3)
-  [[ -z $left ]] || fault "left behind: $left"
-  sleep 0.2
-  pgrep -f "$driver mesh $inputs" >/dev/null && fault "processes are left: $(pgrep -af "$driver mesh $inputs" | head -n 3)"
+counter() { # key of the report
+  sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
 }
 
-# 1. The same mesh, byte by byte, and one report.
-fresh alone
-on_ranks 1 alone "${mesh[@]}" --workers 2 --format vtu,msh
-((status == 0)) || fault "exit code is $status"
-for ranks in 2 4 7; do
-  fresh several
-  on_ranks $ranks several "${mesh[@]}" --format vtu,msh
-  ((status == 0)) || fault "exit code is $status"
-  [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one rank"
-  [[ $(figure mesh_hash several) == "$(figure mesh_hash alone)" ]] || fault "another hash"
-  [[ $(figure executor several) == ranks && $(figure workers several) == "$ranks" ]] || fault "the report tells of other workers"
-  [[ $(grep -c "^The mesh is in" "$sandbox/stdout") == 1 ]] || fault "not one summary"
-  [[ $(grep -c "^meshing  " "$sandbox/stderr") == 1 ]] || fault "not one line of progress for the meshing"
-  nothing_left several
+# More ranks than workers, and other files beside; one worker writes the same.
+expect_success "${small[@]}" --subdomains 8 --workers 2 --ranks 3 --format pvtu,vtu --report report.json
+elements=$(counter elements)
+hash=$(counter mesh_hash)
+[[ $(counter ranks) == 3* && $(counter pieces) == 8* ]] || fault "the redistribution is not in the report"
+(cd "$sandbox/work/out" && echo ranks*) >"$sandbox/listing"
+grep -qx "ranks.pvtu ranks_0000.vtu ranks_0001.vtu ranks_0002.vtu" "$sandbox/listing" ||
+  fault "other files than expected"
+[[ -e $sandbox/work/out/mesh.pvtu && ! -e $sandbox/work/out/spool ]] || fault "not as without ranks"
+rm -rf "$inputs/ranks" && cp -r "$sandbox/work/out" "$inputs/ranks"
+if /usr/bin/python3 -c 'import numpy, vtkmodules.vtkIOXML' 2>/dev/null; then
+  said=$(/usr/bin/python3 "$reader" pvtu "$inputs/ranks" 3) || fault "VTK finds no mesh in the files of ranks"
+  [[ $said == "$elements elements, "*" measure 1.000000000,"* ]] || fault "VTK says: $said"
+fi
+expect_success "${small[@]}" --subdomains 8 --workers 1 --ranks 3 --report report.json # pvtu is the default
+[[ $(counter mesh_hash) == "$hash" ]] || fault "another mesh by one worker"
+for file in ranks.pvtu ranks_0000.vtu ranks_0001.vtu ranks_0002.vtu; do
+  cmp -s "$inputs/ranks/$file" "$sandbox/work/out/$file" || fault "another $file by one worker"
 done
-fresh several
-on_ranks 2 several "${mesh[@]}" --format vtu,msh --workers 2
-[[ $(figure workers several) == 4 && $(files_of several) == "$(files_of alone)" ]] || fault "not four workers, or other files"
-fresh several
-on_ranks 3 several "${mesh[@]}" --format vtu,msh --executor serial
-[[ $(files_of several) == "$(files_of alone)" ]] || fault "other files"
+expect_success "${small[@]}" --subdomains 8 --ranks 2 --redistribute none --report report.json
+[[ $(counter largest_rank) =~ ^[1-9] ]] || fault "no elements of ranks"
+expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2
 
-# 2. An error that all meet is said once; other commands run once.
-one_line() {
-  ((status == $1)) || fault "exit code is $status, not $1"
-  [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-  grep -q "^dovetail: .*$2" "$sandbox/stderr" || fault "the line does not match '$2'"
-}
-fresh several
-on_ranks 3 several mesh "$inputs/none.off"
-one_line 1 "none.off: there is no such file"
-on_ranks 3 several mesh --nonsense
-one_line 2 "--nonsense"
-on_ranks 3 several "${mesh[@]}" --executor threads
-one_line 2 "--executor"
-on_ranks 3 several "${mesh[@]}" --out /proc/none
-one_line 1 "/proc/none"
-on_ranks 2 several models
-((status == 0)) && [[ $(grep -c "^orbiter" "$sandbox/stdout") == 1 ]] || fault "the models are not listed once"
-
-# 3. A run that is killed goes on with another number of ranks.
-long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 8 --report report.json)
-fresh whole
-on_ranks 1 whole "${long[@]}" --workers 2
-((status == 0)) || fault "exit code is $status"
-
-# started <number of ranks>, then waits for the beginning of a line of progress.
-start_until() {
-  local ranks=$1 stage=$2
-  shift 2
-  fresh several
-  : >"$sandbox/stderr"
-  what="$ranks ranks: $*, until $stage"
-  (cd several && exec "$mpirun" -n "$ranks" "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null) &
-  process=$!
-  for ((tenths = 0; tenths < 600; ++tenths)); do
-    tr '\r' '\n' <"$sandbox/stderr" | grep -q "^$stage" && break
-    kill -0 $process 2>/dev/null || break
-    sleep 0.1
-  done
-  kill -0 $process 2>/dev/null || fault "it had ended before"
-}
-# ended_within <seconds>: sets $status.
-ended_within() {
-  local tenths
-  for ((tenths = 0; tenths < 10 * $1; ++tenths)); do
-    kill -0 $process 2>/dev/null || break
-    sleep 0.1
-  done
-  kill -0 $process 2>/dev/null && fault "it has not ended within $1 s" && kill -9 $process
-  wait $process
-  status=$?
-}
-# The processes of a rank: its relay is mpirun's child, that one's child computes, whose children work.
-relays() { pgrep -P "$process" -f "$driver"; }
-computing() { for relay in $(relays); do pgrep -P "$relay"; done; }
-resume_on() {
-  on_ranks "$1" several "${long[@]}" --resume
-  ((status == 0)) || fault "exit code is $status"
-  [[ $(figure mesh_hash several) == "$(figure mesh_hash whole)" ]] || fault "another hash after resuming"
-}
-
-start_until 4 meshing "${long[@]}"
-kill -TERM $process
-ended_within 10
-((status != 0)) || fault "exit code is 0"
-nothing_left several
-resume_on 2
-
-for victim in first last; do
-  for stage in "background surface" skeleton meshing; do
-    start_until 3 "$stage" "${long[@]}"
-    if [[ $victim == first ]]; then
-      kill -SEGV "$(computing | head -n 1)"
-    else
-      kill -SEGV "$(computing | tail -n 1)"
-    fi
-    ended_within 10
-    ((status == 1)) || fault "exit code is $status, not 1"
-    [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-    grep -q "^dovetail: .*ended by signal 11" "$sandbox/stderr" || fault "the line does not say what happened"
-    [[ $victim == first ]] || grep -q "^dovetail: rank 2: " "$sandbox/stderr" || fault "the line does not name the rank"
-    nothing_left several
-  done
-done
-resume_on 7
-
-start_until 2 meshing "${long[@]}"
-kill -KILL "$(relays | tail -n 1)"
-ended_within 10
-((status != 0)) || fault "exit code is 0"
-nothing_left several
-resume_on 1
-
+# What does not fit is refused before anything is read.
+expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
+expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
+expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
+expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off --ranks 5 --subdomains 4
+expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu
+expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, none" \
+  mesh nothing.off --ranks 2 --redistribute x
+expect_usage_error "--format: there is no 'x'.*with --ranks also pvtu" mesh nothing.off --ranks 2 --format x
 finish

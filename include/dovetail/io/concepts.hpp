@@ -4,11 +4,14 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
+#include "dovetail/io/make_rank_mesh.hpp"
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <concepts>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace dovetail {
 
@@ -27,7 +30,8 @@ namespace dovetail {
 /// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
 /// `mesh_error` when pieces and skeleton disagree.
 ///
-/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3.
+/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3,
+/// io::rank_writer of a format.
 template <class W, int D = 3>
 concept mesh_writer = std::copy_constructible<W> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
@@ -49,12 +53,45 @@ concept mesh_writer = std::copy_constructible<W> &&
 ///
 /// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
 ///
-/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3.
+/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3,
+/// io::rank_writer of a format.
 template <class W, int D = 3>
 concept piecewise_mesh_writer = mesh_writer<W, D> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh,
              const std::filesystem::path& unfinished) {
   { w.begin(mesh, unfinished) } -> std::same_as<io::piecewise_output<D>>;
+};
+
+/// The role `rank_format<F, D>`: a file format of parallel solvers, which `io::rank_writer` makes a
+/// `piecewise_mesh_writer`. D = 3 when it is not said.
+///
+/// Valid expressions for `const F& f`, `local_id q`, `const io::rank_source<D>& source`,
+/// `const rank_mesh<D>& mesh`, `const std::vector<std::filesystem::path>& paths`:
+///
+/// - `f.name()`: std::string, of the format
+/// - `f.files_of_rank(q)`: std::vector<std::string>, the files of a rank, below the folder of the mesh
+/// - `f.files_of_all()`: std::vector<std::string>, the files that all ranks have in common
+/// - `f.write(source, mesh, paths)`: writes the files of the mesh's rank under these names
+/// - `f.write_all(source, paths)`: writes the common ones
+///
+/// Semantics: what is written depends on the arguments alone, and a file on its own names alone, as the names
+/// given are temporary. Each call may be made in another process, in any order. `write` or `write_all` is not
+/// called where there are no names.
+///
+/// Complexity: linear in the rank; of `write_all` in what the files hold.
+///
+/// Failure: throws `io_error` naming the path when a file cannot be written.
+///
+/// Models: io::pvtu_format.
+template <class F, int D = 3>
+concept rank_format = std::copy_constructible<F> &&
+    requires(const F& f, local_id q, const io::rank_source<D>& source, const rank_mesh<D>& mesh,
+             const std::vector<std::filesystem::path>& paths) {
+  { f.name() } -> std::same_as<std::string>;
+  { f.files_of_rank(q) } -> std::same_as<std::vector<std::string>>;
+  { f.files_of_all() } -> std::same_as<std::vector<std::string>>;
+  f.write(source, mesh, paths);
+  f.write_all(source, paths);
 };
 
 /// The role `mesh_reader`: a file becomes a mesh.

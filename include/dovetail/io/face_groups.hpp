@@ -61,4 +61,12 @@ inline std::vector<std::string> collect_material_names(const distributed_mesh& m
   return names;
 }
 
+/// Names of the tags of elements: materials, or in D = 2 CAD faces.
+inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<3>& mesh) {
+  return collect_material_names(mesh);
+}
+inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<2>& mesh) {
+  return mesh.face_names;
+}
+
 } // namespace dovetail::io

@@ -56,12 +56,15 @@ public:
     bounds_.resize(mesh.counts.size() + 1);
     std::iota(bounds_.begin(), bounds_.end(), 0);
     for (const auto& output : outputs_) {
+      for (const auto& write : output.others)
+        others_.push_back(&write);
+      most_loaded_ = std::max(most_loaded_, output.most_loaded);
+      if (output.names.empty())
+        continue;
       std::vector<local_id> common;
       std::set_intersection(bounds_.begin(), bounds_.end(), output.bounds.begin(), output.bounds.end(),
                             std::back_inserter(common));
       bounds_ = std::move(common);
-      for (const auto& write : output.others)
-        others_.push_back(&write);
     }
   }
 
@@ -128,7 +131,7 @@ private:
                          : "subdomains " + std::to_string(first) + " to " + std::to_string(last);
   }
   local_id most_pieces() const {
-    local_id most = 1;
+    local_id most = std::max<local_id>(most_loaded_, 1);
     for (std::size_t r = 0; r < ranges(); ++r)
       most = std::max(most, bounds_[r + 1] - bounds_[r]);
     return most;
@@ -243,6 +246,8 @@ private:
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto& output = outputs_[k];
+        if (output.names.empty())
+          continue;
         if (p == output.bounds[next[k]])
           open[k] = output.open(next[k]);
         open[k].add(piece);
@@ -293,6 +298,7 @@ private:
   const bool release_;
   std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1
   std::vector<const std::function<void()>*> others_;
+  local_id most_loaded_ = 0; ///< pieces by one of the others
 };
 
 } // namespace detail
@@ -312,7 +318,9 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
     make_folder(of_writer);
     outputs.push_back(writer.begin(mesh, of_writer));
   }
-  const bool resumable = options.release && mesh.release;
+  const bool resumable =
+      options.release && mesh.release &&
+      std::all_of(outputs.begin(), outputs.end(), [](const auto& output) { return output.most_loaded == 0; });
   if (unfinished)
     unfinished->keep(resumable);
   detail::finishing_tasks<D> tasks(mesh, std::move(outputs), unfinished ? &*unfinished : nullptr,

@@ -20,6 +20,16 @@ template <int D>
 rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
                             local_id rank, bool ghosts = false);
 
+/// A mesh numbered for ranks: what each of them needs to make its own.
+template <int D>
+struct rank_source {
+  const distributed_simplicial_mesh<D>& mesh;
+  rank_numbering numbers;
+  bool ghosts = false;
+
+  rank_mesh<D> mesh_of(local_id rank) const { return make_rank_mesh<D>(mesh, numbers, rank, ghosts); }
+};
+
 } // namespace dovetail::io
 
 #ifndef DOVETAIL_COMPILED

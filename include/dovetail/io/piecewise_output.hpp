@@ -34,10 +34,12 @@ struct piece_file {
 template <int D>
 struct piecewise_output {
   std::vector<local_id>
-      bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number
+      bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number; or no files
   std::vector<std::string> names;                 ///< of these files
   std::function<piece_file<D>(std::size_t)> open; ///< file f
-  std::vector<std::function<void()>> others = {}; ///< each writes a file that takes no pieces
+  std::vector<std::function<void()>> others = {}; ///< each writes files that take no pieces
+  /// The most pieces that one of the others loads by itself; unless it is 0, pieces are not given up.
+  local_id most_loaded = 0;
   /// Called when all these are there: writes what names them, or is made of them, still in the same folder.
   std::function<void()> complete = [] {};
   /// Called when all is complete, also that of other writers: moves the files to their own folder.
@@ -80,6 +82,8 @@ private:
   }
   static void check(const piecewise_output<D>& output, local_id pieces) {
     const auto& bounds = output.bounds;
+    if (bounds.empty() && output.names.empty() && output.finish)
+      return;
     if (bounds.empty() || bounds.front() != 0 || bounds.back() != pieces ||
         !std::is_sorted(bounds.begin(), bounds.end()))
       throw usage_error("the writer's files do not take pieces 0 to " + std::to_string(pieces - 1) +
@@ -132,7 +136,8 @@ public:
         continue;
       for (const auto& file : entries_of(of_format))
         if (const auto ending = file.extension(); ending == ".part" || ending == ".vtu" || ending == ".vtp" ||
-                                                  ending == ".pvtu" || ending == ".msh_piece")
+                                                  ending == ".pvtu" || ending == ".msh_piece" ||
+                                                  ending == ".rank_file")
           std::filesystem::remove(file, ignored);
       remove_empty_folder(of_format);
     }

@@ -236,14 +236,6 @@ inline void remove_stale_files(const std::filesystem::path& folder, const std::s
 
 } // namespace detail
 
-/// Names of the tags of elements: materials, or in D = 2 CAD faces.
-inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<3>& mesh) {
-  return collect_material_names(mesh);
-}
-inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<2>& mesh) {
-  return mesh.face_names;
-}
-
 template <int D>
 piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh,
                                       const std::filesystem::path& unfinished) const {

@@ -1,0 +1,109 @@
+/// @file
+/// A mesh in the files of a parallel solver: a rank's share in files of its own, each written by itself, so
+/// that nothing is gathered.
+#pragma once
+
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/io/concepts.hpp"
+#include "dovetail/io/make_rank_mesh.hpp"
+#include "dovetail/redistribution/by_pieces.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+/// Writes a distributed mesh for a solver with `ranks` ranks, however many workers made it.
+template <class Format, class Redistributor = redistribution_by::pieces>
+struct rank_writer {
+  int ranks = 1;
+  Format format = {};
+  Redistributor redistribute = {};
+  bool ghosts = false; ///< each rank also has the elements of others that touch its own
+
+  /// A model of `piecewise_mesh_writer`. Memory: the skeleton, 30 bytes per point of it, and a rank's mesh
+  /// per worker. Further throws what the redistributor throws. The report has a child "redistribution".
+  template <int D>
+  report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {
+    return write_piecewise<D>(mesh, *this, folder);
+  }
+
+  /// A task per rank, and one for the files of all. They load the pieces themselves.
+  template <int D>
+    requires rank_format<Format, D> && redistributor<Redistributor, D> piecewise_output<D>
+    begin(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& unfinished)
+  const {
+    redistribution given = redistribute(mesh, ranks);
+    const auto source = std::make_shared<const rank_source<D>>(
+        rank_source<D>{mesh, number_by_ranks(mesh, std::move(given.rank_of_piece), ranks), ghosts});
+    piecewise_output<D> output;
+    std::vector<file> files;
+    const auto add = [&](const std::vector<std::string>& names) {
+      std::vector<std::filesystem::path> paths;
+      for (const auto& name : names) {
+        files.push_back({unfinished / (std::to_string(files.size()) + ".rank_file"), name});
+        paths.push_back(files.back().unfinished);
+      }
+      return paths;
+    };
+    for (local_id q = 0; q < source->numbers.ranks(); ++q) {
+      output.most_loaded =
+          std::max(output.most_loaded, static_cast<local_id>(source->numbers.pieces_of_rank[q].size()));
+      if (auto paths = add(format.files_of_rank(q)); !paths.empty())
+        output.others.push_back([source, q, format = format, paths = std::move(paths)] {
+          format.write(*source, source->mesh_of(q), paths);
+        });
+    }
+    if (format.files_of_rank(0).empty()) // one task has all ranks, one after the other
+      output.most_loaded = static_cast<local_id>(mesh.counts.size());
+    if (auto paths = add(format.files_of_all()); !paths.empty())
+      output.others.push_back(
+          [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); });
+    output.finish = [source, files, format = format,
+                     summary = std::move(given.summary)](const std::filesystem::path& folder) {
+      return move_all(*source, files, format, summary, folder);
+    };
+    return output;
+  }
+
+private:
+  struct file {
+    std::filesystem::path unfinished;
+    std::string name; ///< in the folder, perhaps below it
+  };
+
+  /// Also removes what an earlier mesh of more ranks has left.
+  template <int D>
+  static report move_all(const rank_source<D>& source, const std::vector<file>& files, const Format& format,
+                         const report& redistributed, const std::filesystem::path& folder) {
+    report summary{format.name(), 0, {}, {}, {redistributed}};
+    std::uint64_t bytes = 0;
+    for (const auto& [from, name] : files) {
+      make_folder((folder / name).parent_path());
+      bytes += move_file(from, folder / name);
+      summary.files.push_back(name);
+    }
+    std::error_code ignored;
+    bool left = true;
+    for (local_id q = source.numbers.ranks(); left; ++q) {
+      left = false;
+      for (const auto& name : format.files_of_rank(q))
+        left = std::filesystem::remove(folder / name, ignored) || left;
+    }
+    sync_to_disk(folder);
+    summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
+    summary.set("bytes", static_cast<double>(bytes));
+    summary.set("files", static_cast<double>(files.size()));
+    return summary;
+  }
+};
+
+} // namespace dovetail::io

@@ -1,0 +1,104 @@
+#!/usr/bin/python3
+"""Reads the files of a parallel solver with somebody else's reader and checks that the ranks make one mesh:
+check_rank_files.py FORMAT FOLDER RANKS. Prints one line of counts; exit status 0 when all is well."""
+
+import sys
+
+import numpy as np
+
+
+def fail(what):
+    sys.exit(f"not one mesh: {what}")
+
+
+def check_ranks(ranks):
+    """Each rank: points, their ids and whether another owns them; elements by place, their ids and whether they are
+    ghosts."""
+    vertices = sum(int((~rank["foreign"]).sum()) for rank in ranks)
+    elements = sum(int((~rank["ghost"]).sum()) for rank in ranks)
+    places = np.full((vertices, 3), np.nan)
+    next_vertex = next_element = 0
+    for number, rank in enumerate(ranks):
+        own = rank["ids"][~rank["foreign"]]
+        if not np.array_equal(own, np.arange(next_vertex, next_vertex + len(own))):
+            fail(f"ids of vertices of rank {number}")
+        cells = rank["cell_ids"][~rank["ghost"]]
+        if not np.array_equal(cells, np.arange(next_element, next_element + len(cells))):
+            fail(f"ids of elements of rank {number}")
+        next_vertex += len(own)
+        next_element += len(cells)
+        places[own] = rank["points"][~rank["foreign"]]
+    named, seen = [], {}
+    for number, rank in enumerate(ranks):
+        if not np.array_equal(places[rank["ids"]], rank["points"]):
+            fail(f"rank {number} has a vertex elsewhere than its owner")
+        ids = rank["ids"][rank["cells"]]
+        named.append(ids[~rank["ghost"]])
+        seen.update((int(i), tuple(sorted(e))) for i, e in zip(rank["cell_ids"][~rank["ghost"]], named[-1]))
+    for number, rank in enumerate(ranks):
+        ids = rank["ids"][rank["cells"]]
+        if any(seen[int(i)] != tuple(sorted(e)) for i, e in zip(rank["cell_ids"][rank["ghost"]], ids[rank["ghost"]])):
+            fail(f"a ghost of rank {number} is another element for its owner")
+    named = np.concatenate(named)
+    p = places[named]
+    if named.shape[1] == 4:
+        measures = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+    else:
+        measures = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
+    if np.any(measures <= 0):
+        fail("elements turned inside out")
+    corners = range(named.shape[1])
+    sides = np.sort(np.concatenate([np.delete(named, k, axis=1) for k in corners]), axis=1)
+    uses = np.unique(sides, axis=0, return_counts=True)[1]
+    if np.any(uses > 2):
+        fail("sides with more than two elements")
+    copies = sum(int(rank["foreign"].sum()) for rank in ranks)
+    ghosts = sum(int(rank["ghost"].sum()) for rank in ranks)
+    print(f"{elements} elements, {vertices} vertices, {int((uses == 1).sum())} boundary sides, measure "
+          f"{measures.sum():.9f}, {copies} copies, {ghosts} ghosts")
+
+
+def check_pvtu(folder, count):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
+
+    def read(reader, path):
+        problems = []
+
+        def note(_, __, message):
+            problems.append(message)
+
+        note.CallDataType = "string0"
+        for event in ("ErrorEvent", "WarningEvent"):
+            reader.AddObserver(event, note)
+        reader.SetFileName(path)
+        reader.Update()
+        if problems:
+            fail(f"VTK cannot read {path}: {problems}")
+        return reader.GetOutput()
+
+    def arrays(grid):
+        points, cells = grid.GetPointData(), grid.GetCellData()
+        offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+        return {"points": vtk_to_numpy(grid.GetPoints().GetData()),
+                "ids": vtk_to_numpy(points.GetGlobalIds()),
+                "foreign": vtk_to_numpy(points.GetArray("vtkGhostType")) == 1,
+                "cells": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(len(offsets) - 1, -1),
+                "cell_ids": vtk_to_numpy(cells.GetGlobalIds()),
+                "ghost": vtk_to_numpy(cells.GetArray("vtkGhostType")) == 1,
+                "owner": vtk_to_numpy(points.GetArray("owner"))}
+
+    ranks = [arrays(read(vtkXMLUnstructuredGridReader(), f"{folder}/ranks_{q:04}.vtu")) for q in range(count)]
+    for number, rank in enumerate(ranks):
+        if not np.array_equal(rank["owner"] != number, rank["foreign"]):
+            fail(f"rank {number}: ghost types and owners differ")
+    whole = arrays(read(vtkXMLPUnstructuredGridReader(), f"{folder}/ranks.pvtu"))
+    for name in whole:
+        if not np.array_equal(whole[name] if name != "cells" else whole["ids"][whole["cells"]],
+                              np.concatenate([r[name] if name != "cells" else r["ids"][r["cells"]] for r in ranks])):
+            fail(f"the PVTU has other {name} than its files")
+    check_ranks(ranks)
+
+
+if __name__ == "__main__":
+    globals()[f"check_{sys.argv[1]}"](sys.argv[2], int(sys.argv[3]))

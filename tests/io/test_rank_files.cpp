@@ -1,0 +1,120 @@
+// Files of parallel solvers: each rank its own, read by somebody else's reader (check_rank_files.py).
+#include "io/scratch_folder.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/geometry/plane_svg_path.hpp"
+#include "dovetail/io/finishing_pass.hpp"
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/pvtu_format.hpp"
+#include "dovetail/io/rank_files.hpp"
+#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+using namespace dovetail;
+
+namespace {
+
+/// The script's exit status (0: one mesh) and what it printed.
+std::pair<int, std::string> check(const std::string& format, const std::filesystem::path& folder, int ranks) {
+  const auto log = folder / "check.txt";
+  const int status =
+      std::system(("/usr/bin/python3 " DOVETAIL_TESTS "/check_rank_files.py " + format + " '" +
+                   folder.string() + "' " + std::to_string(ranks) + " > '" + log.string() + "' 2>&1")
+                      .c_str());
+  return {status, testing::file_content(log)};
+}
+
+bool has_python_module(const std::string& name) {
+  if (std::system(("/usr/bin/python3 -c 'import numpy, " + name + "' > /dev/null 2>&1").c_str()) == 0)
+    return true;
+  MESSAGE("skipped: Python has no " << name);
+  return false;
+}
+
+const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
+
+} // namespace
+
+TEST_CASE("PVTU: VTK reads what each rank has, copies marked, with and without ghosts") {
+  if (!has_python_module("vtkmodules.vtkIOXML"))
+    return;
+  for (const int ranks : {1, 4}) {
+    const testing::scratch_folder folder("ranks_pvtu");
+    const auto summary = io::rank_writer<io::pvtu_format>{.ranks = ranks}(cubes.distributed(), folder);
+    CHECK(summary.get("elements") == 1296);
+    CHECK(summary.get("files") == ranks + 1);
+    CHECK(summary.find("redistribution").get("ranks") == ranks);
+    CHECK(summary.files.back() == "ranks.pvtu");
+    const auto [status, log] = check("pvtu", folder, ranks);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((log.find(" 0 copies, 0 ghosts") != std::string::npos) == (ranks == 1));
+  }
+  const testing::scratch_folder folder("ranks_pvtu");
+  io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(cubes.distributed(), folder);
+  const auto [status, log] = check("pvtu", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.find(" 0 ghosts") == std::string::npos);
+  auto spoilt = testing::file_content(folder / "ranks_0001.vtu");
+  spoilt[spoilt.size() - 29] = 0; // the last element is no ghost any more
+  testing::write_content(folder / "ranks_0001.vtu", spoilt);
+  CHECK(check("pvtu", folder, 3).first != 0);
+}
+
+TEST_CASE("PVTU of triangles") {
+  if (!has_python_module("vtkmodules.vtkIOXML"))
+    return;
+  const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z M1 1 h0.5 v0.5 h-0.5 Z"));
+  const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
+  const testing::scratch_folder folder("ranks_triangles");
+  io::rank_writer<io::pvtu_format>{.ranks = 3}(result.mesh, folder);
+  const auto [status, log] = check("pvtu", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.find("measure 5.750000000") != std::string::npos);
+}
+
+TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {
+  auto mesh = cubes.distributed();
+  bool released = false;
+  mesh.release = [&released](local_id, const piece_note&) { released = true; };
+  const testing::scratch_folder folder("ranks_finishing"), alone("ranks_alone");
+  const io::rank_writer<io::pvtu_format> by_ranks{.ranks = 4};
+  by_ranks(mesh, alone);
+  for (const auto& executor :
+       {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 2})}) {
+    const auto finished =
+        io::finish_mesh<3>(mesh, {io::vtu_writer{}, by_ranks}, folder, executor, {.release = true});
+    CHECK_FALSE(released); // the ranks load them again
+    CHECK(finished.hash == io::mesh_hash(mesh));
+    for (const auto& name : {"ranks.pvtu", "ranks_0000.vtu", "ranks_0003.vtu"})
+      CHECK(testing::file_content(folder / name) == testing::file_content(alone / name));
+    CHECK(std::filesystem::exists(folder / "mesh.pvtu"));
+    CHECK_FALSE(std::filesystem::exists(folder / "unfinished"));
+    CHECK(io::finish_mesh<3>(mesh, {by_ranks}, folder, executor).hash == finished.hash);
+  }
+}
+
+TEST_CASE("files of more ranks do not stay behind; a mesh that does not fit leaves none") {
+  const testing::scratch_folder folder("ranks_fewer");
+  io::rank_writer<io::pvtu_format>{.ranks = 5}(cubes.distributed(), folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 2}(cubes.distributed(), folder);
+  CHECK(testing::file_count(folder) == 3);
+  const testing::scratch_folder other("ranks_wrong");
+  CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes.distributed(), other), partition_error);
+  const auto cracked = cubes.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });
+  CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 2}(cracked, other), mesh_error);
+  CHECK(testing::file_count(other) == 0);
+}
