@@ -137,8 +137,7 @@ public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
-        parameters_(make_generate_options(options)),
-        formats_(make_formats<D>(options)) {}
+        parameters_(make_generate_options(options)), formats_(make_formats<D>(options)) {}
 
   int run() {
     if (leads_ && !options_.report.empty())

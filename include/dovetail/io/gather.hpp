@@ -31,6 +31,9 @@ struct gathered_mesh {
   /// ends. Of an edge with more than two triangles (D = 2), the first two.
   std::vector<std::array<local_id, 2>> side_elements;
 
+  std::vector<simplex<1>> curve_edges; ///< on CAD curves, in D = 3; in D = 2 they are sides
+  std::vector<local_id> curves;        ///< the CAD curve of each such edge
+
   std::vector<std::string> material_names; ///< per material, none empty; D = 3
   std::vector<std::string> group_names;    ///< of the groups of faces, distinct
   std::vector<local_id> group_of_face;     ///< per CAD face: its group
@@ -46,16 +49,26 @@ gathered_mesh<D> gather(const distributed_simplicial_mesh<D>& mesh) {
   if (std::max(numbers.points(), numbers.elements()) > std::numeric_limits<local_id>::max())
     throw mesh_error("a mesh of " + std::to_string(numbers.elements()) +
                      " elements is too large to be gathered; read its pieces one at a time");
-  auto whole =
-      make_rank_mesh<D>(mesh, number_by_ranks(mesh, std::vector<local_id>(mesh.counts.size(), 0), 1), 0);
+  const rank_numbering one_rank = number_by_ranks(mesh, std::vector<local_id>(mesh.counts.size(), 0), 1);
+  auto whole = make_rank_mesh<D>(mesh, one_rank, 0);
   gathered_mesh<D> result{std::move(whole.mesh),
                           std::move(whole.subdomains),
                           std::move(whole.sides),
                           std::move(whole.side_hosts),
                           std::move(whole.side_elements),
                           {},
+                          mesh.skeleton.curves,
+                          {},
                           {},
                           {}};
+  const auto vertex = [&](local_id point) {
+    const global_id id = one_rank.point_ids[static_cast<std::size_t>(point)];
+    if (id < 0)
+      throw mesh_error("an edge of the skeleton that lies on the CAD model belongs to no element");
+    return static_cast<local_id>(id);
+  };
+  for (const auto& [a, b] : mesh.skeleton.curve_edges)
+    result.curve_edges.push_back({vertex(a), vertex(b)});
   std::size_t faces = 0;
   if constexpr (D == 3)
     result.material_names = collect_material_names(mesh);

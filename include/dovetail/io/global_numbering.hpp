@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/mid_nodes.hpp"
 
 #include <string>
 #include <vector>
@@ -27,6 +28,17 @@ global_numbering number_globally(const distributed_simplicial_mesh<D>& mesh) {
     numbers.first_point.push_back(numbers.first_point.back() + piece.inner_points);
     numbers.first_element.push_back(numbers.first_element.back() + piece.elements);
   }
+  return numbers;
+}
+
+/// The same for nodes: `points()` counts those in the middle of edges too, and `first_point` is the number of
+/// a piece's first own node.
+template <int D>
+global_numbering number_nodes(const distributed_simplicial_mesh<D>& mesh) {
+  global_numbering numbers = number_globally(mesh);
+  numbers.first_point = {static_cast<global_id>(skeleton_nodes(mesh))};
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p)
+    numbers.first_point.push_back(numbers.first_point.back() + inner_nodes(mesh, p));
   return numbers;
 }
 
@@ -54,6 +66,15 @@ simplicial_piece<D> load_checked(const distributed_simplicial_mesh<D>& mesh, loc
       if (v < 0 || v >= points)
         refuse("an element refers to a point that does not exist");
   return piece;
+}
+
+/// The global number of node `i` of a piece.
+template <int D>
+global_id global_node(const piece_nodes<D>& nodes, const global_numbering& numbers, local_id piece,
+                      local_id i) {
+  const auto shared = static_cast<local_id>(nodes.shared().size());
+  return i < shared ? nodes.shared()[static_cast<std::size_t>(i)]
+                    : numbers.first_point[static_cast<std::size_t>(piece)] + (i - shared);
 }
 
 /// The global number of point `i` of a piece.

@@ -54,8 +54,9 @@ inline std::size_t msh_node_count(int type) {
     return 3;
   case msh_type::tetrahedron:
     return 4;
+  default:
+    return 0;
   }
-  return 0;
 }
 
 /// Finds nodes by their numbers in the file, which may be any.

@@ -7,6 +7,8 @@
 #include "dovetail/core/vector.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -58,7 +60,24 @@ private:
 };
 
 /// Gmsh's numbers of element types.
-enum class msh_type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
+enum class msh_type {
+  line = 1,
+  triangle = 2,
+  tetrahedron = 4,
+  quadratic_line = 8,
+  quadratic_triangle = 9,
+  quadratic_tetrahedron = 11,
+  point = 15
+};
+
+/// The type of simplices of a dimension from 0 to 3.
+inline int msh_type_of(int dimension, bool quadratic) {
+  constexpr std::array<msh_type, 4> linear{msh_type::point, msh_type::line, msh_type::triangle,
+                                           msh_type::tetrahedron};
+  constexpr std::array<msh_type, 4> second{msh_type::point, msh_type::quadratic_line,
+                                           msh_type::quadratic_triangle, msh_type::quadratic_tetrahedron};
+  return static_cast<int>((quadratic ? second : linear)[static_cast<std::size_t>(dimension)]);
+}
 
 /// A physical group: what Gmsh calls a named set of entities of one dimension.
 struct physical_name {

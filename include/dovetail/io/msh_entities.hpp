@@ -22,7 +22,7 @@ struct msh_entities {
   skeleton_entities entities;
   std::array<std::vector<local_id>, 4> tags; ///< per dimension and entity: its number in the file
   std::array<std::vector<box3>, 4> boxes;    ///< per dimension and entity
-  std::array<std::vector<std::vector<local_id>>, 4> points;    ///< skeleton points per dimension and entity
+  std::array<std::vector<std::vector<local_id>>, 4> points; ///< the skeleton's nodes per dimension and entity
   std::array<std::vector<std::vector<local_id>>, 3> simplices; ///< of dimension 1: edges, 2: triangles
 };
 
@@ -71,6 +71,31 @@ inline void collect_members(msh_entities& out, const std::vector<vec3>& points) 
       out.boxes[3][i].include(box.lower);
       out.boxes[3][i].include(box.upper);
     }
+}
+
+/// Files the middles of the skeleton's edges, where there are any, under the entities that the edges are in:
+/// a line, else a face, else the inside; `inside_of(subdomain)` is that of a subdomain, of dimension D.
+template <int D, class Function>
+void file_middles(msh_entities& out, const distributed_simplicial_mesh<D>& mesh, Function inside_of) {
+  if (!mesh.mid_nodes)
+    return;
+  const auto& skeleton = mesh.skeleton;
+  std::vector<host> of_edge(mesh.mid_nodes->edges.size(), host{D + 1, no_id});
+  const auto lower = [&](const simplex<1>& edge, host entity) {
+    auto& filed = of_edge[static_cast<std::size_t>(find_edge(mesh.mid_nodes->edges, edge))];
+    filed = std::min(filed, entity);
+  };
+  for (const auto& edge : out.entities.edges)
+    lower(edge.vertices, {1, edge.line});
+  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
+    const local_id face = D == 3 ? out.entities.of_triangle[t] : no_id;
+    const host entity = face != no_id ? host{2, face} : host{D, inside_of(skeleton.subdomains[t][0])};
+    for (const auto& local : numbering::edges<D - 1>)
+      lower(vertices_of_edge(skeleton.sides[t], local), entity);
+  }
+  for (std::size_t e = 0; e < of_edge.size(); ++e)
+    out.points[static_cast<std::size_t>(of_edge[e].dimension)][static_cast<std::size_t>(of_edge[e].id)]
+        .push_back(static_cast<local_id>(skeleton.points.size() + e));
 }
 
 /// The entities of the CAD model, numbered by their index in the model.

@@ -21,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,15 +33,15 @@ inline std::uint64_t msh_tag(global_id id) {
   return static_cast<std::uint64_t>(id) + 1;
 }
 
-template <std::size_t N>
-void write_element(msh_encoder& out, std::uint64_t tag, const std::array<global_id, N>& vertices) {
+/// Nodes come in VTK's order.
+inline void write_element(msh_encoder& out, std::uint64_t tag, std::span<const global_id> nodes) {
   out.count(tag);
-  for (const auto v : vertices)
-    out.count(msh_tag(v));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    out.count(msh_tag(nodes[nodes.size() == quadratic_nodes<3> ? numbering::gmsh_nodes<3>[k] : k]));
   out.line();
 }
 
-/// What is in the file of a piece, one behind the other: elements, ghosts, coordinates of the inner points.
+/// What is in the file of a piece, one behind the other: elements, ghosts, coordinates of the inner nodes.
 struct msh_piece_table {
   struct block {
     global_id face; ///< in D = 2 the CAD face that the elements are on
@@ -68,18 +69,20 @@ struct msh_encoding {
 template <int D>
 class msh_piece_file {
 public:
-  msh_piece_file(const std::filesystem::path& path, std::shared_ptr<const msh_encoding> how)
-      : how_(std::move(how)), file_(path), out_(file_, how_->binary) {}
+  msh_piece_file(const std::filesystem::path& path, const distributed_simplicial_mesh<D>& mesh,
+                 std::shared_ptr<const msh_encoding> how)
+      : mesh_(mesh), how_(std::move(how)), file_(path), out_(file_, how_->binary) {}
 
   /// Once.
   void add(const simplicial_piece<D>& piece) {
-    write_elements(piece);
+    const piece_nodes<D> nodes(mesh_, piece);
+    write_elements(piece, nodes);
     const auto before_ghosts = file_.size();
     if (how_->sharers)
       write_ghosts(piece);
     const auto before_points = file_.size();
-    for (auto i = piece.skeleton_points.size(); i < piece.mesh.points.size(); ++i) {
-      out_.point(piece.mesh.points[i]);
+    for (const vec3 p : nodes.own()) {
+      out_.point(p);
       out_.line();
     }
     table_.ghost_bytes = before_points - before_ghosts;
@@ -99,18 +102,18 @@ public:
   }
 
 private:
-  void write_elements(const simplicial_piece<D>& piece) {
+  void write_elements(const simplicial_piece<D>& piece, const piece_nodes<D>& nodes) {
     std::map<local_id, std::vector<std::size_t>> of_face;
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
       of_face[D == 2 ? piece.mesh.tags[e] : 0].push_back(e);
     const global_id first = how_->numbers.first_element[static_cast<std::size_t>(piece.subdomain)];
+    std::vector<global_id> numbers(nodes.per_element());
     for (const auto& [face, elements] : of_face) {
       const auto before = file_.size();
       for (const std::size_t e : elements) {
-        std::array<global_id, D + 1> vertices;
-        for (std::size_t k = 0; k <= D; ++k)
-          vertices[k] = global_point(piece, how_->numbers, piece.mesh.elements[e][k]);
-        write_element(out_, msh_tag(first + static_cast<global_id>(e)), vertices);
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          numbers[k] = global_node(nodes, how_->numbers, piece.subdomain, nodes.of_element(e)[k]);
+        write_element(out_, msh_tag(first + static_cast<global_id>(e)), span_of(numbers));
       }
       table_.blocks.push_back({face, static_cast<global_id>(elements.size()), file_.size() - before});
     }
@@ -140,6 +143,7 @@ private:
     }
   }
 
+  const distributed_simplicial_mesh<D>& mesh_;
   std::shared_ptr<const msh_encoding> how_;
   output_file file_;
   msh_encoder out_;

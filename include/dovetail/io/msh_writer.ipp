@@ -71,6 +71,8 @@ inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_nu
   document.cad = number_cad_entities(mesh, sharers, document.materials.size());
   if (partitioned)
     document.parts = number_partition_entities(mesh, sharers, document.cad);
+  file_middles(partitioned ? document.parts : document.cad, mesh,
+               [&](local_id s) { return partitioned ? s : material_of(mesh, s); });
   if (partitions == msh_partitions::with_ghosts)
     for (std::size_t s = 0; s < mesh.counts.size(); ++s)
       document.ghost_tags.push_back(document.parts.tags[3].back() + 1 + static_cast<local_id>(s));
@@ -100,6 +102,7 @@ inline msh_document<2> prepare_msh(const distributed_simplicial_mesh<2>& mesh,
                            {},
                            number_cad_entities(mesh, faces),
                            {}};
+  file_middles(document.cad, mesh, [](local_id) { return 0; });
   for (std::size_t p = 0; p < pieces.size(); ++p)
     for (const auto& block : pieces[p].blocks)
       document.blocks.push_back({static_cast<std::size_t>(std::distance(
@@ -128,7 +131,7 @@ inline void write_block_head(msh_encoder& out, int dimension, local_id entity, i
   out.line();
 }
 
-/// The nodes of one entity: skeleton points, then the inner points of subdomains. MSH lists a block's tags
+/// The nodes of one entity: the skeleton's, then the inner ones of subdomains. MSH lists a block's tags
 /// before its coordinates; the tags follow from the counts.
 template <int D>
 void write_node_block(output_file& file, msh_encoder& out, const msh_document<D>& document,
@@ -140,7 +143,7 @@ void write_node_block(output_file& file, msh_encoder& out, const msh_document<D>
   const auto& shared = filing.points[d][entity];
   auto count = static_cast<global_id>(shared.size());
   for (const auto s : subdomains)
-    count += mesh.counts[static_cast<std::size_t>(s)].inner_points;
+    count += inner_nodes(mesh, static_cast<std::size_t>(s));
   if (count == 0)
     return;
   write_block_head(out, dimension, filing.tags[d][entity], 0, count);
@@ -155,7 +158,7 @@ void write_node_block(output_file& file, msh_encoder& out, const msh_document<D>
          id < document.numbers.first_point[static_cast<std::size_t>(s) + 1]; ++id)
       node_tag(id);
   for (const auto v : shared) {
-    out.point(mesh.skeleton.points[static_cast<std::size_t>(v)]);
+    out.point(skeleton_node(mesh, v));
     out.line();
   }
   for (const auto s : subdomains)
@@ -170,7 +173,7 @@ void write_nodes(output_file& file, msh_encoder& out, const msh_document<D>& doc
   const auto inner = [&](std::size_t entity) {
     global_id count = 0;
     for (const auto s : subdomains[entity])
-      count += document.mesh.counts[static_cast<std::size_t>(s)].inner_points;
+      count += inner_nodes(document.mesh, static_cast<std::size_t>(s));
     return count;
   };
   std::uint64_t blocks = 0;
@@ -195,35 +198,45 @@ void write_nodes(output_file& file, msh_encoder& out, const msh_document<D>& doc
   out.end("Nodes");
 }
 
+/// The nodes of a line or triangle of the skeleton.
+template <int D, std::size_t N>
+std::vector<global_id> nodes_of(const msh_document<D>& document, const std::array<local_id, N>& vertices) {
+  std::vector<global_id> nodes(vertices.begin(), vertices.end());
+  const auto& middles = document.mesh.mid_nodes;
+  if (middles)
+    for (const auto& local : numbering::edges<static_cast<int>(N) - 1>)
+      nodes.push_back(static_cast<global_id>(document.mesh.skeleton.points.size()) +
+                      find_edge(middles->edges, vertices_of_edge(vertices, local)));
+  return nodes;
+}
+
 /// One point element per vertex, then the line and triangle elements of the entities. Returns the next tag.
 template <int D>
 std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document<D>& document, std::uint64_t tag) {
   const auto& filing = document.filing();
+  const bool quadratic = document.mesh.mid_nodes != nullptr;
   for (std::size_t i = 0; i < filing.tags[0].size(); ++i) {
-    write_block_head(out, 0, filing.tags[0][i], static_cast<int>(msh_type::point), 1);
-    write_element<1>(out, tag++, {filing.points[0][i].front()});
+    write_block_head(out, 0, filing.tags[0][i], msh_type_of(0, quadratic), 1);
+    write_element(out, tag++, std::array{global_id{filing.points[0][i].front()}});
   }
   for (std::size_t i = 0; i < filing.tags[1].size(); ++i) {
     const auto& edges = filing.simplices[1][i];
     if (edges.empty())
       continue;
-    write_block_head(out, 1, filing.tags[1][i], static_cast<int>(msh_type::line),
+    write_block_head(out, 1, filing.tags[1][i], msh_type_of(1, quadratic),
                      static_cast<global_id>(edges.size()));
-    for (const auto e : edges) {
-      const auto& v = filing.entities.edges[static_cast<std::size_t>(e)].vertices;
-      write_element<2>(out, tag++, {v[0], v[1]});
-    }
+    for (const auto e : edges)
+      write_element(out, tag++,
+                    nodes_of(document, filing.entities.edges[static_cast<std::size_t>(e)].vertices));
   }
   for (std::size_t i = 0; D == 3 && i < filing.tags[2].size(); ++i) {
     const auto& triangles = filing.simplices[2][i];
     if (triangles.empty())
       continue;
-    write_block_head(out, 2, filing.tags[2][i], static_cast<int>(msh_type::triangle),
+    write_block_head(out, 2, filing.tags[2][i], msh_type_of(2, quadratic),
                      static_cast<global_id>(triangles.size()));
-    for (const auto t : triangles) {
-      const auto& v = filing.entities.triangles[static_cast<std::size_t>(t)];
-      write_element<3>(out, tag++, {v[0], v[1], v[2]});
-    }
+    for (const auto t : triangles)
+      write_element(out, tag++, nodes_of(document, filing.entities.triangles[static_cast<std::size_t>(t)]));
   }
   return tag;
 }
@@ -248,8 +261,8 @@ void write_elements(output_file& file, msh_encoder& out, const msh_document<D>& 
   // Elements of dimension D carry their global numbers; the others are numbered after them.
   write_skeleton_elements(out, document, msh_tag(document.numbers.elements()));
   for (const element_block& block : document.blocks) {
-    write_block_head(out, D, filing.tags[D][block.entity],
-                     static_cast<int>(D == 2 ? msh_type::triangle : msh_type::tetrahedron), block.elements);
+    write_block_head(out, D, filing.tags[D][block.entity], msh_type_of(D, document.mesh.mid_nodes != nullptr),
+                     block.elements);
     for (const local_id s : block.pieces)
       pieces.copy_next_block(file, s);
   }
@@ -294,7 +307,7 @@ piecewise_output<D> begin_msh(const distributed_simplicial_mesh<D>& mesh,
                               msh_partitions partitions) {
   sides_by_subdomain<D>{mesh}; // checks the skeleton's references; everything after indexes freely
   auto encoding = std::make_shared<msh_encoding>();
-  encoding->numbers = number_globally(mesh);
+  encoding->numbers = number_nodes(mesh);
   encoding->binary = as.binary;
   if constexpr (D == 3)
     if (partitions == msh_partitions::with_ghosts)
@@ -309,8 +322,8 @@ piecewise_output<D> begin_msh(const distributed_simplicial_mesh<D>& mesh,
     output.names.push_back(as.stem + "_" + std::to_string(p) + ".msh_piece");
     paths.push_back(unfinished / output.names.back());
   }
-  output.open = [paths, shared](std::size_t f) {
-    const auto file = std::make_shared<msh_piece_file<D>>(paths[f], shared);
+  output.open = [&mesh, paths, shared](std::size_t f) {
+    const auto file = std::make_shared<msh_piece_file<D>>(paths[f], mesh, shared);
     return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
                          [file] { return file->close(); }};
   };

@@ -24,20 +24,19 @@ namespace dovetail::io {
 
 namespace detail {
 
-/// The VTU file of a range of subdomains. Its points are the skeleton points its subdomains touch, ascending,
-/// then the inner points of each subdomain. What follows from counts and skeleton is written at once; each
-/// piece then adds its points and its elements.
+/// The VTU file of a range of subdomains. Its points are the skeleton's nodes its subdomains touch,
+/// ascending, then the inner nodes of each subdomain. What follows from counts and skeleton is written at
+/// once; each piece then adds its points and its elements.
 template <int D>
 class vtu_file {
 public:
   vtu_file(const std::filesystem::path& path, const distributed_simplicial_mesh<D>& mesh,
            const global_numbering& numbers, const sides_by_subdomain<D>& sides, const std::string& field_data,
            local_id first, local_id last)
-      : mesh_(mesh), next_(first), last_(last), file_(path) {
+      : mesh_(mesh), corners_(nodes_per_element(mesh)), next_(first), last_(last), file_(path) {
     for (auto s = first; s < last; ++s)
       for (const auto t : sides[s])
-        for (const auto v : mesh.skeleton.sides[static_cast<std::size_t>(t)])
-          shared_.push_back(v);
+        share_nodes(mesh.skeleton.sides[static_cast<std::size_t>(t)]);
     sort_unique(shared_);
     const auto from = static_cast<std::size_t>(first);
     const auto to = static_cast<std::size_t>(last);
@@ -58,19 +57,16 @@ public:
     if (piece.subdomain != next_ || next_ == last_)
       throw mesh_error("subdomain " + std::to_string(piece.subdomain) + " is not the next of its VTU file");
     ++next_;
-    const auto places = places_of(piece);
-    const auto own = span_of(piece.mesh.points).subspan(piece.skeleton_points.size());
+    const piece_nodes<D> nodes(mesh_, piece);
+    const auto places = places_of(nodes, piece.subdomain);
     file_.seek(points_at_);
-    file_.array(own);
-    points_at_ += own.size_bytes();
+    file_.array(nodes.own());
+    points_at_ += nodes.own().size_bytes();
     file_.seek(connectivity_at_);
-    for (const auto& element : piece.mesh.elements) {
-      simplex<D> placed;
-      for (std::size_t k = 0; k < placed.size(); ++k)
-        placed[k] = places[static_cast<std::size_t>(element[k])];
-      file_.value(placed);
-    }
-    connectivity_at_ += piece.mesh.elements.size() * sizeof(simplex<D>);
+    for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
+      for (const local_id v : nodes.of_element(e))
+        file_.value(places[static_cast<std::size_t>(v)]);
+    connectivity_at_ += piece.mesh.elements.size() * corners_ * sizeof(local_id);
     if constexpr (D == 2) {
       file_.seek(tags_at_);
       file_.array(span_of(piece.mesh.tags));
@@ -84,7 +80,22 @@ public:
   }
 
 private:
-  static constexpr std::uint64_t corners = D + 1;
+  void share_nodes(const simplex<D - 1>& side) {
+    for (const auto v : side)
+      shared_.push_back(v);
+    if (!mesh_.mid_nodes)
+      return;
+    const auto first = static_cast<local_id>(mesh_.skeleton.points.size());
+    for (const auto& local : numbering::edges<D - 1>)
+      shared_.push_back(first + find_edge(mesh_.mid_nodes->edges, vertices_of_edge(side, local)));
+  }
+
+  /// VTK's number of the elements' type.
+  std::uint8_t cell_type() const {
+    if (mesh_.mid_nodes)
+      return D == 3 ? 24 : 22;
+    return D == 3 ? 10 : 5;
+  }
 
   void write_head(const std::string& field_data) {
     appended_layout layout(file_);
@@ -96,7 +107,7 @@ private:
     file_.text("</Points>\n<PointData GlobalIds=\"GlobalNodeIds\">\n");
     ids_at_ = layout.array<global_id>("GlobalNodeIds", points_);
     file_.text("</PointData>\n<Cells>\n");
-    connectivity_at_ = layout.array<local_id>("connectivity", corners * elements_);
+    connectivity_at_ = layout.array<local_id>("connectivity", corners_ * elements_);
     if (wide())
       offsets_at_ = layout.array<std::int64_t>("offsets", elements_);
     else
@@ -115,7 +126,7 @@ private:
   void write_point_arrays(global_id first_id, std::uint64_t inner) {
     file_.value<std::uint64_t>(points_ * sizeof(vec3));
     for (const auto v : shared_)
-      file_.value(mesh_.skeleton.points[static_cast<std::size_t>(v)]);
+      file_.value(skeleton_node(mesh_, v));
     points_at_ += shared_.size() * sizeof(vec3);
     file_.seek(ids_at_ - sizeof(std::uint64_t));
     file_.value<std::uint64_t>(points_ * sizeof(global_id));
@@ -127,15 +138,15 @@ private:
 
   /// All cell arrays but the connectivity, and in D = 2 the tags.
   void write_cell_arrays(local_id first) {
-    file_.value<std::uint64_t>(elements_ * sizeof(simplex<D>));
+    file_.value<std::uint64_t>(elements_ * corners_ * sizeof(local_id));
     file_.seek(offsets_at_ - sizeof(std::uint64_t));
     if (wide())
       append_computed<std::int64_t>(file_, elements_,
-                                    [](auto i) { return static_cast<std::int64_t>(corners * (i + 1)); });
+                                    [this](auto i) { return static_cast<std::int64_t>(corners_ * (i + 1)); });
     else
       append_computed<std::int32_t>(file_, elements_,
-                                    [](auto i) { return static_cast<std::int32_t>(corners * (i + 1)); });
-    append_computed<std::uint8_t>(file_, elements_, [](auto) { return std::uint8_t{D == 3 ? 10 : 5}; });
+                                    [this](auto i) { return static_cast<std::int32_t>(corners_ * (i + 1)); });
+    append_computed<std::uint8_t>(file_, elements_, [this](auto) { return cell_type(); });
     append_per_subdomain(first, [](local_id s) { return s; });
     if constexpr (D == 3) {
       append_per_subdomain(first,
@@ -158,32 +169,33 @@ private:
     }
   }
 
-  /// Of each point of a piece: its number in the file.
-  std::vector<local_id> places_of(const simplicial_piece<D>& piece) {
+  /// Of each node of a piece: its number in the file.
+  std::vector<local_id> places_of(const piece_nodes<D>& nodes, local_id subdomain) {
     std::vector<local_id> places;
-    places.reserve(piece.mesh.points.size());
-    for (const auto v : piece.skeleton_points) {
+    places.reserve(nodes.shared().size() + nodes.own().size());
+    for (const auto v : nodes.shared()) {
       const auto at = std::lower_bound(shared_.begin(), shared_.end(), v);
       if (at == shared_.end() || *at != v)
-        throw mesh_error("subdomain " + std::to_string(piece.subdomain) + " has skeleton point " +
+        throw mesh_error("subdomain " + std::to_string(subdomain) + " has skeleton point " +
                          std::to_string(v) + ", which is on none of its skeleton sides");
       places.push_back(static_cast<local_id>(at - shared_.begin()));
     }
-    while (places.size() < piece.mesh.points.size())
+    for (std::size_t i = 0; i < nodes.own().size(); ++i)
       places.push_back(inner_++);
     return places;
   }
 
   /// Whether offsets need 64 bits.
   bool wide() const {
-    return elements_ * corners > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
+    return elements_ * corners_ > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
   }
 
   const distributed_simplicial_mesh<D>& mesh_;
+  const std::uint64_t corners_; ///< nodes per element
   local_id next_;
   local_id last_; ///< one past the last subdomain
   output_file file_;
-  std::vector<local_id> shared_; ///< skeleton points, ascending
+  std::vector<local_id> shared_; ///< the skeleton's nodes, ascending
   std::uint64_t points_ = 0;
   std::uint64_t elements_ = 0;
   local_id inner_ = 0;          ///< number of the next inner point
@@ -245,7 +257,7 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     std::string field_data;
   };
   const auto shared =
-      std::make_shared<const tables>(tables{number_globally(mesh), sides_by_subdomain<D>(mesh),
+      std::make_shared<const tables>(tables{number_nodes(mesh), sides_by_subdomain<D>(mesh),
                                             vtk_field_data({{"region_names", names_of_tags(mesh)}})});
   const auto subdomains = static_cast<local_id>(mesh.counts.size());
   const auto count = files <= 0 ? subdomains : std::min<local_id>(files, subdomains);

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,6 +91,9 @@ struct piece_note {
   byte_buffer text;        ///< for whoever gave the piece up
 };
 
+template <int D>
+struct mid_edge_nodes;
+
 /// A whole mesh without holding it: what writers, checks and statistics stream over.
 template <int D>
 struct distributed_simplicial_mesh {
@@ -102,6 +106,9 @@ struct distributed_simplicial_mesh {
   std::function<void(local_id, const piece_note&)> release = {};
   /// The note of a piece that was given up and is in its files; may be empty.
   std::function<std::optional<piece_note>(local_id)> released = {};
+
+  /// Where there are any (`add_mid_nodes`), writers write second-order elements.
+  std::shared_ptr<const mid_edge_nodes<D>> mid_nodes = {};
 
   std::vector<std::string> material_names; ///< per material
   std::vector<std::string> face_names;     ///< per CAD face; may be empty strings
