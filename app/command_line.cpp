@@ -97,6 +97,10 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--redistribute", options.redistribute,
                      "How the pieces come to ranks: " + joined(redistributor_names()));
   command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");
+  command
+      .add_option("--order", options.order,
+                  "Order of the elements: 1, or 2 with nodes in the middle of edges, on the CAD model")
+      ->check(CLI::IsMember({1, 2}));
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
   command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");

@@ -13,6 +13,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/io/finishing_pass.hpp"
+#include "dovetail/io/second_order.hpp"
 
 #include <algorithm>
 #include <array>
@@ -223,12 +224,14 @@ private:
   }
 
   void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
-    const generated<D> result = generate(source, folder);
+    generated<D> result = generate(source, folder);
     describe(source, result);
     if (!result.failures.empty()) {
       finish();
       throw mesher_error(text_of_failures(result.failures));
     }
+    if (options_.order == 2)
+      add_middles(result.mesh, source);
     write(result.mesh, folder, finished);
     finish();
     if (leads_ && !formats_.empty())
@@ -275,6 +278,14 @@ private:
     figures_.details.children = {source.summary, result.summary};
     figures_.repeatable = stops_by_clock(result.summary) == 0;
     collect_warnings(figures_.details, figures_.warnings);
+  }
+
+  void add_middles(distributed_simplicial_mesh<D>& mesh, const model_source& source) {
+    const report found =
+        io::add_mid_nodes(mesh, source.geometry, policies_.executor,
+                          {.store = parameters_.store, .on_progress = parameters_.on_progress});
+    collect_warnings(found, figures_.warnings);
+    figures_.details.children.push_back(found);
   }
 
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder,

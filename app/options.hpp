@@ -39,6 +39,7 @@ struct mesh_options {
   int files = 0;            ///< number of VTU files; 0: one per subdomain
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
+  int order = 1; ///< of the elements in the files: 1 or 2
   bool resume = false;
   bool force = false;
   bool quiet = false;

@@ -29,9 +29,10 @@ std::vector<any_redistributor<D>> redistributors() {
 /// All of them: a new format is one more line.
 template <int D>
 std::vector<output_format<D>> known_formats(const mesh_options& options) {
-  constexpr double msh_bytes = D == 3 ? 48 : 45;
+  const double msh_bytes = options.order == 2 ? (D == 3 ? 140 : 130) : D == 3 ? 48 : 45;
+  const double vtu_bytes = options.order == 2 ? 110 : D == 3 ? 50 : 45;
   std::vector<output_format<D>> known;
-  known.push_back({"vtu", D == 3 ? 50.0 : 45.0, io::vtu_writer{.files = options.files}});
+  known.push_back({"vtu", vtu_bytes, io::vtu_writer{.files = options.files}});
   known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
@@ -71,6 +72,8 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   if (options.subdomains && *options.subdomains < *options.ranks)
     throw command_line_error(given + " are more than the " + std::to_string(*options.subdomains) +
                              " subdomains; a rank has one at least");
+  if (options.order == 2)
+    throw command_line_error("--ranks: files by ranks have no second-order elements; leave --order out");
   if (!by_ranks)
     throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)));
 }

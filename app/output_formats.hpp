@@ -17,7 +17,7 @@ namespace dovetail::app {
 template <int D>
 struct output_format {
   std::string name;
-  double bytes_per_element; ///< about, with its share of points
+  double bytes_per_element; ///< about, with its share of nodes
   io::any_piecewise_writer<D> writer;
   bool by_ranks = false; ///< has files of its own for each rank of a solver
 };

@@ -91,6 +91,7 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
   identity.emplace_back("dimension", std::to_string(options.dimension));
+  identity.emplace_back("order", std::to_string(options.order));
   identity.emplace_back("mesher", options.dimension == 3 ? make_mesher<3>(options.mesher).name()
                                                          : make_mesher<2>(options.mesher).name());
   identity.emplace_back("background mesher", make_background_mesher(options.background_mesher).name());
