@@ -161,15 +161,16 @@ public:
       };
     const content_key key = key_of_result();
     entity_store store(options_.store, "middles");
-    if (const auto kept = options_.store ? store.find(key) : std::nullopt) {
-      take(*kept, summary);
+    const auto find_kept = [&] { return store.find(key).value_or(byte_buffer{}); };
+    if (const auto kept = options_.store ? run_.once(find_kept) : byte_buffer{}; !kept.empty()) {
+      take(kept, summary);
       return nodes_;
     }
     find_hosts();
     curve();
     check();
     summarize(summary);
-    if (options_.store)
+    if (options_.store && run_.leads())
       store.keep(key, bytes_of_result(summary));
     return nodes_;
   }
