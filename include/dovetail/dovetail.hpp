@@ -36,7 +36,10 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/subdomain_surface.hpp"
+#include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/self.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 

@@ -13,6 +13,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/mesher/preferences.hpp"
+#include "dovetail/parallel/communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
@@ -22,8 +23,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -271,6 +274,22 @@ struct executor : copyable_only {
   }
   short workers() const { return 1; }
   bool shares_process() const { return true; }
+};
+// end
+
+// for communicator
+struct communicator {
+  communicator(const communicator&) = delete;
+  communicator(communicator&&) = default;
+  communicator& operator=(communicator&&) = default;
+  int rank() { return 0; }
+  int size() { return 1; }
+  void send(int, std::int32_t, byte_buffer&&) {}
+  std::optional<rank_message> receive() { return std::nullopt; }
+  void wait(std::chrono::milliseconds) {}
+  int descriptor() { return -1; }
+  short shares_process() { return 0; }
+  bool abandon(const std::string&) { return true; }
 };
 // end
 

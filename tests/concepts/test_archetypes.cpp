@@ -11,6 +11,7 @@
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
@@ -47,6 +48,8 @@ static_assert(surface_mesher<archetype::surface_mesher_as<remesh::patch_remesher
 static_assert(improver<archetype::improver, 3>);
 static_assert(!improver<archetype::improver, 2>, "it improves tetrahedra");
 static_assert(executor<archetype::executor>);
+static_assert(communicator<archetype::communicator>);
+static_assert(std::constructible_from<any_communicator, archetype::communicator>);
 static_assert(surface_improver<archetype::surface_improver> && !improver<archetype::surface_improver, 3>);
 static_assert(!surface_improver<archetype::improver>);
 static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);

@@ -38,6 +38,8 @@ struct rank_message {
 /// leaves the processor to others. A message has any size. Each rank uses its own communicator, from one
 /// thread.
 ///
+/// Complexity: `send` and `receive` cost a copy or two of the bytes; neither waits for another rank.
+///
 /// Failure: once a rank has abandoned the run or has died, `send`, `receive` and `wait` of the others throw
 /// `communication_error` with the reason, at the latest when they next wait for something that will not come.
 ///

@@ -1,0 +1,53 @@
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "ranked_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dovetail;
+using namespace dovetail::testing;
+
+namespace {
+
+plane_domain square_with_hole() {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"},
+                      {{{0.3, 0.3}, {0.5, 0.3}, {0.5, 0.6}, {0.3, 0.6}}, "hole"}};
+  return plane_domain(drawing);
+}
+
+ranked_mesh mesh_square(const any_executor& run, const std::filesystem::path& folder,
+                        const generate_options& options = {}) {
+  return mesh_on<2>(run, square_with_hole(), 0.03, mesher::native_surface{}, options, folder);
+}
+
+} // namespace
+
+TEST_CASE("ranks make the mesh and the files that one process makes, whatever their number") {
+  const scratch_folder folder("ranks");
+  const ranked_mesh alone = mesh_square(parallel::serial{}, folder / "alone");
+  REQUIRE(alone.files.size() > 4);
+  for (const int count : {1, 2, 3, 4, 7}) {
+    CAPTURE(count);
+    const auto into = folder / std::to_string(count);
+    parallel::run_ranks(
+        count, [&](parallel::in_process& mine) { CHECK(mesh_square(parallel::ranks(mine), into) == alone); });
+  }
+}
+
+TEST_CASE("an error of one rank ends the run on all") {
+  const scratch_folder folder("ranks");
+  const auto mesh = [&](parallel::in_process& mine) {
+    generate_options options;
+    if (mine.rank() == 1)
+      options.on_progress.update = [](std::string_view stage, std::size_t, std::size_t) {
+        if (stage == "meshing")
+          throw io_error("disk of rank 1");
+      };
+    mesh_square(parallel::ranks(mine), folder, options);
+  };
+  CHECK_THROWS_WITH_AS(parallel::run_ranks(3, mesh), "disk of rank 1", io_error);
+}
