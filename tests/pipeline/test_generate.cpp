@@ -248,6 +248,35 @@ TEST_CASE("sizes that make no sense are refused") {
   CHECK_THROWS_AS(mesh_shape(drilled_block(), 50, in_parts(2)), sizing_error);
 }
 
+TEST_CASE("sizes that predict more elements than wanted are enlarged: in the plan, in the mesh, in a run "
+          "that goes on") {
+  const testing::scratch_folder folder("enlarged");
+  const auto model = occt_shape_from(drilled_block()).model;
+  auto options = in_parts(2);
+  options.enlarged_above = 5000;
+  const auto policies = parameters<>{}.with_mesher(mesher::tetgen{});
+  const auto plan = plan_background<3>(model, uniform_size(0.02), policies.with_options(options));
+  CHECK(plan.predicted_elements == doctest::Approx(5000));
+  CHECK(plan.size_scale > 5);
+  options.store = spool::start(folder, {});
+  const auto made = make_background<3>(model, uniform_size(0.02), policies.with_options(options));
+  options.store = spool::resume(folder, {});
+  const auto kept = make_background<3>(model, uniform_size(0.02), policies.with_options(options));
+  CHECK(kept.summary.get("kept") == 1);
+  for (const auto& background : {made, kept}) {
+    CHECK(background.size({1, 1, 0.5}) == doctest::Approx(0.02 * plan.size_scale));
+    REQUIRE(background.summary.warnings.size() == 1);
+    CHECK(background.summary.warnings[0].find("enlarged by a factor of ") != std::string::npos);
+  }
+  const auto result = generate_from_background<3>(model, kept, policies.with_options(options));
+  require_valid(result);
+  CHECK(static_cast<double>(result.quality.elements) == doctest::Approx(5000).epsilon(0.3));
+
+  options.store.reset();
+  options.enlarged_above = 1e7;
+  CHECK(plan_background<3>(model, uniform_size(0.02), policies.with_options(options)).size_scale == 1);
+}
+
 TEST_CASE("the simplification is by the rule chosen; by none a mesh is made too, for comparison") {
   const auto removed_sides = [](const auto& rule) {
     const auto result = generate<3>(

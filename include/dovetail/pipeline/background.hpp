@@ -8,6 +8,7 @@
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
+#include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
 #include <cmath>
@@ -37,7 +38,13 @@ struct mesh_plan {
   double relative_error = 0; ///< of the integral, estimated
   int subdomains = 1;
   double coarse_scale = 1; ///< factor between coarse and final size
+  double size_scale = 1;   ///< factor between final size and that given (`generate_options::enlarged_above`)
 };
+
+/// The field given as the plan has it.
+inline erased_sizing enlarged(const erased_sizing& size, const mesh_plan& plan) {
+  return plan.size_scale == 1 ? size : erased_sizing(scaled(size, plan.size_scale));
+}
 
 /// The triangles with a solid on one side only, oriented outwards: they enclose all solids together.
 simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_topology& topology);
@@ -75,7 +82,7 @@ struct background_result {
   simplicial_background<D> mesh;
   mesh_plan plan;
   std::vector<size_ball> bounds; ///< where the surface asks for smaller sizes (D = 2)
-  any_sizing size;               ///< the field given, within these bounds
+  any_sizing size;               ///< the field given, times the plan's factor, within these bounds
   report summary;
 };
 

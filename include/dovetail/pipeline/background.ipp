@@ -188,12 +188,19 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
   const auto first = surface_without_crossings(
       model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, given.mesh_surface,
       options.refinement_rounds, options.on_progress);
-  const mesh_plan plan =
-      plan_mesh<D>(predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
-                                   given.mesh_it.elements_per_inverse_cubed_size()),
-                   options.elements_per_subdomain > 0 ? options.elements_per_subdomain
-                                                      : given.mesh_it.elements_per_subdomain(),
-                   options);
+  element_prediction predicted =
+      predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
+                      given.mesh_it.elements_per_inverse_cubed_size());
+  double size_scale = 1;
+  if (options.enlarged_above > 0 && predicted.elements > options.enlarged_above) {
+    size_scale = std::pow(predicted.elements / options.enlarged_above, 1.0 / D);
+    predicted.elements = options.enlarged_above;
+  }
+  mesh_plan plan = plan_mesh<D>(predicted,
+                                options.elements_per_subdomain > 0 ? options.elements_per_subdomain
+                                                                   : given.mesh_it.elements_per_subdomain(),
+                                options);
+  plan.size_scale = size_scale;
   require_room(plan, options);
   return plan;
 }
@@ -222,10 +229,17 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   background_result<D> result;
   result.summary.name = "background";
   result.plan = detail::plan_of_usable<D>(model, size, given);
-  make(result, coarse_size(size, result.plan.coarse_scale, model.bounds()), given);
-  result.size = allowed_size<D>(size, result.bounds);
+  const erased_sizing planned = enlarged(size, result.plan);
+  result.size = planned;
+  make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds()), given);
+  result.size = allowed_size<D>(planned, result.bounds);
+  if (result.plan.size_scale != 1)
+    result.summary.warnings.push_back("the sizes were enlarged by a factor of " +
+                                      number_text(result.plan.size_scale, 3) + ", for about " +
+                                      number_text(result.plan.predicted_elements, 3) + " elements");
   result.summary.set("predicted_elements", result.plan.predicted_elements);
   result.summary.set("coarse_scale", result.plan.coarse_scale);
+  result.summary.set("size_scale", result.plan.size_scale);
   result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
   result.summary.set("stops_by_clock", watch.stops());
   result.summary.seconds = clock.seconds();

@@ -33,7 +33,7 @@ background_result<D> decode_background_result(const byte_buffer& bytes, const er
   background.mesh = decode_background<D>(from);
   background.plan = from.value<mesh_plan>();
   background.bounds = from.array<size_ball>();
-  background.size = allowed_size<D>(size, background.bounds);
+  background.size = allowed_size<D>(enlarged(size, background.plan), background.bounds);
   background.summary = decode_report(from);
   return background;
 }

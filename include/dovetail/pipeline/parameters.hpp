@@ -40,6 +40,8 @@ struct generate_options {
   /// (in D = 3 and D = 2); what keeps such interfaces from being chosen is the simplification's rule.
   double interface_angle_deg = 30;
   double surface_angle_deg = 50;
+  /// Sizes that predict more elements are enlarged, all by one factor, until they predict so many; 0: never.
+  double enlarged_above = 0;
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
   /// More subdomains merged than this, in all rounds, is a failure; 2 of 8, or 1 of fewer, always may be.
   double largest_merged_fraction = 0.05;
