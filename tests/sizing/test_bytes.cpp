@@ -100,6 +100,8 @@ TEST_CASE("An octree made of its splits has the same nodes and leaves; splits of
     CHECK(again.leaf(k) == tree.leaf(k));
     CHECK(again.corner_key(again.leaf(k), 7) == tree.corner_key(tree.leaf(k), 7));
   }
+  for (std::size_t node = 1; node < tree.node_count(); ++node)
+    CHECK(tree.child(again.parent(node), (node - 1) % 8) == node);
   const box3 cube = tree.bounds();
   CHECK_THROWS_AS(octree(cube, {1}), input_error);
   CHECK_THROWS_AS(octree(cube, {0, 0}), input_error);

@@ -82,13 +82,7 @@ public:
     }
   }
   /// The inner nodes in the order in which they were split: with `bounds()` all that makes the octree.
-  std::vector<std::uint32_t> splits() const {
-    std::vector<std::uint32_t> inner(nodes_.size() / 8);
-    for (std::size_t node = 0; node < nodes_.size(); ++node)
-      if (nodes_[node].inner)
-        inner[(nodes_[node].link - 1) / 8] = static_cast<std::uint32_t>(node);
-    return inner;
-  }
+  const std::vector<std::uint32_t>& splits() const { return splits_; }
 
   const box3& bounds() const { return cube_; }
   std::size_t node_count() const { return nodes_.size(); }
@@ -98,6 +92,9 @@ public:
 
   /// Child k of an inner node.
   std::size_t child(std::size_t node, std::size_t k) const { return nodes_[node].link + k; }
+
+  /// Of any node but the first; its number is smaller.
+  std::size_t parent(std::size_t node) const { return splits_[(node - 1) / 8]; }
 
   /// The leaf that contains p, which must lie in `bounds()`.
   std::size_t locate(vec3 p) const {
@@ -133,6 +130,7 @@ public:
     const std::uint32_t half = width_of(parent) / 2;
     const std::uint32_t index = parent.link;
     const auto first = static_cast<std::uint32_t>(nodes_.size());
+    splits_.push_back(static_cast<std::uint32_t>(leaf));
     nodes_[leaf].inner = true;
     nodes_[leaf].link = first;
     for (std::uint32_t k = 0; k < 8; ++k) {
@@ -166,7 +164,7 @@ public:
     }
   }
 
-  /// Visits the leaves below nodes whose boxes satisfy `enter`.
+  /// Visits the leaves below nodes that satisfy `enter`.
   template <class Enter, class Visit>
   void for_each_leaf(Enter&& enter, Visit&& visit) const {
     std::array<std::size_t, 7 * largest_depth + 8> pending;
@@ -174,7 +172,7 @@ public:
     pending[depth++] = 0;
     while (depth > 0) {
       const std::size_t at = pending[--depth];
-      if (!enter(box(at)))
+      if (!enter(at))
         continue;
       if (!nodes_[at].inner)
         visit(at);
@@ -202,6 +200,7 @@ private:
   double unit_; ///< the width of the smallest possible leaf
   std::vector<node_data> nodes_;
   std::vector<std::size_t> leaves_;
+  std::vector<std::uint32_t> splits_;
 };
 
 } // namespace dovetail

@@ -55,7 +55,7 @@ public:
       for (const std::size_t leaf : coarse)
         tree_.split(leaf);
     }
-    forget_origins();
+    finish();
   }
 
   /// The octree and the values at its corners, 4 and about 12 bytes per leaf, for a process that need not
@@ -80,7 +80,7 @@ public:
     if (field.values_.size() != field.points_.size())
       throw input_error("a gradation has " + std::to_string(field.values_.size()) + " values at " +
                         std::to_string(field.points_.size()) + " corners; its data are damaged");
-    field.forget_origins();
+    field.finish();
     return field;
   }
 
@@ -325,11 +325,12 @@ private:
     return 0.5 * options_.slope * (box.upper.x - box.lower.x) / (hidden ? bound : least);
   }
 
-  void forget_origins() {
+  void finish() {
     points_ = {};
     raw_ = {};
     origins_ = {};
     origin_of_ = {};
+    find_least_values();
   }
 
   gradation_options options_;

@@ -39,12 +39,34 @@ protected:
   }
 
   /// The least value in the part of the box that is in the octree, exactly: in a box of a leaf it is at a
-  /// corner of it. Infinite when there is none.
+  /// corner of it. Infinite when there is none. Visits what may hold less than what was found; after
+  /// `find_least_values`.
   double least_in(const box3& box) const {
     double least = std::numeric_limits<double>::infinity();
-    tree_.for_each_leaf([&](const box3& leaf) { return leaf.overlaps(box); },
-                        [&](std::size_t leaf) { least = std::min(least, least_of_leaf_in(leaf, box)); });
+    tree_.for_each_leaf(
+        [&](std::size_t node) {
+          if (least_below_[node] >= least)
+            return false;
+          const box3 whole = tree_.box(node);
+          if (!whole.overlaps(box))
+            return false;
+          if (!contains(box, whole.lower) || !contains(box, whole.upper))
+            return true;
+          least = least_below_[node];
+          return false;
+        },
+        [&](std::size_t leaf) { least = std::min(least, least_of_leaf_in(leaf, box)); });
     return least;
+  }
+
+  /// To be called when all values are there.
+  void find_least_values() {
+    least_below_.assign(tree_.node_count(), std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < tree_.leaf_count(); ++k)
+      for (const std::uint32_t corner : corners_[k])
+        least_below_[tree_.leaf(k)] = std::min(least_below_[tree_.leaf(k)], values_[corner]);
+    for (std::size_t node = tree_.node_count(); node-- > 1;) // children come after their parent
+      least_below_[tree_.parent(node)] = std::min(least_below_[tree_.parent(node)], least_below_[node]);
   }
 
   octree tree_;
@@ -56,22 +78,21 @@ private:
   double least_of_leaf_in(std::size_t leaf, const box3& box) const {
     const box3 whole = tree_.box(leaf);
     box3 part = whole;
-    bool is_whole = true;
     for (int k = 0; k < 3; ++k) {
       part.lower[k] = std::max(whole.lower[k], box.lower[k]);
       part.upper[k] = std::min(whole.upper[k], box.upper[k]);
-      is_whole = is_whole && part.lower[k] == whole.lower[k] && part.upper[k] == whole.upper[k];
     }
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 8; ++k)
-      least = std::min(least, is_whole ? values_[corners_[tree_.leaf_index(leaf)][k]]
-                                       : interpolated(leaf, corner_of(part, k)));
+      least = std::min(least, interpolated(leaf, corner_of(part, k)));
     return least;
   }
   static vec3 corner_of(const box3& box, std::size_t k) {
     return {(k & 1U) != 0 ? box.upper.x : box.lower.x, (k & 2U) != 0 ? box.upper.y : box.lower.y,
             (k & 4U) != 0 ? box.upper.z : box.lower.z};
   }
+
+  std::vector<double> least_below_; ///< per node of the octree
 };
 
 } // namespace dovetail::sizing

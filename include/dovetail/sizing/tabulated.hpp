@@ -55,6 +55,7 @@ private:
       sizing::checked_size(options.relative_error, "the error of precomputed sizes");
       fill(options);
       id_of_ = {};
+      find_least_values();
     }
 
     double value(vec3 p) const { return contains(domain_, p) ? interpolated(tree_.locate(p), p) : field_(p); }
