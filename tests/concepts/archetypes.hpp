@@ -177,6 +177,29 @@ private:
 };
 // end
 
+// for has_background_form
+/// Knows which of the two it is.
+template <boundary_keeping_mesher<3> M>
+class mesher_of_backgrounds_and_pieces {
+public:
+  explicit mesher_of_backgrounds_and_pieces(M held, bool is_for_background = false)
+      : held_(std::move(held)), is_for_background_(is_for_background) {}
+
+  static constexpr mesher_traits traits = M::traits;
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    return held_(input, size);
+  }
+  bool is_for_background() const { return is_for_background_; }
+  mesher_of_backgrounds_and_pieces for_background() const {
+    return mesher_of_backgrounds_and_pieces(held_, true);
+  }
+
+private:
+  M held_;
+  bool is_for_background_;
+};
+// end
+
 // for patch_surface
 /// Neither copyable nor movable: a surface is passed by reference.
 template <patch_surface S>

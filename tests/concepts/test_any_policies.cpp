@@ -83,6 +83,33 @@ TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks
   CHECK(ladder[3].name() == "archetype");
 }
 
+TEST_CASE("below a held mesher's form for the background is the ladder of the mesher itself") {
+  struct two_forms : archetype::mesher {
+    explicit two_forms(int mark) : archetype::mesher(0), mark(mark) {}
+    two_forms(const two_forms&) = default;
+    two_forms for_background() const { return two_forms(1); }
+    std::vector<two_forms> fallbacks() const { return {two_forms(mark + 10)}; }
+    mesher_result<3> operator()(const mesher_input<3>&, const any_sizing&) const {
+      mesher_result<3> result;
+      result.mesh.tags = {mark};
+      return result;
+    }
+    int mark;
+  };
+  const auto marks = [](const any_mesher<3>& mesher) {
+    std::vector<local_id> found;
+    for (const auto& rung : ladder_of(mesher))
+      found.push_back(rung({}, {}).mesh.tags.front());
+    return found;
+  };
+  const any_mesher<3> held(two_forms(0), "both");
+  CHECK(marks(held) == std::vector<local_id>{0, 10});
+  CHECK(marks(held.for_background()) == std::vector<local_id>{1, 0, 10});
+  CHECK(held.for_background().name() == "both");
+  CHECK(marks(held.with_fallback(two_forms(7)).for_background()) == std::vector<local_id>{1, 0, 10, 7});
+  CHECK(ladder_of(any_mesher<3>(archetype::mesher(0)).for_background()).size() == 1);
+}
+
 struct marking {
   static constexpr improver_traits traits{.thread_safe = true};
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen, const any_sizing& h) const {

@@ -54,6 +54,7 @@ static_assert(surface_improver<archetype::surface_improver> && !improver<archety
 static_assert(!surface_improver<archetype::improver>);
 static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);
 static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
+static_assert(!has_background_form<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);
 static_assert(piecewise_mesh_writer<archetype::piecewise_writer> &&
               !piecewise_mesh_writer<archetype::writer>);
@@ -170,6 +171,11 @@ TEST_CASE("the pipeline needs no more of what policies are made of than the conc
     using telling = archetype::telling_mesher_as<mesher::tetgen>;
     static_assert(calibrated_mesher<telling> && piece_sizing_mesher<telling>);
     check(archetype::sizing(0), given.with_mesher(telling(mesher::tetgen{})));
+  }
+  SUBCASE("another form for the background") {
+    using both = archetype::mesher_of_backgrounds_and_pieces<mesher::tetgen>;
+    static_assert(has_background_form<both>);
+    check(archetype::sizing(0), given.with_mesher(both(mesher::tetgen{})));
   }
   SUBCASE("what to try next") {
     check(archetype::sizing(0), given.with_mesher(archetype::mesher_after_failure(mesher::tetgen{})));

@@ -10,14 +10,16 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
 
-/// Holds a mesher with its traits, preferences and fallbacks by value; a mesher converts to it. Made by
-/// default it holds none: whoever calls it then gets a `usage_error`. A call costs one indirect call.
+/// Holds a mesher with its traits, preferences, fallbacks and background form by value; a mesher converts to
+/// it. Made by default it holds none: whoever calls it then gets a `usage_error`. A call costs one indirect
+/// call.
 template <int D>
 class any_mesher {
 public:
@@ -32,6 +34,9 @@ public:
     const std::vector<M> ladder = ladder_of(policy);
     for (std::size_t rung = 1; rung < ladder.size(); ++rung)
       fallbacks_.push_back(any_mesher(ladder[rung], name_, without_fallbacks{}));
+    if constexpr (has_background_form<M>)
+      background_ =
+          std::make_shared<const any_mesher>(any_mesher(policy.for_background(), name_, without_fallbacks{}));
   }
 
   /// The same with another mesher as the last rung of the ladder, for pieces that this one cannot mesh.
@@ -39,6 +44,16 @@ public:
     any_mesher extended = *this;
     extended.fallbacks_.push_back(std::move(other));
     return extended;
+  }
+
+  /// The mesher for the mesh that is decomposed, with this one's ladder below it; this one when it has no
+  /// form for that.
+  any_mesher for_background() const {
+    if (!background_)
+      return *this;
+    any_mesher form = *background_;
+    form.fallbacks_ = ladder_of(*this);
+    return form;
   }
 
   explicit operator bool() const { return static_cast<bool>(call_); }
@@ -77,6 +92,7 @@ private:
   double elements_per_subdomain_ = default_elements_per_subdomain;
   std::function<mesher_result<D>(const mesher_input<D>&, const any_sizing&)> call_;
   std::vector<any_mesher> fallbacks_;
+  std::shared_ptr<const any_mesher> background_; ///< its ladder is this one's
 };
 static_assert(boundary_keeping_mesher<any_mesher<2>, 2> && boundary_keeping_mesher<any_mesher<3>, 3>);
 

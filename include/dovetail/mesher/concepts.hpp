@@ -58,7 +58,8 @@ struct mesher_result<2> {
 /// - `m(in, h)`: mesher_result<D>
 /// - `M::traits`: mesher_traits, constexpr static
 ///
-/// It may also be a `calibrated_mesher`, a `piece_sizing_mesher`, and one that `has_fallbacks`.
+/// It may also be a `calibrated_mesher`, a `piece_sizing_mesher`, and one that `has_fallbacks` or
+/// `has_background_form`.
 ///
 /// Semantics: all elements are positively oriented and fill the inside of the oriented shells (outer shells
 /// and voids). The mean edge length on a uniform field equals the size within 5 % (netgen: 12 %). The traits

@@ -45,6 +45,26 @@ concept piece_sizing_mesher = requires(const M& m) {
   { m.elements_per_subdomain() } -> std::convertible_to<double>;
 };
 
+/// The role `has_background_form`: a mesher that makes the mesh that is decomposed with other parameters.
+///
+/// Valid expressions: those of `piece_mesher<M, 3>` and, for `const M& m`,
+///
+/// - `m.for_background()`: M
+///
+/// Semantics: a mesher of the same role whose elements have no small angles, though there are more of them: a
+/// mesher's own refinement makes them at a small part of what an improver takes afterwards. Where it fails,
+/// `m` and its fallbacks are tried.
+///
+/// Complexity: constant.
+///
+/// Failure: none.
+///
+/// Models: tetgen, any_mesher.
+template <class M>
+concept has_background_form = requires(const M& m) {
+  { m.for_background() } -> std::same_as<M>;
+};
+
 inline constexpr double default_elements_per_subdomain = 31250;
 
 /// 0, for regular elements, when the mesher does not say.

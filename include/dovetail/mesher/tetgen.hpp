@@ -49,6 +49,14 @@ struct tetgen {
   /// result fails the checks; `sizing_error` when the field gives an unusable size.
   mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const;
 
+  /// With a bound of 1.4 hardly an angle of 30 degrees is missing away from the surface, for two thirds more
+  /// elements.
+  tetgen for_background() const {
+    tetgen form = *this;
+    form.radius_edge_ratio = std::min(radius_edge_ratio, 1.4);
+    return form;
+  }
+
   /// What to try, in this order, on a piece that failed.
   std::vector<tetgen> fallbacks() const {
     tetgen uncarved = *this; // a hole point too close to the boundary

@@ -140,7 +140,7 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
                         : detail::default_subdomains(predicted.elements, per_subdomain, options);
   const double coarse_elements =
       std::max(plan.subdomains * of_dimension(options.background_elements_per_subdomain),
-               std::min(of_dimension(options.background_elements), predicted.elements / 10));
+               std::min(of_dimension(options.background_elements), predicted.elements / (D == 3 ? 40 : 10)));
   plan.coarse_scale = options.coarse_scale > 0
                           ? options.coarse_scale
                           : std::max(1.5, D == 3 ? std::cbrt(predicted.elements / coarse_elements)
@@ -250,12 +250,22 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
 template <int D>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
                                      const any_parameters<D>& wanted) {
-  const auto make = [&](background_result<D>& result, const any_sizing& coarse,
-                        const any_parameters<D>& given) {
+  const auto make = [&](background_result<D>& result, any_sizing coarse, const any_parameters<D>& given) {
     const generate_options& options = given.options;
     options.on_progress("background surface", 0, 0);
-    auto surface = surface_without_crossings(model, coarse, given.run_tasks, given.mesh_surface,
-                                             options.refinement_rounds, options.on_progress);
+    const auto surface_at = [&](const any_sizing& size) {
+      return surface_without_crossings(model, size, given.run_tasks, given.mesh_surface,
+                                       options.refinement_rounds, options.on_progress);
+    };
+    auto surface = surface_at(coarse);
+    if (D == 3 && options.coarse_scale == 0 && result.plan.subdomains > 1 &&
+        static_cast<double>(surface.surface.mesh.elements.size()) >
+            result.plan.subdomains * options.background_elements_per_subdomain) {
+      // Small sizes at the surface alone make more elements than are needed.
+      result.plan.coarse_scale *= 2;
+      coarse = coarse_size(result.size, result.plan.coarse_scale, model.bounds());
+      surface = surface_at(coarse);
+    }
     result.summary.children.push_back(std::move(surface.summary));
     if constexpr (D == 2)
       result.bounds = std::move(surface.bounds);
@@ -264,10 +274,11 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
       if (result.plan.subdomains == 1)
         return;
       options.on_progress("background volume", 0, 0);
-      auto volume = background::coarse_volume(result.mesh.surface, model.topology(), coarse, given.mesh_it,
-                                              given.improve_background, given.run_tasks,
-                                              {.on_failure = write_facets_of_failures(options.failure_folder),
-                                               .on_progress = options.on_progress.only_stopping()});
+      auto volume =
+          background::coarse_volume(result.mesh.surface, model.topology(), coarse,
+                                    given.mesh_it.for_background(), given.improve_background, given.run_tasks,
+                                    {.on_failure = write_facets_of_failures(options.failure_folder),
+                                     .on_progress = options.on_progress.only_stopping()});
       result.mesh.volume = std::move(volume.mesh);
       result.summary.children.push_back(std::move(volume.summary));
     }
