@@ -88,8 +88,10 @@ private:
   model_source load() {
     show("geometry");
     model_source source = load_model(options_.model, D);
-    if (options_.elements)
+    if (options_.elements) {
+      parameters_.enlarged_above = 0;
       source.size = size_for_elements(source, *options_.elements, policies_.front(), parameters_);
+    }
     return source;
   }
 
@@ -110,9 +112,10 @@ private:
   }
   std::string text_of_sizes() const {
     const model_options& model = options_.model;
-    const std::string given = !model.sizing.empty() ? model.sizing
-                              : model.size          ? number_text(*model.size)
-                                                    : "default";
+    const std::string given = !model.sizing.empty()         ? model.sizing
+                              : model.has_automatic_sizes() ? "automatic"
+                              : model.size                  ? number_text(*model.size)
+                                                            : "the model's own";
     return options_.elements ? given + ", scaled for " + number_text(*options_.elements) + " elements"
                              : given;
   }

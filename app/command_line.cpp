@@ -58,9 +58,21 @@ void add_model_options(CLI::App& command, model_options& options) {
       ->check(CLI::IsMember({"file", "mm"}))
       ->capture_default_str();
   auto* size = command.add_option("-s,--size", options.size,
-                                  "Target edge length, in the model's unit (default: diagonal / 25)");
-  command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
-      ->excludes(size);
+                                  "Target edge length, in the model's unit; with the next three the largest "
+                                  "one (default: by curvature and walls, for at most 2 million elements)");
+  auto* sizing =
+      command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
+          ->excludes(size);
+  command
+      .add_option("--curvature", options.curvature,
+                  "Elements per turn of a curved face; 0: any (default: 24)")
+      ->excludes(sizing);
+  command.add_option("--proximity", options.proximity, "Elements across a wall; 0: any (default: 2)")
+      ->excludes(sizing);
+  command
+      .add_option("--growth", options.growth,
+                  "Most that sizes by curvature and walls grow per length (default: 0.25)")
+      ->excludes(sizing);
 }
 
 void add_policy_options(CLI::App& command, mesh_options& options) {

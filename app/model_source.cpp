@@ -30,7 +30,7 @@
 namespace dovetail::app {
 namespace {
 
-constexpr double default_elements_across = 25; ///< of a model's diagonal
+constexpr double default_elements_across = 25; ///< of a plane domain's diagonal
 constexpr double most_elements_across = 1e9;   ///< beyond, coordinates have too few digits
 
 std::string ending_of(const std::filesystem::path& file) {
@@ -38,6 +38,11 @@ std::string ending_of(const std::filesystem::path& file) {
   for (char& c : ending)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
+}
+
+bool is_drawing(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  return ending == ".svg" || ending == ".txt";
 }
 
 /// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
@@ -77,7 +82,7 @@ any_geometry cad_geometry(const std::filesystem::path& file, const model_options
 /// `summary` receives what reading and healing report.
 any_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options, int dimension,
                               report& summary) {
-  if (ending_of(file) == ".svg" || ending_of(file) == ".txt")
+  if (is_drawing(file))
     return plane_geometry(file, dimension);
   if (!triangle_format_of(file).empty())
     return triangle_geometry(file, dimension, summary);
@@ -91,7 +96,7 @@ model_source builtin_source(const std::string& name, const given_sizes& sizes) {
   const box3 domain = geometry.bounds();
   std::string meshes;
   any_sizing size;
-  if (sizes.has_file()) {
+  if (sizes.has_file() || sizes.is_automatic()) {
     size = sizes.field(domain, &geometry, &meshes);
   } else {
     const double ambient = sizes.length(domain).value_or(built.size);
@@ -122,9 +127,11 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
   if (!std::isfinite(domain.diagonal()))
     throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
   std::string meshes;
-  any_sizing size = sizes.field(domain, &geometry, &meshes);
-  if (!size)
+  any_sizing size;
+  if (is_drawing(file) && sizes.is_automatic()) // there are no curved faces and no walls
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
+  else
+    size = sizes.field(domain, &geometry, &meshes);
   model_source source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
   source.file = checksum;
   source.sizing_meshes = std::move(meshes);
@@ -156,6 +163,24 @@ given_sizes::given_sizes(std::string file, const std::optional<double>& size)
   sizing::parse_sizing(text_, file_, {.only_check = true});
 }
 
+given_sizes::given_sizes(const model_options& options) : given_sizes(options.sizing, options.size) {
+  const auto in_range = [](const char* option, const std::optional<double>& value, double least) {
+    if (value && !(*value >= least && *value <= 1000))
+      throw command_line_error(
+          std::string(option) + ": " + number_text(*value) + " is not " +
+          (least > 0 ? "a growth; give a positive number" : "a number of elements; give one from 0 to 1000"));
+  };
+  in_range("--curvature", options.curvature, 0);
+  in_range("--proximity", options.proximity, 0);
+  in_range("--growth", options.growth, 1e-3);
+  if (!options.has_automatic_sizes())
+    return;
+  automatic_.emplace();
+  automatic_->elements_per_circle = options.curvature.value_or(automatic_->elements_per_circle);
+  automatic_->elements_across = options.proximity.value_or(automatic_->elements_across);
+  automatic_->range.growth = options.growth.value_or(automatic_->range.growth);
+}
+
 std::optional<double> given_sizes::length(const box3& domain) const {
   if (!size_)
     return {};
@@ -170,10 +195,14 @@ std::optional<double> given_sizes::length(const box3& domain) const {
 }
 
 any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes) const {
-  if (!has_file()) {
-    const auto uniform = length(domain);
-    return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
+  const auto uniform = length(domain);
+  if (automatic_ && model) {
+    automatic_options options = *automatic_;
+    options.range.largest = uniform.value_or(0);
+    return keep_bounds(automatic_size(*model, options));
   }
+  if (!has_file())
+    return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
   content_hash read;
   const std::uint64_t nothing = read.value();
   sizing::json_options options{.domain = domain};
@@ -192,7 +221,10 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
 model_source load_model(const model_options& options, int dimension) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
-  const given_sizes sizes(options.sizing, options.size);
+  if (is_drawing(options.input) && (options.curvature || options.proximity || options.growth))
+    throw command_line_error("--curvature, --proximity, --growth: " + options.input +
+                             " is a plane domain, without curved faces and walls; give --size or --sizing");
+  const given_sizes sizes(options);
   model_source source =
       options.input.empty()
           ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes)

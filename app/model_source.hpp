@@ -6,6 +6,7 @@
 #include "options.hpp"
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <optional>
@@ -13,19 +14,21 @@
 
 namespace dovetail::app {
 
-/// Sizes as a command line gives them: a JSON file, one length, or nothing.
+/// Sizes as a command line gives them: a JSON file, one length, how to find them by the model, or nothing.
 class given_sizes {
 public:
-  /// Finds what is wrong without a model: throws `command_line_error` for a size that is no length, and for a
-  /// file that cannot be used the library's errors.
+  /// Finds what is wrong without a model: throws `command_line_error` for a size that is no length and other
+  /// numbers out of range, and for a file that cannot be used the library's errors.
   given_sizes(std::string file, const std::optional<double>& size);
+  explicit given_sizes(const model_options& options);
 
-  /// The file's field, or the uniform one; empty when neither is given. A file may ask for sizes from the
-  /// model, if there is one. `meshes` receives the checksum of the meshes that the file names. Throws
-  /// `sizing_error` for a size that does not suit the domain.
+  /// The file's field, the automatic one or the uniform one; empty when none is given. The first two may ask
+  /// for sizes from the model, if there is one. `meshes` receives the checksum of the meshes that the file
+  /// names. Throws `sizing_error` for a size that does not suit the domain.
   any_sizing field(const box3& domain, const any_geometry* model = nullptr,
                    std::string* meshes = nullptr) const;
   bool has_file() const { return !file_.empty(); }
+  bool is_automatic() const { return automatic_.has_value(); }
   const std::string& text() const { return text_; } ///< of the file, wherever it came from
   /// The one length, if it is given and suits the domain.
   std::optional<double> length(const box3& domain) const;
@@ -34,6 +37,7 @@ private:
   std::string file_;
   std::string text_; ///< of the file, which is read once: it may be a pipe
   std::optional<double> size_;
+  std::optional<automatic_options> automatic_; ///< its largest size is `size_`
 };
 
 struct model_source {

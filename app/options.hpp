@@ -16,8 +16,15 @@ struct model_options {
   std::string input;          ///< a CAD or triangle file; empty: a built-in model
   std::string model;          ///< name of a built-in model; empty: the default one, or the input
   std::string unit = "mm";    ///< unit that a STEP or IGES file is converted to
-  std::optional<double> size; ///< uniform size, or the scale of the built-in model's sizes
+  std::optional<double> size; ///< uniform, or the scale of the built-in model's sizes, or the largest
   std::string sizing;         ///< JSON file with a sizing field
+  /// Of automatic sizes: elements per turn, elements across walls, growth per length.
+  std::optional<double> curvature, proximity, growth;
+
+  /// Sizes are found by the model: nothing is said of them, or only how.
+  bool has_automatic_sizes() const {
+    return sizing.empty() && (curvature || proximity || growth || (!size && !input.empty()));
+  }
 };
 
 struct mesh_options {

@@ -31,7 +31,10 @@ template policies_of<2> make_policies_of<2>(const mesh_options&);
 template policies_of<3> make_policies_of<3>(const mesh_options&);
 
 generate_options make_generate_options(const mesh_options& options) {
+  constexpr double most_by_default = 2e6; // elements, where nothing says how large they are
   generate_options result;
+  if (options.model.has_automatic_sizes() && !options.model.size)
+    result.enlarged_above = most_by_default;
   if (options.subdomains) {
     if (*options.subdomains < 1)
       throw command_line_error("--subdomains: " + std::to_string(*options.subdomains) +

@@ -46,6 +46,14 @@ for size in 0 -1 nan -nan inf 1e-400; do
   expect_usage_error "--size" adapt no_such_file.vtu -o next.vtu --size=$size
 done
 expect_usage_error "--size" mesh --model combustor --size large
+for option in --curvature --proximity --growth; do
+  for value in -1 nan inf 1001 many; do
+    expect_usage_error "$option" plan no_such_file.step $option=$value
+  done
+  expect_usage_error "excludes|sizing" mesh no_such_file.step --sizing sizes.json $option 1
+  expect_usage_error "plane domain, without curved faces" mesh no_such_file.svg --dimension 2 $option 1
+done
+expect_usage_error "--growth" compare no_such_file.step --growth 0
 expect_usage_error "--preset: there is no 'nonsense'; there are: .*hard" \
   improve no_such_file.vtu -o better.vtu --preset nonsense
 expect_usage_error "--dimension 2" mesh no_such_file.svg
@@ -79,6 +87,24 @@ expect_error 'across.json:1: "proximity" is 1e\+09; give .* at most 1000' mesh -
 expect_error "100000000 subdomains are more than" mesh --model combustor --subdomains 100000000
 write_cube >"$inputs/cube.off"
 limit=10 expect_error "more than any machine can hold" plan "$inputs/cube.off" --size 3e-9
+
+# Without sizes the model's curvature and walls decide, for at most 2 million elements.
+predicted() {
+  expect_success plan "$inputs/cube.off" "$@" --report plan.json
+  count=$(grep -o '"predicted_elements": [0-9]*' "$sandbox/work/plan.json" | tr -dc 0-9)
+  ((${count:-0} > 0)) || fault "no elements are predicted"
+}
+predicted && by_default=$count
+predicted --proximity 20
+((count > 10 * by_default)) || fault "20 elements across the cube give $count, after $by_default"
+predicted --proximity 0
+((count > by_default / 2 && count < by_default * 2)) || fault "the largest size gives $count, not about $by_default"
+predicted --proximity 100
+((count > 1900000 && count < 2100000)) || fault "$count is not 2 million"
+predicted --proximity 100 --size 0.1
+((count > 2100000)) || fault "a size is given, and $count elements are bounded all the same"
+predicted --proximity 0 --size 0.1
+((count > 8000 && count < 16000)) || fault "the size given is the largest: $count"
 
 # The examples at the end of each help are command lines: what is missing are their files.
 examples=0
