@@ -111,6 +111,9 @@ TEST_CASE("a point of the skeleton that no element uses is left out") {
   for (auto& side : mesh.skeleton.sides)
     for (auto& v : side)
       ++v;
+  for (auto& edge : mesh.skeleton.curve_edges)
+    for (auto& v : edge)
+      ++v;
   const auto load = mesh.load;
   mesh.load = [load](local_id p) {
     auto piece = load(p);
