@@ -154,7 +154,7 @@ public:
     std::optional<run_spool> store;
     const std::filesystem::path folder = options_.out;
     const finished_run finished(folder, identity, options_);
-    const auto begin = once([&] {
+    const auto begin = policies_.executor.once([&] {
       made.emplace(options_.out);
       return begin_in(folder, identity, finished, store);
     });
@@ -182,17 +182,6 @@ public:
 
 private:
   enum class beginning : std::uint8_t { is_finished, goes_on };
-
-  /// What the rank that leads finds, or an error of it, on all ranks.
-  template <class Work>
-  auto once(const Work& work) const {
-    byte_writer to;
-    const byte_buffer made = policies_.executor.once([&] {
-      to.value(work());
-      return to.take();
-    });
-    return byte_reader(made).template value<decltype(work())>();
-  }
 
   /// Throws `usage_error` when this rank has read something else than the one that leads.
   void require_one_identity(const run_identity& identity) const {
@@ -249,7 +238,8 @@ private:
     else
       parameters_.on_progress.stop_requested = stop_was_requested;
     if (!options_.force)
-      parameters_.largest_prediction = once([&] { return elements_with_room(formats_, folder); });
+      parameters_.largest_prediction =
+          policies_.executor.once([&] { return elements_with_room(formats_, folder); });
     try {
       return generate_mesh_from<D>(
           make_background_mesh<D>(source.geometry, source.size, policies_, parameters_), source.geometry,

@@ -2,6 +2,7 @@
 /// Any executor behind one type, so that the stages are compiled once and not once per executor.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
@@ -26,10 +27,11 @@ public:
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
         shares_process_(policy.shares_process()) {
     if constexpr (requires(const E& e) {
-                    { e.leads() } -> std::same_as<bool>;
+                    { e.has_others() } -> std::same_as<bool>;
                   }) {
       leads_ = policy.leads();
-      once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
+      if (policy.has_others())
+        once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
     }
     run_ = [held = std::move(policy)](std::size_t count, const task_function& task,
                                       const run_options& options) { return held.run(count, task, options); };
@@ -41,8 +43,26 @@ public:
   bool shares_process() const { return shares_process_; }
   /// Whether what is not a task, files for example, is this process's to do: not on all ranks of `ranks`.
   bool leads() const { return leads_; }
-  /// What `work()` returns, made by the process that leads alone; an error of it is thrown by all.
-  byte_buffer once(const std::function<byte_buffer()>& work) const { return once_ ? once_(work) : work(); }
+  /// What `work()` returns, bytes or a plain value, made by the process that leads alone; an error of it is
+  /// thrown by all.
+  template <class Work>
+  auto once(const Work& work) const {
+    using result = decltype(work());
+    if (!once_)
+      return work();
+    if constexpr (std::same_as<result, byte_buffer>) {
+      return once_(work);
+    } else {
+      const byte_buffer known = once_([&] {
+        byte_writer to;
+        to.value(work());
+        return to.take();
+      });
+      return byte_reader(known).template value<result>();
+    }
+  }
+  /// Whether other processes go through the same program, so that what is made `once` has to be bytes.
+  bool has_others() const { return static_cast<bool>(once_); }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
     const auto who = [&] { return named_policy("executor", name_); };

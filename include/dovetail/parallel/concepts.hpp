@@ -57,7 +57,7 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
 /// An executor whose tasks are shared by several ranks, which all go through the same program, has besides
-/// `e.leads()` and `e.once(work)`; see `ranks`.
+/// `e.has_others()`, `e.leads()` and `e.once(work)`; see `ranks`.
 ///
 /// Models: serial, threads, processes, ranks, clock_watch, any_executor.
 template <class E>

@@ -28,6 +28,7 @@ public:
   int workers() const { return workers_; }
   bool shares_process() const { return network_.shares_process(); }
   bool leads() const { return network_.leads(); }
+  bool has_others() const { return network_.size() > 1; }
 
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options = {}) const;

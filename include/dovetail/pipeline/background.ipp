@@ -180,14 +180,9 @@ erased_sizing usable_size(const any_geometry& model, const erased_sizing& size,
 }
 
 template <int D>
-mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
-                         const any_parameters<D>& given) {
+mesh_plan plan_of_surface(const any_geometry& model, const erased_sizing& size,
+                          const background::coarse_surface_result& first, const any_parameters<D>& given) {
   const generate_options& options = given.options;
-  constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
-  options.on_progress("planning", 0, 0);
-  const auto first = surface_without_crossings(
-      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, given.mesh_surface,
-      options.refinement_rounds, options.on_progress);
   element_prediction predicted =
       predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
                       given.mesh_it.elements_per_inverse_cubed_size());
@@ -203,6 +198,18 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
   plan.size_scale = size_scale;
   require_room(plan, options);
   return plan;
+}
+
+template <int D>
+mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
+                         const any_parameters<D>& given) {
+  const generate_options& options = given.options;
+  constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
+  options.on_progress("planning", 0, 0);
+  const auto first = surface_without_crossings(
+      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, given.mesh_surface,
+      options.refinement_rounds, options.on_progress);
+  return given.run_tasks.once([&] { return plan_of_surface<D>(model, size, first, given); });
 }
 
 } // namespace detail

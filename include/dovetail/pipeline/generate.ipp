@@ -58,8 +58,8 @@ struct divided_background {
 };
 
 template <int D>
-divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
-                             const any_parameters<D>& given) {
+divided_background<D> divide_here(const simplicial_background<D>& coarse, const any_sizing& size,
+                                  int subdomains, const any_parameters<D>& given) {
   const generate_options& options = given.options;
   divided_background<D> result;
   options.on_progress("simplification", 0, 0);
@@ -81,6 +81,51 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   result.partition = std::move(result.pieces.summary);
   result.partition.seconds = partition_clock.seconds();
   return result;
+}
+
+/// What the steps after it do with a division; angles and reports stay with the one who made it.
+template <int D>
+byte_buffer encode(const divided_background<D>& divided) {
+  byte_writer to;
+  to.array(divided.weights);
+  to.array(divided.side_states);
+  to.array(divided.pieces.part_of_element);
+  to.value(divided.pieces.parts);
+  to.array(divided.pieces.material_of_part);
+  to.array(divided.pieces.part_weights);
+  to.array(divided.pieces.part_of_super);
+  to.array(divided.pieces.defective_points);
+  to.value(divided.pieces.non_manifold_edges);
+  return to.take();
+}
+
+template <int D>
+divided_background<D> decode_division(const simplicial_background<D>& coarse, const byte_buffer& bytes) {
+  byte_reader from(bytes);
+  divided_background<D> divided;
+  divided.sides = build_sides(coarse.elements());
+  divided.weights = from.array<double>();
+  divided.side_states = from.array<side_state>();
+  divided.pieces.part_of_element = from.array<local_id>();
+  divided.pieces.parts = from.value<local_id>();
+  divided.pieces.material_of_part = from.array<local_id>();
+  divided.pieces.part_weights = from.array<double>();
+  divided.pieces.part_of_super = from.array<local_id>();
+  divided.pieces.defective_points = from.array<local_id>();
+  divided.pieces.non_manifold_edges = from.value<int>();
+  return divided;
+}
+
+/// On rank 0, where there are several.
+template <int D>
+divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
+                             const any_parameters<D>& given) {
+  divided_background<D> result;
+  const byte_buffer known = given.run_tasks.once([&] {
+    result = divide_here<D>(coarse, size, subdomains, given);
+    return given.run_tasks.has_others() ? encode(result) : byte_buffer{};
+  });
+  return given.run_tasks.leads() ? std::move(result) : decode_division<D>(coarse, known);
 }
 
 /// Each solid is a part.
@@ -145,8 +190,9 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   if (!cones)
     result.subdomain_of_element = skeleton.subdomain_of_element;
   result.coarse_angles = std::move(divided.angles);
-  result.fine_angles =
-      fine_interface_angles(skeleton, *coarse, divided.sides, divided.side_states, rounds.size(), options);
+  if (given.run_tasks.leads())
+    result.fine_angles =
+        fine_interface_angles(skeleton, *coarse, divided.sides, divided.side_states, rounds.size(), options);
   result.quality = meshed.quality;
   result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);
@@ -174,7 +220,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     const content_key key = detail::key_of_given_up(background);
     const auto find_given_up = [&] { return given_up->find(key).value_or(byte_buffer{}); };
-    if (const auto found = given_up ? watch.once(find_given_up) : byte_buffer{}; !found.empty()) {
+    if (const auto found = given_up ? given.run_tasks.once(find_given_up) : byte_buffer{}; !found.empty()) {
       byte_reader from(found);
       account = decode_report(from);
       continue;
@@ -191,7 +237,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
         throw;
       account.warnings.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
                                  std::to_string(subdomains / 2) + " were asked for: " + refused.what());
-      if (given_up && watch.leads()) {
+      if (given_up && given.run_tasks.leads()) {
         report kept = account;
         if (watch.stops() > 0)
           kept.add("stops_by_clock", watch.stops());
