@@ -1,3 +1,4 @@
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/geometry/plane_domain.hpp"
@@ -10,6 +11,7 @@
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
@@ -53,24 +55,28 @@ struct decomposed_shell {
   decomposed_shell(double inner_radius, int parts) : decomposed_shell(shell(inner_radius), parts) {}
   decomposed_shell(const any_geometry& shape, int parts)
       : model(shape), given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
-        background(make_background<3>(model, uniform_size(0.2), given)),
-        sides(build_sides(background.mesh.volume)) {
-    const auto simplified = simplify<3>(background.mesh.volume, sides, simplifier::none{});
-    pieces = decompose<3>(background.mesh.volume, sides, simplified.super_of_element, simplified.graph,
-                          background.mesh.volume.tags, given.partition_it, parts);
+        background(make_background<3>(model, uniform_size(0.2), given)) {
+    const simplicial_mesh<3>& volume = background.mesh.volume;
+    divided.sides = build_sides(volume);
+    const auto simplified = simplify<3>(volume, sides, simplifier::none{});
+    divided.side_states = simplified.side_states;
+    divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
+                                  given.partition_it, parts);
+    given.options.interface_angle_deg = 0; // interfaces stay where they are
   }
 
   /// The rounds, of which so large a fraction of the subdomains may be merged.
   decomposition_rounds<3> rounds(double largest_merged_fraction) {
     given.options.largest_merged_fraction = largest_merged_fraction;
-    return {model, background.mesh, sides, pieces, background.size, given};
+    return {model, background.mesh, divided, background.size, given};
   }
 
   any_geometry model;
   any_parameters<3> given;
   background_result<3> background;
-  side_table<3> sides;
-  decomposition pieces;
+  divided_background<3> divided;
+  const side_table<3>& sides = divided.sides;
+  decomposition& pieces = divided.pieces;
 };
 
 /// Folds each patch over at an inner point.
@@ -306,6 +312,50 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
   CHECK(taken_back.fine.points == unmatched.fine.points);
 }
 
+TEST_CASE("Interfaces make detours around small angles; one by which something crosses is taken back") {
+  decomposed_shell given(0.5, 16);
+  std::set<content_key> loops; // of the patches where interfaces stay
+  given.given.mesh_surface =
+      any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
+        loops.insert(key_maker{}(b.points).key());
+        return remesh::patch_remesher{}(s, b, h);
+      });
+  const auto stays = given.rounds(0.05).realize_boundaries();
+  CHECK(stays.summary.get("detours") == 0);
+
+  given.given.options.interface_angle_deg = 24;
+  given.given.mesh_surface = {};
+  auto rounds = given.rounds(0.05);
+  const auto goes = rounds.realize_boundaries();
+  CHECK(goes.summary.get("detours") > 0);
+  CHECK(goes.subdomain_of_element != stays.subdomain_of_element);
+  const auto small_angles = [](const interface_angles& angles) {
+    return angles.violations.size() - angles.count(violation_cause::forced);
+  };
+  const std::size_t left = small_angles(rounds.take_fine_angles());
+
+  given.given.mesh_surface =
+      any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
+        patch_mesh mesh = remesh::patch_remesher{}(s, b, h);
+        if (!loops.contains(key_maker{}(b.points).key()))
+          mesh.crossings = {{0, 1}};
+        return mesh;
+      });
+  auto refused = given.rounds(0.05);
+  const auto back = refused.realize_boundaries();
+  CHECK(back.summary.get("detour_rounds") > 0);
+  CHECK(back.summary.get("detours") == 0);
+  CHECK(back.subdomain_of_element == stays.subdomain_of_element);
+  CHECK(back.fine.points == stays.fine.points);
+  CHECK(refused.merges().merged() == 0);
+  CHECK(left < small_angles(refused.take_fine_angles()));
+
+  given.given.mesh_surface = {};
+  given.divided.angles.violations.resize(1); // a rule that lets such interfaces be
+  given.divided.angles.violations[0].cause = violation_cause::remeshing;
+  CHECK(given.rounds(0.05).realize_boundaries().subdomain_of_element == stays.subdomain_of_element);
+}
+
 TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
   const testing::scratch_folder scratch("given_up");
   decomposed_shell given(0.5, 6);
@@ -317,15 +367,15 @@ TEST_CASE("A decomposition that is given up leaves its account, and no pieces") 
     });
   };
   auto rounds = given.rounds(0.05);
-  rounds.mesh_pieces({});
+  rounds.mesh_pieces();
   CHECK(pieces() == 6);
   const report account = rounds.give_up();
   CHECK(pieces() == 0);
   CHECK(account.get("rounds") > 0);
 
   given.given.options.store = {};
-  decomposition_rounds<3> next(given.model, given.background.mesh, given.sides, given.pieces,
-                               given.background.size, given.given, account);
+  decomposition_rounds<3> next(given.model, given.background.mesh, given.divided, given.background.size,
+                               given.given, account);
   CHECK(next.intersection().get("rounds") == account.get("rounds"));
   next.realize_boundaries();
   CHECK(next.intersection().get("rounds") == 2 * account.get("rounds"));

@@ -35,6 +35,8 @@ struct decomposition {
   std::vector<local_id> material_of_part; ///< the elements' tag; 0 without tags
   std::vector<double> part_weights;
   std::vector<local_id> part_of_super;
+  std::vector<local_id> super_of_element;
+  csr_graph graph; ///< of the super-elements, within materials
   /// Points where the boundary of some part is not manifold and could not be made so; empty if all are.
   std::vector<local_id> defective_points;
   int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these

@@ -168,6 +168,8 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
   for (std::size_t s = 0; s < material_of_super.size(); ++s)
     result.material_of_part[static_cast<std::size_t>(result.part_of_super[s])] = material_of_super[s];
 
+  result.super_of_element.assign(super_of_element.begin(), super_of_element.end());
+
   report& summary = result.summary;
   summary.name = "partition";
   summary.set("subdomains", result.parts);
@@ -185,6 +187,7 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
                                std::to_string(result.defective_points.size()) +
                                " points, the first is point " +
                                std::to_string(result.defective_points.front()) + " of the coarse mesh");
+  result.graph = std::move(graph);
   summary.seconds = time.seconds();
   return result;
 }

@@ -132,4 +132,29 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
   return angles;
 }
 
+/// For each small angle of a realized decomposition that is not forced: the coarse sides that it is of.
+inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
+                                                                 const side_table<3>& sides,
+                                                                 const interface_angles& angles) {
+  const auto& first = skeleton.patches.first_triangle;
+  const auto regions = static_cast<std::ptrdiff_t>(skeleton.coarse.regions.size());
+  std::vector<std::vector<local_id>> places;
+  for (const angle_violation& v : angles.violations)
+    if (v.cause != violation_cause::forced) {
+      places.emplace_back();
+      for (const local_id triangle : v.sides)
+        if (const auto face =
+                std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1 - regions;
+            face >= 0)
+          places.back().push_back(
+              find_side<3>(sides, skeleton.coarse.faces[static_cast<std::size_t>(face)].vertices));
+    }
+  return places;
+}
+/// None that interfaces could keep clear of.
+inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<2>&, const side_table<2>&,
+                                                                 const interface_angles&) {
+  return {};
+}
+
 } // namespace dovetail::detail

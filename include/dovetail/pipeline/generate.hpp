@@ -24,9 +24,7 @@ struct generated {
   simplicial_background<D> background;        ///< without a volume where there is one subdomain
   std::vector<local_id> subdomain_of_element; ///< of the background mesh
   mesh_plan plan;
-  /// Of the coarse skeleton, before merges, and of the fine one. These, and the reports of simplification and
-  /// partition, are on rank 0 where several ranks share the run.
-  interface_angles coarse_angles;
+  interface_angles coarse_angles; ///< of the coarse skeleton, before merges
   interface_angles fine_angles;
   quality_statistics quality;
   std::vector<piece_failure> failures;

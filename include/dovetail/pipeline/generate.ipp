@@ -6,10 +6,9 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report_codec.hpp"
-#include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/pipeline/dimension_steps.hpp"
+#include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 
@@ -46,107 +45,10 @@ distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplici
   return mesh;
 }
 
-/// A background mesh cut into parts, and what the steps after that need to know of how it came about.
 template <int D>
-struct divided_background {
-  side_table<D> sides;
-  std::vector<double> weights; ///< predicted elements, per coarse element
-  std::vector<side_state> side_states;
-  decomposition pieces;
-  interface_angles angles;
-  report simplification, partition;
-};
-
-template <int D>
-divided_background<D> divide_here(const simplicial_background<D>& coarse, const any_sizing& size,
-                                  int subdomains, const any_parameters<D>& given) {
-  const generate_options& options = given.options;
-  divided_background<D> result;
-  options.on_progress("simplification", 0, 0);
-  const stopwatch simplification_clock;
-  result.sides = build_sides(coarse.elements());
-  result.weights = predict_elements<D>(coarse.elements(), size).per_element;
-  auto simplified = simplify_background(coarse, result.sides, result.weights, subdomains, given.simplify_by,
-                                        result.simplification, options.on_progress);
-  result.simplification.seconds = simplification_clock.seconds();
-
-  options.on_progress("partition", 0, 0);
-  const stopwatch partition_clock;
-  result.pieces =
-      decompose<D>(coarse.elements(), result.sides, simplified.super_of_element, simplified.graph,
-                   materials_of(coarse), given.partition_it, subdomains, 1.05, options.on_progress);
-  result.angles = coarse_interface_angles(coarse, result.sides, simplified.side_states,
-                                          result.pieces.part_of_element, size, options);
-  result.side_states = std::move(simplified.side_states);
-  result.partition = std::move(result.pieces.summary);
-  result.partition.seconds = partition_clock.seconds();
-  return result;
-}
-
-/// What the steps after it do with a division; angles and reports stay with the one who made it.
-template <int D>
-byte_buffer encode(const divided_background<D>& divided) {
-  byte_writer to;
-  to.array(divided.weights);
-  to.array(divided.side_states);
-  to.array(divided.pieces.part_of_element);
-  to.value(divided.pieces.parts);
-  to.array(divided.pieces.material_of_part);
-  to.array(divided.pieces.part_weights);
-  to.array(divided.pieces.part_of_super);
-  to.array(divided.pieces.defective_points);
-  to.value(divided.pieces.non_manifold_edges);
-  return to.take();
-}
-
-template <int D>
-divided_background<D> decode_division(const simplicial_background<D>& coarse, const byte_buffer& bytes) {
-  byte_reader from(bytes);
-  divided_background<D> divided;
-  divided.sides = build_sides(coarse.elements());
-  divided.weights = from.array<double>();
-  divided.side_states = from.array<side_state>();
-  divided.pieces.part_of_element = from.array<local_id>();
-  divided.pieces.parts = from.value<local_id>();
-  divided.pieces.material_of_part = from.array<local_id>();
-  divided.pieces.part_weights = from.array<double>();
-  divided.pieces.part_of_super = from.array<local_id>();
-  divided.pieces.defective_points = from.array<local_id>();
-  divided.pieces.non_manifold_edges = from.value<int>();
-  return divided;
-}
-
-/// On rank 0, where there are several.
-template <int D>
-divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
-                             const any_parameters<D>& given) {
-  divided_background<D> result;
-  const byte_buffer known = given.run_tasks.once([&] {
-    result = divide_here<D>(coarse, size, subdomains, given);
-    return given.run_tasks.has_others() ? encode(result) : byte_buffer{};
-  });
-  return given.run_tasks.leads() ? std::move(result) : decode_division<D>(coarse, known);
-}
-
-/// Each solid is a part.
-inline divided_background<3> leave_undivided(const simplicial_background<3>& cones, std::size_t solids) {
-  divided_background<3> result;
-  result.sides = build_sides(cones.volume);
-  result.weights.assign(cones.volume.elements.size(), 1);
-  result.side_states.assign(result.sides.size(), side_state::kept);
-  result.pieces.part_of_element = cones.volume.tags;
-  result.pieces.parts = static_cast<local_id>(solids);
-  result.simplification.name = "simplification";
-  result.partition.name = "partition";
-  result.partition.set("subdomains", static_cast<double>(solids));
-  result.partition.set("imbalance", 1);
-  return result;
-}
-
-template <int D>
-auto mesh_or_give_up(decomposition_rounds<D>& rounds, std::span<const double> weights, report& account) {
+auto mesh_or_give_up(decomposition_rounds<D>& rounds, report& account) {
   try {
-    return rounds.mesh_pieces(weights);
+    return rounds.mesh_pieces();
   } catch (const too_many_merges&) {
     account = rounds.give_up();
     throw;
@@ -166,7 +68,6 @@ content_key key_of_given_up(const background_result<D>& background) {
 template <int D>
 generated<D> generate_once(const any_geometry& model, background_result<D>& background,
                            const any_parameters<D>& given, report& account) {
-  const generate_options& options = given.options;
   generated<D> result;
   result.summary.name = "generate";
   result.plan = background.plan;
@@ -184,15 +85,12 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   else
     divided = divide<2>(*coarse, background.size, result.plan.subdomains, given);
 
-  decomposition_rounds<D> rounds(model, *coarse, divided.sides, std::move(divided.pieces), background.size,
-                                 given, account);
-  auto [skeleton, meshed] = mesh_or_give_up(rounds, divided.weights, account);
+  decomposition_rounds<D> rounds(model, *coarse, divided, background.size, given, account);
+  auto [skeleton, meshed] = mesh_or_give_up(rounds, account);
   if (!cones)
     result.subdomain_of_element = skeleton.subdomain_of_element;
   result.coarse_angles = std::move(divided.angles);
-  if (given.run_tasks.leads())
-    result.fine_angles =
-        fine_interface_angles(skeleton, *coarse, divided.sides, divided.side_states, rounds.size(), options);
+  result.fine_angles = rounds.take_fine_angles();
   result.quality = meshed.quality;
   result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);

@@ -7,10 +7,13 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/decomposition/detours.hpp"
+#include "dovetail/decomposition/interface_angles_codec.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/pipeline/crossings.hpp"
+#include "dovetail/pipeline/dimension_steps.hpp"
+#include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 
 #include <algorithm>
@@ -24,23 +27,24 @@
 namespace dovetail {
 
 /// Lines, patches and pieces are kept from round to round, so that one makes again only what the one before
-/// has changed. Model, mesh and sides must outlive this. `account` is that of decompositions that were given
-/// up before, to which this one's is added.
+/// has changed. Model, mesh and its division must outlive this. `account` is that of decompositions that were
+/// given up before, to which this one's is added.
 template <int D>
 class decomposition_rounds {
 public:
   decomposition_rounds(const any_geometry& model, const simplicial_background<D>& mesh,
-                       const side_table<D>& sides, decomposition pieces, const any_sizing& size,
+                       const divided_background<D>& divided, const any_sizing& size,
                        const any_parameters<D>& given, report account = {})
-      : model_(model), mesh_(mesh), sides_(sides), given_(given),
-        subdomain_of_element_(std::move(pieces.part_of_element)),
-        merges_(pieces.parts, given.options.largest_merged_fraction), size_(size),
+      : model_(model), mesh_(mesh), divided_(divided), given_(given),
+        subdomain_of_element_(divided.pieces.part_of_element),
+        merges_(divided.pieces.parts, given.options.largest_merged_fraction), size_(size),
+        detours_(mesh.elements(), divided.sides, divided.pieces),
         made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
         pieces_(std::make_shared<entity_store>(given.options.store)), intersection_(std::move(account)) {
     intersection_.name = "intersection";
   }
 
-  decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const side_table<D>&, decomposition,
+  decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const divided_background<D>&,
                        const any_sizing&, const any_parameters<D>&, report = {}) = delete;
 
   const merge_account& merges() const { return merges_; }
@@ -68,27 +72,27 @@ public:
     return account;
   }
 
-  /// Remeshes the boundaries until no patch fails and none crosses another. Throws `intersection_error` when
-  /// two CAD faces cross, `too_many_merges` when too many subdomains would have to be merged in all,
-  /// `mesher_error` when a patch cannot be remeshed.
+  /// The interface angles of what was last realized.
+  interface_angles take_fine_angles() { return std::move(angles_); }
+
+  /// Remeshes the boundaries until no patch fails and none crosses another, and interfaces keep clear of the
+  /// places where remeshing makes an angle of theirs small, as far as that can be. Throws
+  /// `intersection_error` when two CAD faces cross, `too_many_merges` when too many subdomains would have to
+  /// be merged in all, `mesher_error` when a patch cannot be remeshed.
   realized<D> realize_boundaries() {
     for (;;) {
-      auto made = realize<D>(model_, mesh_, sides_, subdomain_of_element_,
-                             static_cast<std::size_t>(merges_.subdomains()), size_, made_, given_);
-      const bool whole = suppress(plan_for_boundaries(made, made_, given_, intersection_));
-      skeleton_seconds_ += made.summary.seconds;
-      made.summary.seconds = skeleton_seconds_;
-      if (whole)
-        return made;
+      auto made = realize_once();
+      if (suppress(plan_for_boundaries(made, made_, given_, intersection_)))
+        return with_clean_angles(std::move(made));
     }
   }
 
-  /// The same with the pieces meshed, of which `weights` are the costs per coarse element. What no rung of
-  /// the mesher's ladder can mesh is merged with a neighbour, as long as that may be.
-  std::pair<realized<D>, meshed_pieces<D>> mesh_pieces(std::span<const double> weights) {
+  /// The same with the pieces meshed. What no rung of the mesher's ladder can mesh is merged with a
+  /// neighbour, as long as that may be.
+  std::pair<realized<D>, meshed_pieces<D>> mesh_pieces() {
     for (;;) {
       auto made = realize_boundaries();
-      auto meshed = mesh_all_pieces(model_, mesh_, made, weights, size_, pieces_, given_);
+      auto meshed = mesh_all_pieces(model_, mesh_, made, divided_.weights, size_, pieces_, given_);
       finished_.insert(meshed.keys.begin(), meshed.keys.end());
       if (merge_failed(made, meshed) ||
           !suppress(plan_for_pieces(model_, made, meshed, given_, intersection_)))
@@ -99,6 +103,67 @@ public:
   }
 
 private:
+  realized<D> realize_once() {
+    auto made = realize<D>(model_, mesh_, divided_.sides, subdomain_of_element_,
+                           static_cast<std::size_t>(merges_.subdomains()), size_, made_, given_);
+    skeleton_seconds_ += made.summary.seconds;
+    made.summary.seconds = skeleton_seconds_;
+    return made;
+  }
+
+  /// Lets interfaces make detours around places where remeshing made an angle small, and takes the best of
+  /// what was realized on the way. A detour by which something crosses is none. Where the coarse interfaces
+  /// have such angles already, the rule does not care for them.
+  realized<D> with_clean_angles(realized<D> made) {
+    auto places = small_angles_of(made);
+    auto best = std::pair(places.size(), subdomain_of_element_);
+    while (!places.empty() && detour_rounds_ < most_detour_rounds &&
+           divided_.angles.count(violation_cause::remeshing) == 0) {
+      const auto before = subdomain_of_element_;
+      const std::size_t moved = detours_.avoid(places, subdomain_of_element_, merges_.subdomains());
+      if (moved == 0)
+        break;
+      ++detour_rounds_;
+      made = realize_once();
+      if (!plan_for_boundaries(made, made_, given_, intersection_).empty()) {
+        subdomain_of_element_ = before;
+        made = realize_once();
+        continue;
+      }
+      detours_made_ += moved;
+      places = small_angles_of(made);
+      if (places.size() < best.first)
+        best = {places.size(), subdomain_of_element_};
+    }
+    if (places.size() > best.first) {
+      subdomain_of_element_ = std::move(best.second);
+      made = realize_once();
+      small_angles_of(made);
+    }
+    made.summary.set("detour_rounds", detour_rounds_);
+    made.summary.set("detours", static_cast<double>(detours_made_));
+    return made;
+  }
+
+  /// Measures the interface angles; returns the coarse sides at each that is small and not forced.
+  std::vector<std::vector<local_id>> small_angles_of(const realized<D>& made) {
+    const byte_buffer found = given_.run_tasks.once([&] {
+      angles_ = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
+                                              given_.options);
+      byte_writer to;
+      encode(to, angles_);
+      for (const auto& sides : detail::places_of_small_angles(made, divided_.sides, angles_))
+        to.array(sides);
+      return to.take();
+    });
+    byte_reader from(found);
+    angles_ = decode_interface_angles(from);
+    std::vector<std::vector<local_id>> places;
+    while (!from.at_end())
+      places.push_back(from.array<local_id>());
+    return places;
+  }
+
   /// Whether nothing is to be done; does it otherwise.
   bool suppress(const suppression_plan& plan) {
     if (plan.empty())
@@ -158,19 +223,26 @@ private:
     return refused.empty();
   }
 
+  /// Each takes the time of what it changes, and mostly two are enough.
+  static constexpr int most_detour_rounds = 8;
+
   const any_geometry& model_;
   const simplicial_background<D>& mesh_;
-  const side_table<D>& sides_;
+  const divided_background<D>& divided_;
   any_parameters<D> given_;
   std::vector<local_id> subdomain_of_element_;
   merge_account merges_;
   refined_sizing size_; ///< the field given, smaller where something crossed
+  interface_detours<D> detours_;
+  interface_angles angles_; ///< of what was last realized
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;
   std::set<content_key> finished_; ///< pieces, of all rounds
   report intersection_;
   double skeleton_seconds_ = 0;
   int refinements_ = 0;
+  int detour_rounds_ = 0;
+  std::size_t detours_made_ = 0; ///< super-elements that changed their subdomain for one
   local_id merged_after_failure_ = 0;
   std::vector<std::string> told_;
 };

@@ -1,0 +1,41 @@
+/// @file
+/// From a background mesh to its parts: simplification and partition (paper, sections 3.3 and 3.4).
+#pragma once
+
+#include "dovetail/core/report.hpp"
+#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/mesh/side_state.hpp"
+#include "dovetail/pipeline/any_parameters.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace dovetail {
+
+/// A background mesh cut into parts, and what the steps after that need to know of how it came about.
+template <int D>
+struct divided_background {
+  side_table<D> sides;
+  std::vector<double> weights; ///< predicted elements, per coarse element
+  std::vector<side_state> side_states;
+  decomposition pieces;
+  interface_angles angles;
+  report simplification, partition;
+};
+
+/// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws what the rule, the
+/// partitioner and `decompose` throw.
+template <int D>
+divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
+                             const any_parameters<D>& given);
+
+/// Each solid is a part.
+divided_background<3> leave_undivided(const simplicial_background<3>& cones, std::size_t solids);
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/divide.ipp"
+#endif
