@@ -53,6 +53,22 @@ TEST_CASE("a square with a hole and an inner line: area, hole and line are kept"
   CHECK(along_line == doctest::Approx(std::hypot(0.2, 0.5) + std::hypot(0.1, 0.1)));
 }
 
+TEST_CASE("how heavy a super-element may become is an option") {
+  const auto heaviest = [](contraction_bound bound) {
+    auto options = in_parts(5);
+    options.super_elements = bound;
+    const auto result =
+        generate<2>(plane_domain(square_with_hole()), uniform_size(0.03),
+                    parameters<>{}
+                        .with_simplifier(simplifier::paper{.surface_wedge_deg = 70, .surface_shape_deg = 50})
+                        .with_options(options));
+    return result.summary.find("simplification").get("heaviest_super_element");
+  };
+  const double usual = heaviest({});
+  CHECK(heaviest({.fraction = 0.02, .always_allowed_elements = 2}) < 0.5 * usual);
+  CHECK(heaviest({.subdomains = 1000}) == usual); // these are those of the mesh
+}
+
 TEST_CASE("cut lines meet no small corners, coarse and fine") {
   const auto result = mesh_plane(plane_domain(square_with_hole()), 0.02, 8);
   CHECK(result.coarse_angles.interface_faces > 10);

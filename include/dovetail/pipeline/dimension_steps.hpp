@@ -32,13 +32,13 @@ inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
 template <int D>
   requires(D == 2)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
-                                   std::span<const double> weights, int subdomains,
+                                   std::span<const double> weights, const contraction_bound& bound,
                                    const any_simplification_rule& rule, report& summary,
                                    const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto simplified = simplify<D>(mesh.surface.mesh, sides, rule,
-                                {.fixed_sides = span_of(on_curves), .element_weights = weights},
-                                {.subdomains = static_cast<double>(subdomains)}, on_progress);
+  auto simplified =
+      simplify<D>(mesh.surface.mesh, sides, rule,
+                  {.fixed_sides = span_of(on_curves), .element_weights = weights}, bound, on_progress);
   summary = simplified.summary;
   return simplified;
 }
@@ -46,13 +46,13 @@ simplification simplify_background(const simplicial_background<D>& mesh, const s
 template <int D>
   requires(D == 3)
 simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
-                                   std::span<const double> weights, int subdomains,
+                                   std::span<const double> weights, const contraction_bound& bound,
                                    const any_simplification_rule& rule, report& summary,
                                    const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto coupled = simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
-                                  {.curve_edges = span_of(on_curves), .element_weights = weights},
-                                  {.subdomains = static_cast<double>(subdomains)}, on_progress);
+  auto coupled =
+      simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
+                       {.curve_edges = span_of(on_curves), .element_weights = weights}, bound, on_progress);
   summary = std::move(coupled.summary);
   return std::move(coupled.volume);
 }

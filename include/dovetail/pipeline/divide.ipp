@@ -25,7 +25,9 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   const stopwatch simplification_clock;
   result.sides = build_sides(coarse.elements());
   result.weights = predict_elements<D>(coarse.elements(), size).per_element;
-  auto simplified = simplify_background(coarse, result.sides, result.weights, subdomains, given.simplify_by,
+  contraction_bound bound = options.super_elements;
+  bound.subdomains = subdomains;
+  auto simplified = simplify_background(coarse, result.sides, result.weights, bound, given.simplify_by,
                                         result.simplification, options.on_progress);
   result.simplification.seconds = simplification_clock.seconds();
 

@@ -12,6 +12,7 @@
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/types.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
 #include <filesystem>
@@ -36,6 +37,9 @@ struct generate_options {
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
+  /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
+  /// is given.
+  contraction_bound super_elements = {};
   /// Angles of interfaces and between them under these are counted as violations of the interface angles
   /// (in D = 3 and D = 2); what keeps such interfaces from being chosen is the simplification's rule.
   double interface_angle_deg = 30;
