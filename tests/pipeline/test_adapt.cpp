@@ -1,5 +1,7 @@
 /// Meshes made anew in other sizes: boundary, materials and ids stay; nothing drifts away.
 #include "dovetail/geometry/discrete_model.hpp"
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/geometry/plane_svg_path.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/gather.hpp"
 #include "dovetail/io/mesh_hash.hpp"
@@ -187,6 +189,46 @@ TEST_CASE("triangles are adapted by the same template, with their ids") {
   REQUIRE(after.size() == 6);
   for (const auto& [id, area] : before)
     CHECK(after.at(id) == doctest::Approx(area).epsilon(1e-12));
+}
+
+TEST_CASE("edges of triangles keep their ids, and ids end where they did") {
+  const plane_domain square(drawing_from_svg_path("M0 0 H1 V1 H0 Z"));
+  const auto whole = io::gather(generate<2>(square, uniform_size(0.125), parameters<>{}).mesh);
+  // The bottom has two ids that meet in its middle, the right side one, the rest none.
+  adaptable_mesh<2> old{whole.mesh, whole.sides};
+  for (const auto& [a, b] : whole.sides) {
+    const vec3 at = midpoint(whole.mesh.points[static_cast<std::size_t>(a)],
+                             whole.mesh.points[static_cast<std::size_t>(b)]);
+    old.side_ids.push_back(at.y < 1e-9 ? (at.x < 0.5 ? 7 : 8) : at.x > 1 - 1e-9 ? 9 : no_id);
+  }
+  const auto length_by_id = [](const adaptable_mesh<2>& mesh) {
+    std::map<local_id, double> length;
+    for (std::size_t s = 0; s < mesh.sides.size(); ++s)
+      length[mesh.side_ids[s]] += distance(mesh.mesh.points[static_cast<std::size_t>(mesh.sides[s][0])],
+                                           mesh.mesh.points[static_cast<std::size_t>(mesh.sides[s][1])]);
+    return length;
+  };
+  const auto made = adapt<2>(old, uniform_size(0.09), parameters<>{});
+  CHECK(made.summary.warnings.empty());
+  const auto next = whole_mesh(made);
+  CHECK(next.sides.size() > old.sides.size());
+  const auto before = length_by_id(old), after = length_by_id(next);
+  REQUIRE(after.size() == 4);
+  for (const auto& [id, length] : before)
+    CHECK(after.at(id) == doctest::Approx(length).epsilon(1e-12));
+
+  const auto sides = build_sides(old.mesh);
+  local_id inner = 0;
+  while (sides.is_boundary(inner))
+    ++inner;
+  old.sides.push_back(sides.vertices[static_cast<std::size_t>(inner)]);
+  old.side_ids.push_back(3);
+  CHECK(adapt<2>(old, uniform_size(0.09), parameters<>{}).summary.warnings ==
+        std::vector<std::string>{
+            "1 edges with ids are neither on the boundary nor at a feature; the adapted mesh "
+            "knows nothing of them"});
+  old.side_ids.push_back(4);
+  CHECK_THROWS_AS(adapt<2>(old, uniform_size(0.09), parameters<>{}), mesh_error);
 }
 
 TEST_CASE("what cannot be adapted is refused by typed errors") {

@@ -44,6 +44,9 @@ public:
   /// The number that came with the triangles of face f, or no_id.
   local_id face_id(local_id f) const { return data_->flat.face_id(f); }
 
+  /// The model whose points are displaced.
+  const discrete_model& flat() const { return data_->flat; }
+
   vec3 curve_point(local_id c, double t) const { return carried(data_->flat.curve_point(c, t)); }
   dovetail::curve_frame curve_frame(local_id c, double t) const {
     const auto straight = data_->flat.curve_frame(c, t);

@@ -36,7 +36,8 @@ namespace discrete {
 class chart_cutter {
 public:
   chart_cutter(const oriented_surfaces& surfaces, const chart_options& options)
-      : s_{surfaces.mesh, {}, {}, surfaces.groups, surfaces.solid_of, surfaces.front_of, {}},
+      : s_{surfaces.mesh,   {}, {}, surfaces.groups, surfaces.solid_of, surfaces.front_of, {},
+           surfaces.corners},
         measures_(s_.mesh), cone_(std::cos(options.cone_angle_deg * radians_per_degree)) {
     s_.front_of.resize(triangles().size(), no_id);
     connect();

@@ -23,6 +23,7 @@ struct charted_surface {
   std::vector<local_id> solid_of;  ///< per triangle: the solid behind it; no_id in sheets
   std::vector<local_id> front_of;  ///< per triangle: the solid in front of it; no_id where there is none
   std::vector<discrete::chart_frame> frames; ///< per chart
+  std::vector<local_id> corners = {};        ///< points where curves end, whatever their angle
 
   /// All that is known per triangle.
   std::array<std::vector<local_id>*, 5> of_triangles() {

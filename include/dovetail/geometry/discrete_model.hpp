@@ -2,6 +2,7 @@
 /// A triangulated surface as a geometry model.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/discrete_chart_surface.hpp"
 #include "dovetail/geometry/discrete_merge.hpp"
 #include "dovetail/geometry/discrete_read.hpp"
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +73,9 @@ public:
   local_id face_id(local_id f) const { return data_->face_ids[index(f)]; }
   /// The triangles, split where charts end; `chart_of` is the face of each.
   const charted_surface& surface() const { return data_->surface; }
+
+  /// The parameters of a curve's corners, where edges of triangles meet: ascending.
+  std::span<const double> lengths_along(local_id c) const { return span_of(data_->curves[index(c)].lengths); }
 
   vec3 curve_point(local_id c, double t) const {
     const auto [segment, s] = place(c, t);

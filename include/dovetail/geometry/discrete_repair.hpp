@@ -34,6 +34,7 @@ struct oriented_surfaces {
   std::vector<local_id> solid_of;      ///< per triangle: the solid behind it; no_id in sheets
   std::vector<local_id> front_of;      ///< per triangle: the solid in front of it; empty: nowhere is one
   local_id solids = 0;
+  std::vector<local_id> corners = {}; ///< points where curves end, whatever their angle
   report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
 };
 

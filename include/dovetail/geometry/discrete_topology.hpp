@@ -117,8 +117,8 @@ private:
     return edges_[e].ends[0] == v ? edges_[e].ends[1] : edges_[e].ends[0];
   }
 
-  /// Curves end where other than two edges meet, where the charts beside them change, and where they turn
-  /// sharply.
+  /// Curves end where other than two edges meet, where the charts beside them change, where they turn
+  /// sharply, and at given corners.
   void find_breaks() {
     breaks_.assign(s_.mesh.points.size(), 0);
     for (std::size_t k = 0; k < at_vertex_.size(); ++k) {
@@ -137,6 +137,8 @@ private:
       }
       breaks_[index(v)] = ends ? 1 : 0;
     }
+    for (const local_id v : s_.corners)
+      breaks_[index(v)] = 1;
   }
 
   local_id model_vertex(local_id v) {

@@ -2,6 +2,8 @@
 /// The surfaces that a mesh ends at, and that its materials meet at, as what geometry models are made of.
 #pragma once
 
+#include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
 #include "dovetail/mesh/adjacency.hpp"
@@ -9,7 +11,10 @@
 #include "dovetail/mesh/validity.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +70,46 @@ inline std::pair<std::vector<local_id>, std::vector<local_id>> solids_of(const s
   return {std::move(solid), std::move(materials)};
 }
 
+inline void require_ids(std::size_t sides, const std::vector<local_id>& ids, const std::string& side) {
+  if (sides != ids.size())
+    throw mesh_error("there are " + std::to_string(sides) + " " + side + "s and " +
+                     std::to_string(ids.size()) + " ids; give one id per " + side);
+  for (std::size_t s = 0; s < ids.size(); ++s)
+    if (ids[s] < 0 && ids[s] != no_id)
+      throw mesh_error(side + " " + std::to_string(s) + " has the id " + std::to_string(ids[s]) +
+                       "; ids are not negative");
+}
+
+/// Points where an id of edges begins or ends, numbered as after `drop_unused_points`.
+inline std::vector<local_id> ends_of_ids(const simplicial_mesh<2>& mesh, const std::vector<simplex<1>>& edges,
+                                         const std::vector<local_id>& ids) {
+  std::vector<std::pair<local_id, local_id>> at; // (point, id)
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const local_id v : edges[e]) {
+      if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
+        throw mesh_error("edge " + std::to_string(e) + " has the point " + std::to_string(v) +
+                         ", which does not exist");
+      at.emplace_back(v, ids[e]);
+    }
+  sort_all(at);
+  std::vector<local_id> number(mesh.points.size(), no_id);
+  for (const auto& triangle : mesh.elements)
+    for (const local_id v : triangle)
+      number[static_cast<std::size_t>(v)] = 0;
+  local_id next = 0;
+  for (local_id& n : number)
+    n = n == no_id ? no_id : next++;
+  std::vector<local_id> corners;
+  for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
+    while (last < at.size() && at[last].first == at[first].first)
+      ++last;
+    const local_id point = number[static_cast<std::size_t>(at[first].first)];
+    if (point != no_id && (last - first != 2 || at[first].second != at[last - 1].second))
+      corners.push_back(point);
+  }
+  return corners;
+}
+
 } // namespace detail
 
 /// The boundary of a mesh and of its materials (`mesh.tags`). `given` are sides with ids, in any orientation;
@@ -74,16 +119,10 @@ inline std::pair<std::vector<local_id>, std::vector<local_id>> solids_of(const s
 inline mesh_boundary boundary_of(const simplicial_mesh<3>& mesh, const std::vector<simplex<2>>& given,
                                  const std::vector<local_id>& ids) {
   detail::require_boundary_to_find(mesh);
-  if (given.size() != ids.size())
-    throw mesh_error("there are " + std::to_string(given.size()) + " sides and " +
-                     std::to_string(ids.size()) + " ids; give one id per side");
+  detail::require_ids(given.size(), ids, "side");
   std::vector<std::pair<simplex<2>, local_id>> known;
-  for (std::size_t s = 0; s < given.size(); ++s) {
-    if (ids[s] < 0 && ids[s] != no_id)
-      throw mesh_error("side " + std::to_string(s) + " has the id " + std::to_string(ids[s]) +
-                       "; ids are not negative");
+  for (std::size_t s = 0; s < given.size(); ++s)
     known.emplace_back(sorted_vertices(given[s]), ids[s]);
-  }
   std::sort(known.begin(), known.end());
 
   const side_table<3> sides = build_sides(mesh);
@@ -124,19 +163,68 @@ inline mesh_boundary boundary_of(const simplicial_mesh<3>& mesh, const std::vect
   return made;
 }
 
-/// A mesh of triangles as a surface: its tags are ids. Throws `mesh_error` for one that is empty, and
-/// `geometry_error` where it has one side only.
-inline oriented_surfaces surface_of(const simplicial_mesh<2>& mesh) {
+/// A mesh of triangles as a surface: its tags are ids. Where edges with ids (`given`, in any orientation)
+/// meet others, its curves have a corner. Throws `mesh_error` for one that is empty, and when ids are
+/// negative or not one per edge; `geometry_error` where it has one side only.
+inline oriented_surfaces surface_of(const simplicial_mesh<2>& mesh, const std::vector<simplex<1>>& given = {},
+                                    const std::vector<local_id>& ids = {}) {
   detail::require_boundary_to_find(mesh);
+  detail::require_ids(given.size(), ids, "edge");
   oriented_surfaces surfaces;
   surfaces.mesh.points = mesh.points;
   surfaces.mesh.elements = mesh.elements;
   surfaces.groups = mesh.tags;
   surfaces.groups.resize(mesh.elements.size(), no_id);
   surfaces.solid_of.assign(mesh.elements.size(), no_id);
+  surfaces.corners = detail::ends_of_ids(mesh, given, ids);
   drop_unused_points(surfaces.mesh);
   discrete::name_groups_by_numbers(surfaces);
   return surfaces;
 }
+
+/// Finds the ids of edges again on a model whose curves they make up.
+class edge_ids {
+public:
+  edge_ids(const std::vector<vec3>& points, const std::vector<simplex<1>>& edges, std::vector<local_id> ids)
+      : ids_(std::move(ids)), met_(ids_.size(), false) {
+    std::vector<box3> boxes;
+    for (const auto& [a, b] : edges) {
+      ends_.push_back({points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]});
+      box3& box = boxes.emplace_back();
+      box.include(ends_.back()[0]), box.include(ends_.back()[1]);
+    }
+    tree_ = box_tree(boxes);
+  }
+
+  /// The id of the edge nearest to a point, which counts as met; no_id where none is within 1e-6 of its
+  /// length. O(log edges).
+  local_id at(vec3 p) {
+    double best = std::numeric_limits<double>::infinity();
+    std::size_t found = 0;
+    tree_.for_each_near(
+        p, [&](const box3& box, std::size_t) { return distance_squared(box, p) <= best; },
+        [&](local_id edge) {
+          const auto& [a, b] = ends_[static_cast<std::size_t>(edge)];
+          const double s = nearest_on_segment(a, b, p)[1];
+          const double away = norm_squared(a + s * (b - a) - p);
+          if (away < best || (away == best && static_cast<std::size_t>(edge) < found)) {
+            best = away;
+            found = static_cast<std::size_t>(edge);
+          }
+        });
+    if (ids_.empty() || !(std::sqrt(best) <= 1e-6 * distance(ends_[found][0], ends_[found][1])))
+      return no_id;
+    met_[found] = true;
+    return ids_[found];
+  }
+  /// Edges that no point was at.
+  std::size_t missed() const { return static_cast<std::size_t>(std::count(met_.begin(), met_.end(), false)); }
+
+private:
+  std::vector<local_id> ids_;
+  std::vector<bool> met_;
+  std::vector<std::array<vec3, 2>> ends_;
+  box_tree tree_;
+};
 
 } // namespace dovetail

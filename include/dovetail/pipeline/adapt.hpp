@@ -19,9 +19,10 @@ namespace dovetail {
 template <int D>
 struct adaptable_mesh {
   simplicial_mesh<D> mesh; ///< tags: materials (D = 3), ids of surfaces (D = 2); none: all are 0
-  /// Sides with ids, in any orientation (D = 3): on the boundary or between materials. Edges between two ids
-  /// stay where they are. Sides that are not listed have none.
-  std::vector<simplex<2>> sides = {};
+  /// Sides with ids, in any orientation: on the boundary or between materials (D = 3), or between ids (D =
+  /// 2). Edges between two ids (D = 3), and points between two (D = 2), stay where they are. Sides that are
+  /// not listed have none.
+  std::vector<simplex<D - 1>> sides = {};
   std::vector<local_id> side_ids = {};
   /// Per element: the part of the adaptation that made it, for solvers in parallel; not looked at.
   std::vector<local_id> subdomains = {};
@@ -33,7 +34,8 @@ struct adapted : generated<D> {
   any_geometry model;
   std::vector<local_id> id_of_face; ///< per face of the model, which side_hosts and tags (D = 2) refer to
   std::vector<local_id>
-      material_of_solid; ///< per solid of the model: `material` of pieces is a solid (D = 3)
+      material_of_solid;                  ///< per solid of the model: `material` of pieces is a solid (D = 3)
+  std::vector<local_id> id_of_curve = {}; ///< per curve of the model: that of the edges on it (D = 2)
 };
 
 /// The model of a mesh's boundary: smooth between its points as its normals tell, so that boundaries do not
@@ -44,6 +46,7 @@ struct boundary_model {
   std::vector<local_id> id_of_face;
   std::vector<local_id> material_of_solid;
   std::vector<std::string> warnings;
+  std::vector<local_id> id_of_curve = {}; ///< D = 2
 };
 
 /// Throws `mesh_error` for a mesh without elements or with faults, and when there is not one id per side.

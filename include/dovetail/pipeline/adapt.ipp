@@ -20,19 +20,40 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// The id of the edges that make up a curve: all its segments are asked for, so that all are met.
+inline local_id id_along(const discrete_model& model, local_id curve, edge_ids& ids) {
+  const auto lengths = model.lengths_along(curve);
+  local_id id = no_id;
+  for (std::size_t k = 1; k < lengths.size(); ++k)
+    id = std::max(id, ids.at(model.curve_point(curve, 0.5 * (lengths[k - 1] + lengths[k]))));
+  return id;
+}
+
+} // namespace detail
+
 template <int D>
 boundary_model<D> model_of_boundary(const adaptable_mesh<D>& old, double feature_angle_deg) {
   mesh_boundary boundary;
   if constexpr (D == 3)
     boundary = boundary_of(old.mesh, old.sides, old.side_ids);
   else
-    boundary.surfaces = surface_of(old.mesh);
+    boundary.surfaces = surface_of(old.mesh, old.sides, old.side_ids);
   const curved_model model(boundary.surfaces,
                            {.feature_angle_deg = feature_angle_deg, .allow_sheets = D == 2});
   boundary_model<D> made{
       model, {}, std::move(boundary.material_of_solid), std::move(boundary.surfaces.repairs.warnings)};
   for (std::size_t f = 0; f < model.topology().faces.size(); ++f)
     made.id_of_face.push_back(model.face_id(static_cast<local_id>(f)));
+  if constexpr (D == 2) {
+    edge_ids ids(old.mesh.points, old.sides, old.side_ids);
+    for (std::size_t c = 0; c < model.topology().curves.size(); ++c)
+      made.id_of_curve.push_back(detail::id_along(model.flat(), static_cast<local_id>(c), ids));
+    if (const std::size_t missed = ids.missed(); missed > 0)
+      made.warnings.push_back(std::to_string(missed) + " edges with ids are neither on the boundary nor at a "
+                                                       "feature; the adapted mesh knows nothing of them");
+  }
   return made;
 }
 
@@ -82,7 +103,8 @@ template <int D>
 adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const any_parameters<D>& given) {
   adapted<D> made{
       generate_from_background<D>(boundary.model, make_background<D>(boundary.model, size, given), given),
-      std::move(boundary.model), std::move(boundary.id_of_face), std::move(boundary.material_of_solid)};
+      std::move(boundary.model), std::move(boundary.id_of_face), std::move(boundary.material_of_solid),
+      std::move(boundary.id_of_curve)};
   append(made.summary.warnings, boundary.warnings);
   return made;
 }
@@ -94,14 +116,15 @@ adaptable_mesh<D> whole_mesh(const adapted<D>& made) {
     for (local_id& n : numbers)
       n = by[static_cast<std::size_t>(n)];
   };
+  replace(whole.side_hosts, D == 3 ? made.id_of_face : made.id_of_curve);
   adaptable_mesh<D> result{.mesh = std::move(whole.mesh), .subdomains = std::move(whole.subdomains)};
   if constexpr (D == 3) {
     replace(result.mesh.tags, made.material_of_solid);
-    replace(whole.side_hosts, made.id_of_face);
-    result.sides = std::move(whole.sides);
-    result.side_ids = std::move(whole.side_hosts);
-  } else
+  } else {
     replace(result.mesh.tags, made.id_of_face);
+  }
+  result.sides = std::move(whole.sides);
+  result.side_ids = std::move(whole.side_hosts);
   return result;
 }
 
