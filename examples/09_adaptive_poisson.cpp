@@ -154,6 +154,7 @@ int main(int argc, char** argv) try {
   }
 
   std::puts("adapted:  elements      error");
+  // part loop
   adaptable_mesh<3> mesh{io::gather(generate<3>(model, uniform_size(0.24), policies).mesh).mesh};
   for (int loop = 0;; ++loop) {
     const auto u = solve(mesh.mesh, exact);
@@ -170,6 +171,7 @@ int main(int argc, char** argv) try {
         new_sizes(mesh.mesh, estimate(mesh.mesh, u), 1.7 * static_cast<double>(mesh.mesh.elements.size()));
     mesh = whole_mesh(adapt<3>(mesh, sizes, policies));
   }
+  // end
   std::puts("the uniform meshes have won");
   return 1;
 } catch (const dovetail::error& problem) {

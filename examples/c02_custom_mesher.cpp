@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <vector>
 
+// part mesher
 /// Meshes each subdomain by TetGen with elements that grow towards the subdomain's centre. Its boundary stays
 /// as it is, so that neighbours fit.
 struct coarse_core {
@@ -34,13 +35,16 @@ struct coarse_core {
   std::vector<coarse_core> fallbacks() const { return {coarse_core{.growth = 1, .fill = fill}}; }
 };
 static_assert(dovetail::boundary_keeping_mesher<coarse_core, 3>);
+// end
 
 int main(int argc, char** argv) try {
   using namespace dovetail;
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
   const uniform_size size(model.bounds().diagonal() / 25);
   const auto plain = generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}));
+  // part use
   const auto grown = generate<3>(model, size, parameters<>{}.with_mesher(coarse_core{.growth = 3}));
+  // end
   std::printf("%lld tetrahedra of one size, %lld with a coarse core in each of %zu subdomains\n",
               static_cast<long long>(plain.quality.elements), static_cast<long long>(grown.quality.elements),
               grown.mesh.counts.size());

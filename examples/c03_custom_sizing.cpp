@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+// part field
 /// Fine in a plane, coarser away from it: a shear layer, a weld, a crack.
 struct layer {
   dovetail::vec3 on, normal; ///< a point of the plane, its unit normal
@@ -17,10 +18,12 @@ struct layer {
   double operator()(dovetail::vec3 p) const { return finest + growth * std::abs(dot(p - on, normal)); }
 };
 static_assert(dovetail::sizing_field<layer>);
+// end
 
 int main(int argc, char** argv) try {
   using namespace dovetail;
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
+  // part use
   const box3 box = model.bounds();
   const double coarse = box.diagonal() / 20;
   const layer weld{.on = box.center(), .normal = {1, 0, 0}, .finest = coarse / 6};
@@ -28,6 +31,7 @@ int main(int argc, char** argv) try {
 
   const auto size = minimum_of(weld, fine_corner, [=](vec3) { return coarse; });
   const auto result = generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}));
+  // end
 
   const mesh_piece piece = result.mesh.load(0);
   std::printf("%lld tetrahedra; %.3g is asked for at the centre, %.3g at the lower corner\n",

@@ -10,6 +10,7 @@
 #include <optional>
 #include <tuple>
 
+// part rule
 /// No interface comes near a point, as far as subdomains stay in balance: what happens there is computed by
 /// one worker. Elsewhere two interfaces include no angle under 30 degrees.
 struct away_from {
@@ -38,14 +39,17 @@ struct away_from {
   /// The weight of a side that balance forbids to remove, in the graph that is partitioned.
   double price(const dovetail::shortfall& missed) const { return 1 + 200 * (1 - missed.fraction()); }
 };
+// end
 
 int main(int argc, char** argv) try {
   using namespace dovetail;
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
   const auto box = model.bounds();
+  // part use
   const auto plain = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 8});
   const auto given = plain.with_simplifier(away_from{box.center(), 0.2 * box.diagonal()});
   const auto result = generate<3>(model, uniform_size(box.diagonal() / 25), given);
+  // end
   std::printf("%lld tetrahedra in %zu subdomains\n", static_cast<long long>(result.quality.elements),
               result.mesh.counts.size());
   return result.failures.empty() ? 0 : 1;

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Every relative link and picture in the documents leads to a file, and what follows a # to a heading in it.
+# Every relative link and picture in the documents, code aside, leads to a file, and what follows a # to a heading in it.
 set -uo pipefail
 problems=0
 
@@ -18,6 +18,6 @@ for document in *.md docs/*.md docs/*/*.md; do
     [[ -e $file ]] || { echo "$document: $target does not exist"; problems=1; continue; }
     [[ $target == *#* && $file == *.md ]] || continue
     anchors_of "$file" | grep -qxF -- "${target#*#}" || { echo "$document: $target: there is no such heading"; problems=1; }
-  done < <(grep -oE '\]\([^) ]+\)' "$document" | sed 's/^](//; s/)$//')
+  done < <(awk '/^```/ { code = !code; next } !code' "$document" | grep -oE '\]\([^) ]+\)' | sed 's/^](//; s/)$//')
 done
 exit $problems
