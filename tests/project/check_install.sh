@@ -1,6 +1,6 @@
 #!/bin/bash
-# Installs the library and builds and runs a separate project against it: header-only, from a build of which nothing was
-# made, and against the compiled libraries of a build that has them.
+# Builds and runs separate projects: against an installation, header-only, from a build of which nothing was made, and with
+# the compiled libraries of a build that has them; and with the library as a subfolder.
 #   check_install.sh <cmake> <source directory> <work directory> <compiler> [<build directory with compiled libraries>]
 set -euo pipefail
 cmake=$1
@@ -29,14 +29,33 @@ check_consumer() { # prefix, build directory, options
   "$build/consumer"
 }
 
+small=$source_directory/tests/project/small_consumer
+check_small() { # name, options
+  local build=$work/small_$1
+  shift
+  "$cmake" -S "$small" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" "$@"
+  "$cmake" --build "$build"
+  "$build/small_consumer"
+}
+
 "$cmake" -S "$source_directory" -B "$work/build" -DCMAKE_CXX_COMPILER="$compiler" \
   -DDOVETAIL_BUILD_TESTS=OFF -DDOVETAIL_BUILD_EXAMPLES=OFF -DDOVETAIL_BUILD_BENCHMARKS=OFF
 install_moved "$work/build" "$work/elsewhere"
 check_consumer "$work/elsewhere" "$work/consumer"
+check_small installed -DCMAKE_PREFIX_PATH="$work/elsewhere"
+
+# As a subfolder of an empty project it brings the library alone: no program, no tests, nothing to install.
+check_small subfolder -DSUBFOLDER="$source_directory"
+"$cmake" --build "$work/small_subfolder" --target help >"$work/targets"
+if grep -E "(^|[ /])(dovetail_compiled|dovetail|test_[a-z_]+|example_[a-z0-9_]+|install)(:|$| )" "$work/targets"; then
+  echo "the targets above are not wanted in a project that has the library as a subfolder"
+  exit 1
+fi
 
 if [[ -n $compiled_build ]]; then
   install_moved "$compiled_build" "$work/compiled"
   check_consumer "$work/compiled" "$work/compiled_consumer" -DEXTRA_COMPONENT=compiled_occt
+  check_small compiled -DCMAKE_PREFIX_PATH="$work/compiled" -DCOMPONENT=compiled
   if nm -C "$work/compiled_consumer/CMakeFiles/consumer.dir/main.cpp.o" | grep " W dovetail::occt_shape_from"; then
     echo "the program that links the compiled library has compiled its functions again"
     exit 1
