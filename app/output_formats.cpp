@@ -4,8 +4,10 @@
 #include "named_policies.hpp"
 
 #include "dovetail/io/msh_writer.hpp"
+#include "dovetail/io/openfoam_format.hpp"
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
+#include "dovetail/io/rank_msh_format.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/redistribution/any_redistributor.hpp"
@@ -43,6 +45,10 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
     known.push_back({format.name(), bytes_per_element, writer, true});
   };
   add_by_ranks(D == 3 ? 65.0 : 60.0, io::pvtu_format{});
+  if constexpr (D == 3) {
+    add_by_ranks(50.0, io::rank_msh_format{});
+    add_by_ranks(85.0, io::openfoam_format{});
+  }
   return known;
 }
 

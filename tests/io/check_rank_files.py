@@ -2,6 +2,8 @@
 """Reads the files of a parallel solver with somebody else's reader and checks that the ranks make one mesh:
 check_rank_files.py FORMAT FOLDER RANKS. Prints one line of counts; exit status 0 when all is well."""
 
+import os
+import subprocess
 import sys
 
 import numpy as np
@@ -98,6 +100,29 @@ def check_pvtu(folder, count):
                               np.concatenate([r[name] if name != "cells" else r["ids"][r["cells"]] for r in ranks])):
             fail(f"the PVTU has other {name} than its files")
     check_ranks(ranks)
+
+
+def check_openfoam(folder, count):
+    """OpenFOAM's own checkMesh, on all processors at once."""
+    def dictionary(name, text):
+        with open(f"{folder}/system/{name}", "w", encoding="ascii") as file:
+            file.write("FoamFile { version 2.0; format ascii; class dictionary; object %s; }\n%s" % (name, text))
+
+    os.makedirs(f"{folder}/system", exist_ok=True)
+    dictionary("controlDict", "startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1; "
+                              "writeControl timeStep; writeInterval 1;")
+    dictionary("decomposeParDict", f"numberOfSubdomains {count}; method none;")
+    dictionary("fvSchemes", "".join(f"{kind}Schemes {{}} " for kind in
+                                    ("ddt", "grad", "div", "laplacian", "interpolation", "snGrad")))
+    dictionary("fvSolution", "")
+    environment = dict(os.environ, WM_PROJECT_DIR="/usr/share/openfoam", OMPI_ALLOW_RUN_AS_ROOT="1",
+                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_btl_vader_single_copy_mechanism="none",
+                       OMPI_MCA_mpi_yield_when_idle="1")
+    run = subprocess.run(["mpirun", "--oversubscribe", "-n", str(count), "checkMesh", "-parallel", "-constant",
+                          "-allTopology"], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    print(run.stdout, run.stderr)
+    if run.returncode != 0 or "Mesh OK." not in run.stdout:
+        fail("checkMesh is not content")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include "dovetail/geometry/plane_svg_path.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/openfoam_format.hpp"
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/vtu_writer.hpp"
@@ -84,6 +85,31 @@ TEST_CASE("PVTU of triangles") {
   INFO(log);
   CHECK(status == 0);
   CHECK(log.find("measure 5.750000000") != std::string::npos);
+}
+
+TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in another order wrong") {
+  if (std::system("command -v checkMesh mpirun > /dev/null 2>&1") != 0) {
+    MESSAGE("skipped: OpenFOAM is not installed");
+    return;
+  }
+  const testing::scratch_folder folder("ranks_openfoam");
+  io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
+  auto [status, log] = check("openfoam", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  for (const char* line :
+       {"cells:            1296", "boundary patches: 3", "Total volume = 1.", "Number of regions: 1",
+        "side_walls          288", "Upper triangular ordering OK", "solid__0_____       432"})
+    CHECK_MESSAGE(log.find(line) != std::string::npos, line);
+
+  const auto faces = folder / "processor2/constant/polyMesh/faces"; // its last patch is one of a processor
+  auto text = testing::file_content(faces);
+  const auto last = text.rfind("3(");
+  const auto before = text.rfind("3(", last - 1);
+  const auto end = text.find('\n', last);
+  testing::write_content(faces, text.substr(0, before) + text.substr(last, end + 1 - last) +
+                                    text.substr(before, last - before) + text.substr(end + 1));
+  CHECK(check("openfoam", folder, 3).first != 0);
 }
 
 TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {

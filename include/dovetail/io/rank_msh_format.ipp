@@ -1,0 +1,260 @@
+/// @file
+/// What `rank_msh_format.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/io/msh_writer.ipp"
+#include "dovetail/io/rank_msh_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+namespace detail {
+
+/// The skeleton of ranks: what lies between two subdomains of a rank and on no CAD face is not in it. Its
+/// subdomains are the materials of ranks.
+struct rank_skeleton {
+  distributed_mesh mesh;
+  std::vector<std::array<local_id, 2>> volumes; ///< per subdomain: rank, material
+
+  local_id volume(local_id rank, local_id material) const {
+    return static_cast<local_id>(
+        std::lower_bound(volumes.begin(), volumes.end(), std::array<local_id, 2>{rank, material}) -
+        volumes.begin());
+  }
+};
+
+inline rank_skeleton skeleton_of_ranks(const rank_source<3>& source) {
+  const auto& from = source.mesh;
+  rank_skeleton result;
+  for (std::size_t p = 0; p < from.counts.size(); ++p)
+    result.volumes.push_back({source.numbers.rank_of_piece[p], from.counts[p].material});
+  const auto of_piece = result.volumes;
+  sort_unique(result.volumes);
+  for (const auto& [rank, material] : result.volumes)
+    result.mesh.counts.push_back({material, 0, 0});
+  auto& skeleton = result.mesh.skeleton;
+  skeleton.points = from.skeleton.points;
+  skeleton.point_hosts = from.skeleton.point_hosts;
+  skeleton.curve_edges = from.skeleton.curve_edges;
+  skeleton.curves = from.skeleton.curves;
+  for (std::size_t s = 0; s < from.skeleton.sides.size(); ++s) {
+    auto volumes = from.skeleton.subdomains[s];
+    for (local_id& v : volumes)
+      if (v != no_id) {
+        const auto& [rank, material] = of_piece[static_cast<std::size_t>(v)];
+        v = result.volume(rank, material);
+      }
+    if (volumes[0] == volumes[1] && from.skeleton.side_hosts[s] == no_id)
+      continue;
+    skeleton.sides.push_back(from.skeleton.sides[s]);
+    skeleton.subdomains.push_back(volumes);
+    skeleton.side_hosts.push_back(from.skeleton.side_hosts[s]);
+  }
+  result.mesh.material_names = from.material_names;
+  result.mesh.face_names = from.face_names;
+  result.mesh.group_names = from.group_names;
+  return result;
+}
+
+/// The file of one rank.
+class rank_msh_file {
+public:
+  rank_msh_file(const rank_source<3>& source, const rank_mesh<3>& rank)
+      : numbers_(source.numbers), rank_(rank), ranks_(skeleton_of_ranks(source)),
+        unused_(number_globally(ranks_.mesh)), document_{ranks_.mesh,
+                                                         unused_,
+                                                         collect_face_groups(ranks_.mesh),
+                                                         collect_material_names(ranks_.mesh),
+                                                         {},
+                                                         {},
+                                                         true} {
+    const point_sharers sharers(ranks_.mesh.skeleton);
+    document_.cad = number_cad_entities(ranks_.mesh, sharers, document_.materials.size());
+    document_.parts = number_partition_entities(ranks_.mesh, sharers, document_.cad);
+    for (auto& dimension : document_.parts.entities.of_dimension)
+      for (auto& entity : dimension) {
+        for (local_id& s : entity.sharers)
+          s = ranks_.volumes[static_cast<std::size_t>(s)][0];
+        sort_unique(entity.sharers);
+      }
+    list_inner_vertices();
+    elements_.resize(ranks_.volumes.size());
+    for (std::size_t e = 0; e < rank.owned_elements; ++e)
+      elements_[volume_of(e)].push_back(static_cast<local_id>(e));
+  }
+
+  void write(const std::filesystem::path& path, bool binary) {
+    output_file file(path);
+    msh_encoder out(file, binary);
+    out.format();
+    write_physical_names(file, physical_names(document_));
+    out.begin("Entities");
+    write_entity_records(out, document_.cad, document_.groups, false);
+    out.end("Entities");
+    write_partitioned_entities(out, document_.parts, document_.groups,
+                               static_cast<std::size_t>(numbers_.ranks()), {});
+    write_nodes(out);
+    write_elements(out);
+    file.commit();
+  }
+
+private:
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  const msh_entities& parts() const { return document_.parts; }
+  std::size_t volume_of(std::size_t element) const {
+    return index(ranks_.volume(rank_.rank, rank_.mesh.tags[element]));
+  }
+  bool has_rank(const skeleton_entity& entity) const {
+    return std::binary_search(entity.sharers.begin(), entity.sharers.end(), rank_.rank);
+  }
+
+  /// Vertices that lie on no entity of the skeleton of ranks, by the volume of an element.
+  void list_inner_vertices() {
+    inner_.resize(ranks_.volumes.size());
+    std::vector<bool> listed(rank_.held_vertices, false);
+    const auto& of_point = parts().entities.of_point;
+    for (std::size_t e = 0; e < rank_.owned_elements; ++e)
+      for (const local_id v : rank_.mesh.elements[e]) {
+        const auto number = index(rank_.vertex_numbers[index(v)]);
+        const bool on_skeleton = number < of_point.size() && of_point[number].id != no_id;
+        if (listed[index(v)] || on_skeleton)
+          continue;
+        listed[index(v)] = true;
+        inner_[volume_of(e)].push_back(v);
+      }
+  }
+
+  /// Calls `visit(dimension, entity, count)` for the entities of the rank that have nodes.
+  template <class Visit>
+  void for_each_node_block(const Visit& visit) const {
+    for (std::size_t d = 0; d < 4; ++d)
+      for (std::size_t i = 0; i < parts().tags[d].size(); ++i)
+        if (const std::size_t count = d == 3 ? inner_[i].size() : parts().points[d][i].size();
+            count > 0 && has_rank(parts().entities.of_dimension[d][i]))
+          visit(d, i, count);
+  }
+  void write_nodes(msh_encoder& out) const {
+    std::uint64_t blocks = 0, nodes = 0;
+    for_each_node_block([&](std::size_t, std::size_t, std::size_t count) { ++blocks, nodes += count; });
+    out.begin("Nodes");
+    out.count(blocks);
+    out.count(nodes);
+    const auto ids = span_of(rank_.vertex_ids).first(rank_.held_vertices);
+    out.count(ids.empty() ? 0 : msh_tag(*std::min_element(ids.begin(), ids.end())));
+    out.count(ids.empty() ? 0 : msh_tag(*std::max_element(ids.begin(), ids.end())));
+    out.line();
+    for_each_node_block([&](std::size_t d, std::size_t i, std::size_t count) {
+      write_block_head(out, static_cast<int>(d), parts().tags[d][i], 0, static_cast<global_id>(count));
+      const auto& members = d == 3 ? inner_[i] : parts().points[d][i];
+      for (const local_id v : members) {
+        out.count(msh_tag(d == 3 ? rank_.vertex_ids[index(v)] : numbers_.point_ids[index(v)]));
+        out.line();
+      }
+      for (const local_id v : members) {
+        out.point(d == 3 ? rank_.mesh.points[index(v)] : ranks_.mesh.skeleton.points[index(v)]);
+        out.line();
+      }
+    });
+    out.end("Nodes");
+  }
+
+  template <std::size_t N>
+  void write_simplex(msh_encoder& out, std::uint64_t tag, const std::array<local_id, N>& points) const {
+    std::array<global_id, N> ids;
+    for (std::size_t k = 0; k < N; ++k)
+      ids[k] = numbers_.point_ids[index(points[k])];
+    write_element(out, tag, ids);
+  }
+  /// Elements of the skeleton in one entity: `members(i)` of them, numbered over all ranks.
+  template <class Write>
+  std::uint64_t write_shared_block(msh_encoder& out, std::size_t d, std::size_t i, msh_type type,
+                                   std::size_t count, std::uint64_t first_tag, const Write& write) const {
+    if (parts().entities.of_dimension[d][i].sharers.front() == rank_.rank && count > 0) {
+      write_block_head(out, static_cast<int>(d), parts().tags[d][i], static_cast<int>(type),
+                       static_cast<global_id>(count));
+      for (std::size_t k = 0; k < count; ++k)
+        write(k, first_tag + k);
+    }
+    return first_tag + count;
+  }
+  std::size_t shared_count(std::size_t d, std::size_t i) const {
+    return d == 0 ? 1 : parts().simplices[d][i].size();
+  }
+  void write_elements(msh_encoder& out) const {
+    const std::uint64_t first_shared = msh_tag(numbers_.first_element.back()); // after those of dimension 3
+    std::uint64_t blocks = 0, total = rank_.owned_elements, next = first_shared;
+    std::uint64_t least = total > 0 ? msh_tag(rank_.element_ids.front()) : next;
+    std::uint64_t last = total > 0 ? least + total - 1 : 0;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t i = 0; i < parts().tags[d].size(); ++i, next += shared_count(d, i - 1))
+        if (shared_count(d, i) > 0 && parts().entities.of_dimension[d][i].sharers.front() == rank_.rank) {
+          ++blocks, total += shared_count(d, i);
+          least = std::min(least, next);
+          last = next + shared_count(d, i) - 1;
+        }
+    for (const auto& elements : elements_)
+      blocks += elements.empty() ? 0 : 1;
+    out.begin("Elements");
+    out.count(blocks);
+    out.count(total);
+    out.count(least);
+    out.count(last);
+    out.line();
+    std::uint64_t tag = first_shared;
+    const auto& skeleton = parts().entities;
+    for (std::size_t i = 0; i < parts().tags[0].size(); ++i)
+      tag = write_shared_block(out, 0, i, msh_type::point, 1, tag, [&](std::size_t, std::uint64_t t) {
+        write_simplex<1>(out, t, {parts().points[0][i].front()});
+      });
+    for (std::size_t i = 0; i < parts().tags[1].size(); ++i)
+      tag = write_shared_block(out, 1, i, msh_type::line, shared_count(1, i), tag,
+                               [&](std::size_t k, std::uint64_t t) {
+                                 const local_id e = parts().simplices[1][i][k];
+                                 write_simplex(out, t, skeleton.edges[index(e)].vertices);
+                               });
+    for (std::size_t i = 0; i < parts().tags[2].size(); ++i)
+      tag = write_shared_block(out, 2, i, msh_type::triangle, shared_count(2, i), tag,
+                               [&](std::size_t k, std::uint64_t t) {
+                                 const local_id s = parts().simplices[2][i][k];
+                                 write_simplex(out, t, skeleton.triangles[index(s)]);
+                               });
+    for (std::size_t volume = 0; volume < elements_.size(); ++volume) {
+      if (elements_[volume].empty())
+        continue;
+      write_block_head(out, 3, parts().tags[3][volume], static_cast<int>(msh_type::tetrahedron),
+                       static_cast<global_id>(elements_[volume].size()));
+      for (const local_id e : elements_[volume]) {
+        std::array<global_id, 4> ids;
+        for (std::size_t k = 0; k < 4; ++k)
+          ids[k] = rank_.vertex_ids[index(rank_.mesh.elements[index(e)][k])];
+        write_element(out, msh_tag(rank_.element_ids[index(e)]), ids);
+      }
+    }
+    out.end("Elements");
+  }
+
+  const rank_numbering& numbers_;
+  const rank_mesh<3>& rank_;
+  const rank_skeleton ranks_;
+  const global_numbering unused_; ///< a document has one
+  msh_document<3> document_;
+  std::vector<std::vector<local_id>> inner_;    ///< per volume: vertices of the rank
+  std::vector<std::vector<local_id>> elements_; ///< per volume: of the rank
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE void rank_msh_format::write(const rank_source<3>& source, const rank_mesh<3>& rank,
+                                            const std::vector<std::filesystem::path>& paths) const {
+  detail::rank_msh_file(source, rank).write(paths.front(), binary);
+}
+
+} // namespace dovetail::io

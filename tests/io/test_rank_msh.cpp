@@ -1,0 +1,131 @@
+// Gmsh itself reads the MSH file of each rank, and all of them as one mesh.
+#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/rank_files.hpp"
+#include "dovetail/io/rank_msh_format.hpp"
+#include "io/scratch_folder.hpp"
+#include "io/stacked_cubes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <gmsh.h>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+/// What Gmsh has after reading some files.
+class gmsh_model {
+public:
+  explicit gmsh_model(const std::vector<std::filesystem::path>& files) {
+    gmsh::initialize();
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::logger::start();
+    gmsh::open(files.front().string());
+    for (std::size_t f = 1; f < files.size(); ++f)
+      gmsh::merge(files[f].string());
+    std::vector<std::string> log;
+    gmsh::logger::get(log);
+    gmsh::logger::stop();
+    for (const auto& line : log)
+      if (!line.starts_with("Info") && !line.starts_with("Progress"))
+        complaints += line + "\n";
+    std::vector<std::size_t> tags;
+    std::vector<double> at, parameters;
+    gmsh::model::mesh::getNodes(tags, at, parameters, -1, -1, false, false);
+    node_count = tags.size();
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      nodes[tags[i]] = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+    for (int d = 0; d < 4; ++d) {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> of_type, corners;
+      gmsh::model::mesh::getElements(types, of_type, corners, d);
+      for (std::size_t t = 0; t < types.size(); ++t) {
+        count[d] += of_type[t].size();
+        for (std::size_t e = 0; e < of_type[t].size(); ++e)
+          if (types[t] == 4)
+            tetrahedra[of_type[t][e]] = {corners[t][4 * e], corners[t][4 * e + 1], corners[t][4 * e + 2],
+                                         corners[t][4 * e + 3]};
+      }
+    }
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups);
+    for (const auto& [dimension, tag] : groups) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      names.insert(name);
+    }
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    for (const auto& [dimension, tag] : volumes) {
+      std::vector<int> of_volume;
+      gmsh::model::getPartitions(dimension, tag, of_volume);
+      partitions.insert(of_volume.begin(), of_volume.end());
+    }
+  }
+  ~gmsh_model() { gmsh::finalize(); }
+
+  std::string complaints;
+  std::size_t node_count = 0;
+  std::map<std::size_t, vec3> nodes;
+  std::map<std::size_t, std::array<std::size_t, 4>> tetrahedra;
+  std::map<int, std::size_t> count; ///< of elements by dimension
+  std::set<std::string> names;
+  std::set<int> partitions;
+};
+
+const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
+
+void check_files(bool binary) {
+  const auto mesh = cubes.distributed();
+  const testing::scratch_folder folder("ranks_msh");
+  io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}}(mesh, folder);
+  std::vector<std::filesystem::path> files;
+  std::size_t elements = 0, triangles = 0;
+  for (int q = 1; q <= 4; ++q) {
+    files.push_back(folder / ("ranks_" + std::to_string(q) + ".msh"));
+    const gmsh_model one({files.back()});
+    CHECK(one.complaints == "");
+    CHECK(one.node_count == one.nodes.size());
+    for (const auto& [tag, corners] : one.tetrahedra)
+      for (const std::size_t v : corners)
+        CHECK(one.nodes.count(v) == 1); // each rank's file stands by itself
+    elements += one.tetrahedra.size();
+    triangles += one.count.at(2);
+  }
+  CHECK(elements == 1296);
+  const gmsh_model all(files);
+  CHECK(all.complaints == "");
+  CHECK(all.nodes.size() == 343);
+  CHECK(all.nodes.begin()->first == 1);
+  CHECK(all.nodes.rbegin()->first == 343);
+  CHECK(all.tetrahedra.size() == 1296);
+  CHECK(all.tetrahedra.begin()->first == 1);
+  CHECK(all.tetrahedra.rbegin()->first == 1296);
+  CHECK(all.count.at(2) == triangles); // no triangle is in two files
+  CHECK(all.partitions == std::set<int>{1, 2, 3, 4});
+  CHECK(all.names.count("side walls") == 1);
+  CHECK(all.names.count("solid '2' <&>") == 1);
+  double volume = 0;
+  for (const auto& [tag, v] : all.tetrahedra) {
+    const auto at = [&](std::size_t k) { return all.nodes.at(v[k]); };
+    const double of_element = dot(cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)) / 6;
+    CHECK(of_element > 0);
+    volume += of_element;
+  }
+  CHECK(volume == doctest::Approx(1));
+}
+
+} // namespace
+
+TEST_CASE("Gmsh reads the binary file of each rank, and all of them together") {
+  check_files(true);
+}
+
+TEST_CASE("Gmsh reads text files of ranks") {
+  check_files(false);
+}
