@@ -1,4 +1,5 @@
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/decomposition/interface_angles_codec.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "support/adjacency.hpp"
@@ -172,4 +173,38 @@ TEST_CASE("spans of different length are refused") {
   const std::vector<vec3> points{{0, 0, 0}};
   const std::vector<simplex<2>> triangles{{0, 0, 0}};
   CHECK_THROWS_AS(measure_interface_angles({points, triangles, {}, {}}), usage_error);
+}
+
+TEST_CASE("angles are the same after a journey as bytes") {
+  interface_angles angles;
+  angles.interface_faces = 7;
+  angles.face_angle = {20, {1, no_id}, {no_id, no_id}};
+  angles.interface_wedge = {21, {2, 3}, {4, 5}};
+  angles.surface_wedge = {22, {6, 7}, {8, 9}};
+  angles.violations = {{20, violation_cause::remeshing, {1, no_id}, {no_id, no_id}, no_id, {1, 2, 3}, {}},
+                       {21, violation_cause::forced, {2, 3}, {4, 5}, 6, {4, 5, 6}, {{2, 11}, {1, 12}}}};
+  byte_writer to;
+  encode(to, angles);
+  const byte_buffer bytes = to.take();
+  byte_reader from(bytes);
+  const interface_angles read = decode_interface_angles(from);
+  CHECK(from.at_end());
+  CHECK(read.interface_faces == 7);
+  for (const auto member : {&interface_angles::face_angle, &interface_angles::interface_wedge,
+                            &interface_angles::surface_wedge}) {
+    CHECK((read.*member).angle_deg == (angles.*member).angle_deg);
+    CHECK((read.*member).sides == (angles.*member).sides);
+    CHECK((read.*member).edge == (angles.*member).edge);
+  }
+  REQUIRE(read.violations.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const angle_violation &mine = angles.violations[i], &theirs = read.violations[i];
+    CHECK(theirs.angle_deg == mine.angle_deg);
+    CHECK(theirs.cause == mine.cause);
+    CHECK(theirs.sides == mine.sides);
+    CHECK(theirs.edge == mine.edge);
+    CHECK(theirs.subdomain == mine.subdomain);
+    CHECK(theirs.place == mine.place);
+    CHECK(theirs.cad == mine.cad);
+  }
 }
