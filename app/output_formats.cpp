@@ -72,6 +72,8 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");
     return;
   }
+  if (by_ranks && options.order == 2)
+    throw command_line_error("--order 2: files by ranks are of first order");
   const std::string given = "--ranks: " + std::to_string(*options.ranks);
   if (*options.ranks < 1)
     throw command_line_error(given + " is less than 1");

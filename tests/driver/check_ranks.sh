@@ -34,6 +34,11 @@ for file in ranks.pvtu ranks_0000.vtu ranks_0001.vtu ranks_0002.vtu; do
 done
 expect_success "${small[@]}" --subdomains 8 --ranks 2 --redistribute none --report report.json
 [[ $(counter largest_rank) =~ ^[1-9] ]] || fault "no elements of ranks"
+expect_success "${small[@]}" --subdomains 8 --ranks 2 --format msh-ranks,openfoam
+expect_files="ranks_1.msh ranks_2.msh processor0/constant/polyMesh/boundary processor1/constant/polyMesh/faces"
+for file in $expect_files; do
+  [[ -s $sandbox/work/out/$file ]] || fault "no $file"
+done
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2
 
 # What does not fit is refused before anything is read.
@@ -42,6 +47,7 @@ expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
 expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off --ranks 5 --subdomains 4
 expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu
+expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2
 expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, none" \
   mesh nothing.off --ranks 2 --redistribute x
 expect_usage_error "--format: there is no 'x'.*with --ranks also pvtu" mesh nothing.off --ranks 2 --format x

@@ -3,6 +3,7 @@
 /// that nothing is gathered.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/io/make_rank_mesh.hpp"
@@ -30,7 +31,8 @@ struct rank_writer {
   bool ghosts = false; ///< each rank also has the elements of others that touch its own
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton, 30 bytes per point of it, and a rank's mesh
-  /// per worker. Further throws what the redistributor throws. The report has a child "redistribution".
+  /// per worker. Further throws what the redistributor throws, and
+  /// `usage_error` for a mesh of second order. The report has a child "redistribution".
   template <int D>
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {
     return write_piecewise<D>(mesh, *this, folder);
@@ -41,6 +43,8 @@ struct rank_writer {
     requires rank_format<Format, D> && redistributor<Redistributor, D> piecewise_output<D>
     begin(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& unfinished)
   const {
+    if (mesh.mid_nodes)
+      throw usage_error("files by ranks are of first order: write them of the mesh without middles of edges");
     redistribution given = redistribute(mesh, ranks);
     const auto source = std::make_shared<const rank_source<D>>(
         rank_source<D>{mesh, number_by_ranks(mesh, std::move(given.rank_of_piece), ranks), ghosts});
