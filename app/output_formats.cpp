@@ -12,6 +12,10 @@
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/redistribution/any_redistributor.hpp"
 
+#ifdef DOVETAIL_DRIVER_WITH_HDF5
+#include "dovetail/io/hdf5_format.hpp"
+#endif
+
 #include <algorithm>
 #include <limits>
 #include <system_error>
@@ -49,6 +53,10 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
     add_by_ranks(50.0, io::rank_msh_format{});
     add_by_ranks(85.0, io::openfoam_format{});
   }
+#ifdef DOVETAIL_DRIVER_WITH_HDF5
+  add_by_ranks(D == 3 ? 65.0 : 55.0, io::xdmf_format{});
+  add_by_ranks(D == 3 ? 90.0 : 80.0, io::vtkhdf_format{});
+#endif
   return known;
 }
 

@@ -36,6 +36,7 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindNetgen.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindScotch.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindSpectra.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindHDF5Serial.cmake"
   DESTINATION "${config_directory}")
 
 if(TARGET dovetail_driver)

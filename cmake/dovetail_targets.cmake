@@ -69,6 +69,9 @@ dovetail_adapter(boost_graph FOUND "${Boost_FOUND}" LIBRARIES Boost::headers)
 find_package(nlohmann_json 3.7 QUIET CONFIG)
 dovetail_adapter(json FOUND "${nlohmann_json_FOUND}" LIBRARIES nlohmann_json::nlohmann_json)
 
+find_package(HDF5Serial QUIET)
+dovetail_adapter(hdf5 FOUND "${HDF5Serial_FOUND}" LIBRARIES HDF5Serial::HDF5Serial)
+
 find_package(ZLIB QUIET)
 dovetail_adapter(zlib FOUND "${ZLIB_FOUND}" LIBRARIES ZLIB::ZLIB)
 

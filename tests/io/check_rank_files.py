@@ -102,6 +102,64 @@ def check_pvtu(folder, count):
     check_ranks(ranks)
 
 
+def check_xdmf(folder, count):
+    """h5py, by the names that the XDMF file and PETSc go by."""
+    import xml.etree.ElementTree
+
+    import h5py
+
+    grid = xml.etree.ElementTree.parse(f"{folder}/ranks.xdmf").getroot().find("Domain/Grid")
+    with h5py.File(f"{folder}/ranks.h5") as file:
+        def values(item):
+            name, path = item.text.split(":")
+            array = file[path]
+            if name != "ranks.h5" or [int(n) for n in item.get("Dimensions").split()] != list(array.shape):
+                fail(f"the XDMF file says otherwise of {path}")
+            return array[:]
+
+        cells, points = values(grid.find("Topology/DataItem")), values(grid.find("Geometry/DataItem"))
+        attributes = {a.get("Name"): values(a.find("DataItem")) for a in grid.findall("Attribute")}
+        if not np.array_equal(cells, file["viz/topology/cells"][:]) or len(attributes["subdomain"]) != len(cells):
+            fail("arrays of other names")
+        first_vertex, first_cell = file["ranks/first_vertex"][:], file["ranks/first_cell"][:]
+        sides, cad = file["sides/vertices"][:], file["sides/cad"][:]
+        if len(first_vertex) != count + 1 or len(sides) != len(cad) or np.any(cad < 0):
+            fail("sides or ranks")
+        if len(np.unique(file["vertices/mesh_node"][:])) != len(points):
+            fail("numbers of vertices")
+    ranks = []
+    for q in range(count):
+        own = np.arange(first_vertex[q], first_vertex[q + 1])
+        of_rank = cells[first_cell[q]:first_cell[q + 1]]
+        ids = np.concatenate([own, np.setdiff1d(of_rank, own)])
+        local = np.searchsorted(ids, of_rank, sorter=np.argsort(ids))
+        ranks.append({"points": points[ids], "ids": ids, "foreign": np.arange(len(ids)) >= len(own),
+                      "cells": np.argsort(ids)[local], "cell_ids": np.arange(first_cell[q], first_cell[q + 1]),
+                      "ghost": np.zeros(len(of_rank), bool)})
+    check_ranks(ranks)
+
+
+def check_vtkhdf(folder, count):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    reader = vtkHDFReader()
+    reader.SetFileName(f"{folder}/ranks.vtkhdf")
+    reader.Update()
+    grid = reader.GetOutput()
+    points, cells = grid.GetPointData(), grid.GetCellData()
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    whole = {"points": vtk_to_numpy(grid.GetPoints().GetData()),
+             "ids": vtk_to_numpy(points.GetArray("GlobalNodeIds")),
+             "foreign": vtk_to_numpy(points.GetArray("vtkGhostType")) == 1,
+             "cells": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(len(offsets) - 1, -1),
+             "cell_ids": vtk_to_numpy(cells.GetArray("GlobalCellIds")),
+             "ghost": vtk_to_numpy(cells.GetArray("vtkGhostType")) == 1}
+    if vtk_to_numpy(points.GetArray("owner")).max() != count - 1:
+        fail("owners")
+    check_ranks([whole])  # VTK reads all partitions into one
+
+
 def check_openfoam(folder, count):
     """OpenFOAM's own checkMesh, on all processors at once."""
     def dictionary(name, text):
