@@ -80,7 +80,7 @@ TEST_CASE("a small edge that is no pole is left out, with a note that names the 
 }
 
 TEST_CASE("so is one that is short enough for a pole, where the boundary runs back along it") {
-  check_healed(occt_shape_from(box_with_small_edge(4e-6, 6e-6)),
+  check_healed(occt_shape_from(box_with_small_edge(2e-6, 3e-6)),
                "face 0: its boundary crossed itself in the parameter plane; small edges that are no poles "
                "were left out");
 }

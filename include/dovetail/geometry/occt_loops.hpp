@@ -84,7 +84,7 @@ inline bool loops_cross(const face_loops& face, const face_surface& surface, int
 struct loop_manner {
   bool with_projection = true; ///< of parameter curves that stray from their 3D curves
   /// Small edges without a 3D curve whose images are longer than this share of the model are no poles.
-  double longest_pole = 1e-6;
+  double longest_pole = 5e-7;
 };
 
 /// Orders and closes the loops of one face.
