@@ -273,3 +273,15 @@ TEST_CASE("a sphere that is larger than a hemisphere stays, however inaccurate i
   CHECK(knob(1e-6) > 4.0 / 3.0 * pi);
   CHECK(knob(0.03) == doctest::Approx(knob(1e-6)).epsilon(1e-6));
 }
+
+TEST_CASE("solids that overlap by a hair get a common face, and no solid of a hair's thickness") {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(2, 2, 2)).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0.5, 0.5, 2 - 1e-6), gp_Pnt(1.5, 1.5, 3)).Shape());
+  const occt_read_result result = occt_shape_from(both);
+  CHECK(result.model.topology().solids.size() == 2);
+  CHECK(result.model.topology().faces.size() == 12);
+  CHECK(result.report.warnings.empty());
+}

@@ -104,28 +104,36 @@ inline std::array<std::size_t, 5> entity_counts(const brep& data) {
 }
 
 /// Replaces `data` by the general fuse of some of its bodies when a solid touches or overlaps anything; false
-/// when their common boundary cannot be made.
+/// when their common boundary cannot be made. Of the fuses as they are and at a small tolerance that with the
+/// fewest solids is taken: an overlap that the tolerance removes would be a solid of next to no thickness.
 inline bool imprinted(const std::vector<TopoDS_Shape>& bodies, attributed_shape& input, brep& data,
                       report& made) {
   const double size = size_of(input.shape);
+  std::optional<brep> best;
+  attributed_shape best_input;
   for (const double fuzzy : {0.0, 1e-6 * size}) {
     attributed_shape trial = input;
     std::optional<brep> fused = general_fuse(trial, bodies, fuzzy);
-    if (!fused || !fused->faults.empty())
+    if (!fused || !fused->faults.empty() || (best && fused->solids.size() >= best->solids.size()))
       continue;
-    if (entity_counts(*fused) == entity_counts(data))
-      return true; // the bodies do not touch, or share their contacts already
-    if (fused->solids.size() > data.solids.size())
-      made.warnings.push_back(
-          std::string(bodies.size() > data.solids.size() ? "solids overlap, or are cut by faces beside them"
-                                                         : "solids overlap") +
-          "; each overlap or part became a solid of its own, " + std::to_string(fused->solids.size()) +
-          " solids from " + std::to_string(data.solids.size()));
-    data = *std::move(fused);
-    input = std::move(trial);
-    return true;
+    best = std::move(fused);
+    best_input = std::move(trial);
+    if (best->solids.size() <= data.solids.size())
+      break;
   }
-  return false;
+  if (!best)
+    return false;
+  if (entity_counts(*best) == entity_counts(data))
+    return true; // the bodies do not touch, or share their contacts already
+  if (best->solids.size() > data.solids.size())
+    made.warnings.push_back(
+        std::string(bodies.size() > data.solids.size() ? "solids overlap, or are cut by faces beside them"
+                                                       : "solids overlap") +
+        "; each overlap or part became a solid of its own, " + std::to_string(best->solids.size()) +
+        " solids from " + std::to_string(data.solids.size()));
+  data = *std::move(best);
+  input = std::move(best_input);
+  return true;
 }
 
 /// Makes the contacts of solids, with each other and with faces beside them, common; those with faces only
