@@ -110,7 +110,8 @@ rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int sock
         }
     } catch (const communication_error&) {
       others_go_on = false;
-      computing.end();
+      if (!computing.was_requested()) // as the other rank was, and it says so itself
+        computing.end();
     }
   }
   computing.await_workers();

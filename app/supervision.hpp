@@ -35,6 +35,8 @@ public:
 
   /// Looks after the child, for so long (less than a second) or until there is something to see to.
   bool has_ended(std::chrono::milliseconds at_most);
+  /// Whether it was asked to stop: it has its patience from then on.
+  bool was_requested() const { return requested_; }
   /// Ends the child now.
   void end();
 

@@ -22,20 +22,26 @@
 
 namespace dovetail::partition {
 
-/// METIS takes SIGTERM for an error of its own while it runs: it comes afterwards.
+/// METIS takes SIGTERM for an error of its own while it runs: it comes afterwards. And METIS leaves a handler
+/// that was there good for one more signal only.
 class held_signals {
 public:
   held_signals() {
     sigset_t stops;
     ::sigemptyset(&stops);
     ::sigaddset(&stops, SIGTERM);
+    ::sigaction(SIGTERM, nullptr, &handler_);
     ::pthread_sigmask(SIG_BLOCK, &stops, &before_);
   }
   held_signals(const held_signals&) = delete;
   held_signals& operator=(const held_signals&) = delete;
-  ~held_signals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  ~held_signals() {
+    ::sigaction(SIGTERM, &handler_, nullptr);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
 
 private:
+  struct sigaction handler_ {};
   sigset_t before_{};
 };
 
