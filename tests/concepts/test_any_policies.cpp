@@ -85,7 +85,7 @@ TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks
 
 TEST_CASE("below a held mesher's form for the background is the ladder of the mesher itself") {
   struct two_forms : archetype::mesher {
-    explicit two_forms(int mark) : archetype::mesher(0), mark(mark) {}
+    explicit two_forms(int number) : archetype::mesher(0), mark(number) {}
     two_forms(const two_forms&) = default;
     two_forms for_background() const { return two_forms(1); }
     std::vector<two_forms> fallbacks() const { return {two_forms(mark + 10)}; }

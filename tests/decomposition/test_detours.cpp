@@ -1,6 +1,6 @@
-#include "dovetail/decomposition/connectivity.hpp"
 #include "dovetail/decomposition/detours.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
+#include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
