@@ -131,7 +131,6 @@ struct parser {
   adapt_options adapt;
   compare_options compare;
   std::function<int()> chosen;
-  std::function<int(const any_communicator&)> on_ranks; ///< of a command that several ranks share
   command_outputs outputs;
 
   parser() {
@@ -167,10 +166,6 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      on_ranks = [this](const any_communicator& network) {
-        mesh.network = network;
-        return run_mesh(mesh);
-      };
       outputs = {.files = {mesh.report}, .folder = mesh.out, .resumable = true};
     });
   }
@@ -302,7 +297,8 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
 
 int run_command_line(int argc, char** argv) {
   const mpirun_rank process = rank_of_mpirun();
-  const bool speaks = process.rank == 0;
+  const bool shared = process.size > 1 && argc > 1 && std::string_view(argv[1]) == "mesh";
+  const bool speaks = !shared || process.rank == 0; // or all would say the same
   const auto refuse = [&](const std::string& text) {
     if (!speaks)
       return exit_ok; // or mpirun would end the one that speaks
@@ -319,18 +315,19 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     return refuse(problem.what());
   }
-  line.compare.command_line = text_of_command_line(argc, argv);
+  line.compare.command_line = line.mesh.command_line = text_of_command_line(argc, argv);
   const unfinished_output unfinished(line.outputs);
   const auto clean_up = [&] { return unfinished.remove(); };
-  if (process.size > 1 && line.on_ranks)
-    return run_guarded([&] {
-      return run_on_ranks(
-          [&](const any_communicator& network) {
-            return run_guarded([&] { return line.on_ranks(network); });
-          },
-          clean_up);
-    });
-  return speaks ? run_supervised([&] { return run_guarded(line.chosen); }, clean_up) : exit_ok;
+  if (!shared)
+    return run_supervised([&] { return run_guarded(line.chosen); }, clean_up);
+  return run_guarded([&] {
+    return run_on_ranks(
+        [&](const any_communicator& network) {
+          line.mesh.network = network;
+          return run_guarded(line.chosen);
+        },
+        clean_up);
+  });
 }
 
 } // namespace dovetail::app

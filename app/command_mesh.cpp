@@ -141,6 +141,7 @@ public:
         parameters_(make_generate_options(options)), formats_(make_formats<D>(options)) {}
 
   int run() {
+    require_same(options_.command_line);
     if (leads_ && !options_.report.empty())
       check_can_create(options_.report);
     if (leads_ && !options_.quiet)
@@ -149,7 +150,8 @@ public:
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const run_identity identity = identity_of_run(options_, source);
-    require_one_identity(identity);
+    for (const auto& [what, value] : identity)
+      require_same(what + " " + value);
     std::optional<output_folder> made;
     std::optional<run_spool> store;
     const std::filesystem::path folder = options_.out;
@@ -175,6 +177,9 @@ public:
     } catch (const cancelled&) {
       store->interrupt();
       throw;
+    } catch (const communication_error&) {
+      store->interrupt();
+      throw;
     }
     store->finish();
     return exit_ok;
@@ -183,17 +188,15 @@ public:
 private:
   enum class beginning : std::uint8_t { is_finished, goes_on };
 
-  /// Throws `usage_error` when this rank has read something else than the one that leads.
-  void require_one_identity(const run_identity& identity) const {
+  /// Throws `usage_error` when this rank starts from something else than the one that leads.
+  void require_same(const std::string& mine) const {
     byte_writer to;
-    for (const auto& [what, value] : identity)
-      to.text(what + " " + value);
-    const byte_buffer mine = to.take();
-    const byte_buffer theirs = policies_.executor.once([&] { return mine; });
-    byte_reader here(mine), there(theirs);
-    while (!here.at_end() && !there.at_end())
-      if (const std::string line = here.text(); line != there.text())
-        throw usage_error("this rank does not start from the same as rank 0: " + line);
+    to.text(mine);
+    const byte_buffer bytes = to.take();
+    const byte_buffer of_first = policies_.executor.once([&] { return bytes; });
+    byte_reader from(of_first);
+    if (const std::string theirs = from.text(); mine != theirs)
+      throw usage_error("this rank starts from '" + mine + "', and rank 0 from '" + theirs + "'");
   }
 
   beginning begin_in(const std::filesystem::path& folder, const run_identity& identity,
@@ -322,11 +325,24 @@ private:
     }
   }
 
+  /// Of the largest of the computing processes.
+  std::uint64_t peak_of_ranks() const {
+    std::uint64_t peak = peak_rss_bytes();
+    if (!options_.network)
+      return peak;
+    byte_writer mine;
+    mine.value(peak);
+    auto network = *options_.network;
+    for (const byte_buffer& theirs : network.all_gather(mine.take()))
+      peak = std::max(peak, byte_reader(theirs).value<std::uint64_t>());
+    return peak;
+  }
+
   void finish() {
     lines_.reset();
     figures_.seconds.total = clock_.seconds();
     figures_.details.seconds = figures_.seconds.total;
-    figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes, peak_rss_bytes());
+    figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes, peak_of_ranks());
     if (leads_ && !options_.report.empty())
       write_report(figures_, options_.report);
     if (leads_ && !options_.quiet)

@@ -199,6 +199,8 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
   if (automatic_ && model) {
     automatic_options options = *automatic_;
     options.range.largest = uniform.value_or(0);
+    if (!uniform) // a default is for any file: details far smaller than the model are not followed
+      options.range.smallest = domain.diagonal() / 250;
     return keep_bounds(automatic_size(*model, options));
   }
   if (!has_file())

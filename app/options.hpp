@@ -51,6 +51,7 @@ struct mesh_options {
   bool force = false;
   bool quiet = false;
   std::optional<any_communicator> network = {}; ///< of the ranks, where there are several
+  std::string command_line = {};                ///< which is the same for all of them
 };
 
 struct plan_options {

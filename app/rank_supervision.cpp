@@ -29,13 +29,19 @@
 namespace dovetail::app {
 
 mpirun_rank rank_of_mpirun() {
-  const auto number = [](const char* first, const char* second, int otherwise) {
-    for (const char* name : {first, second})
-      if (const char* text = std::getenv(name))
-        return std::atoi(text);
-    return otherwise;
+  struct names {
+    const char* rank;
+    const char* size;
   };
-  return {number("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0), number("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1)};
+  for (const names& starter :
+       {names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, names{"PMI_RANK", "PMI_SIZE"},
+        names{"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}}) {
+    const char* rank = std::getenv(starter.rank);
+    const char* size = std::getenv(starter.size);
+    if (rank != nullptr && size != nullptr)
+      return {std::atoi(rank), std::atoi(size)};
+  }
+  return {};
 }
 
 #ifdef DOVETAIL_DRIVER_WITH_MPI
@@ -44,13 +50,14 @@ namespace {
 
 constexpr std::chrono::milliseconds pause{1}; ///< between two looks of a relay; a message waits so long
 
-/// What the computing processes of other ranks say on the error stream, which rank 0 says for all.
-class silenced {
+/// What the computing processes of other ranks write to the error stream, of which rank 0 says what is
+/// needed.
+class kept_error_stream {
 public:
-  explicit silenced(bool wanted) : file_(wanted ? ::memfd_create("said", MFD_CLOEXEC) : -1) {}
-  silenced(const silenced&) = delete;
-  silenced& operator=(const silenced&) = delete;
-  ~silenced() {
+  explicit kept_error_stream(bool wanted) : file_(wanted ? ::memfd_create("said", MFD_CLOEXEC) : -1) {}
+  kept_error_stream(const kept_error_stream&) = delete;
+  kept_error_stream& operator=(const kept_error_stream&) = delete;
+  ~kept_error_stream() {
     if (file_ >= 0)
       ::close(file_);
   }
@@ -78,15 +85,15 @@ private:
 /// How the computing process of a rank has ended.
 struct rank_end {
   int code = exit_ok;
-  bool own = false;  ///< and not because another one had
-  std::string cause; ///< one line, where it did not end well
+  bool by_itself = false; ///< and was not killed because another one had ended
+  std::string cause;      ///< one line, where it did not end well
 };
 
 rank_end decode_end(const byte_buffer& bytes) {
   byte_reader from(bytes);
   rank_end end;
   end.code = from.value<std::int32_t>();
-  end.own = from.value<std::uint8_t>() != 0;
+  end.by_itself = from.value<std::uint8_t>() != 0;
   end.cause = from.text();
   return end;
 }
@@ -94,13 +101,14 @@ rank_end decode_end(const byte_buffer& bytes) {
 byte_buffer encode_end(const rank_end& end) {
   byte_writer to;
   to.value<std::int32_t>(end.code);
-  to.value<std::uint8_t>(end.own);
+  to.value<std::uint8_t>(end.by_itself);
   to.text(end.cause);
   return to.take();
 }
 
 /// Passes messages until the computing process has ended.
-rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int socket, const silenced& said) {
+rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int socket,
+                         const kept_error_stream& said) {
   parallel::relay relay(network, socket);
   bool others_go_on = true;
   while (!computing.has_ended(pause)) {
@@ -108,10 +116,10 @@ rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int sock
       if (others_go_on)
         while (relay.step()) {
         }
-    } catch (const communication_error&) {
+    } catch (const communication_error& problem) {
       others_go_on = false;
-      if (!computing.was_requested()) // as the other rank was, and it says so itself
-        computing.end();
+      relay.tell_abandoned(problem.what());
+      computing.end_soon();
     }
   }
   computing.await_workers();
@@ -122,7 +130,7 @@ rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int sock
     others_go_on = false;
   }
   rank_end end{computing.code(), others_go_on || !computing.was_killed(), {}};
-  if (end.code == exit_ok || !end.own)
+  if (end.code == exit_ok || !end.by_itself)
     return end;
   end.cause = computing.ended()        ? stopped_line(false)
               : computing.was_killed() ? computing.killed_line()
@@ -137,7 +145,7 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
              const std::function<bool()>& clean_up) {
   const rank_end* failed = nullptr;
   for (const rank_end& end : ends)
-    if (end.code != exit_ok && end.own && failed == nullptr)
+    if (end.code != exit_ok && end.by_itself && failed == nullptr)
       failed = &end;
   if (failed == nullptr)
     return exit_ok;
@@ -151,27 +159,17 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
   return failed->code;
 }
 
-} // namespace
-
-int run_on_ranks(const std::function<int(const any_communicator&)>& command,
-                 const std::function<bool()>& clean_up) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw usage_error("the system refuses a socket between two processes");
-  const bool first = rank_of_mpirun().rank == 0;
-  const silenced said(!first);
-  supervisor computing; // before MPI, which starts threads
-  if (!computing.supervises()) {
-    ::close(ends[0]);
-    said.redirect();
-    return command(parallel::relayed(ends[1]));
-  }
-  ::close(ends[1]);
-  const boost::mpi::environment started(boost::mpi::threading::single, false);
+int relay_of_rank(supervisor& computing, int socket, const kept_error_stream& said, bool first,
+                  const std::function<bool()>& clean_up) {
+  const mpirun_rank expected = rank_of_mpirun();
   parallel::mpi network;
+  if (network.rank() != expected.rank || network.size() != expected.size)
+    throw usage_error("mpirun says rank " + std::to_string(expected.rank) + " of " +
+                      std::to_string(expected.size) + ", and MPI rank " + std::to_string(network.rank()) +
+                      " of " + std::to_string(network.size()) +
+                      "; start it with the mpirun of the MPI it was built with");
   any_communicator relays = parallel::mpi{}; // of which none abandons another
-  const rank_end end = relay_until_end(computing, network, ends[0], said);
-  ::close(ends[0]);
+  const rank_end end = relay_until_end(computing, network, socket, said);
   std::vector<rank_end> all;
   for (const byte_buffer& theirs : relays.gather(encode_end(end)))
     all.push_back(decode_end(theirs));
@@ -180,6 +178,36 @@ int run_on_ranks(const std::function<int(const any_communicator&)>& command,
     code.value<std::int32_t>(conclude(all, !computing.was_killed(), clean_up));
   const byte_buffer agreed = relays.broadcast(code.take());
   return byte_reader(agreed).value<std::int32_t>();
+}
+
+} // namespace
+
+int run_on_ranks(const std::function<int(const any_communicator&)>& command,
+                 const std::function<bool()>& clean_up) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw usage_error("the system refuses a socket between two processes");
+  const bool first = rank_of_mpirun().rank == 0;
+  const kept_error_stream said(!first);
+  supervisor computing; // before MPI, which starts threads
+  if (computing.has_no_child())
+    throw usage_error("the system refuses to start a process");
+  if (!computing.supervises()) {
+    ::close(ends[0]);
+    said.redirect();
+    return command(parallel::relayed(ends[1]));
+  }
+  ::close(ends[1]);
+  const boost::mpi::environment started(boost::mpi::threading::single, false);
+  try {
+    return relay_of_rank(computing, ends[0], said, first, clean_up);
+  } catch (const std::exception& problem) { // the others would wait for this relay
+    computing.end();
+    computing.await_workers();
+    complain("rank " + std::to_string(rank_of_mpirun().rank) + ": " + problem.what());
+    boost::mpi::environment::abort(exit_failure);
+    return exit_failure;
+  }
 }
 
 #else

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <thread>
 #include <vector>
 
 #include <sys/mman.h>
@@ -109,9 +110,15 @@ void supervisor::request() {
     end();
   if (requested_)
     return;
+  end_soon();
+  ::kill(child_, SIGTERM);
+}
+
+void supervisor::end_soon() {
+  if (requested_)
+    return;
   requested_ = true;
   since_ = clock::now();
-  ::kill(child_, SIGTERM);
 }
 
 void supervisor::end() {
@@ -132,7 +139,13 @@ std::string supervisor::killed_line() const {
 }
 
 void supervisor::await_workers() const {
-  while (::waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {
+  const auto until = clock::now() + std::chrono::seconds(5);
+  for (;;) {
+    const pid_t found = ::waitpid(-1, nullptr, WNOHANG);
+    if ((found < 0 && errno != EINTR) || (found == 0 && clock::now() > until))
+      return;
+    if (found == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }
 

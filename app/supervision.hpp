@@ -30,22 +30,24 @@ public:
   supervisor& operator=(const supervisor&) = delete;
   ~supervisor();
 
-  /// Whether this is the parent; otherwise the child, or there can be no child.
+  /// Whether this is the parent; otherwise it is the child, or there can be none.
   bool supervises() const { return child_ > 0; }
+  bool has_no_child() const { return child_ < 0; }
 
   /// Looks after the child, for so long (less than a second) or until there is something to see to.
   bool has_ended(std::chrono::milliseconds at_most);
-  /// Whether it was asked to stop: it has its patience from then on.
-  bool was_requested() const { return requested_; }
+  /// Ends the child, if it does not end by itself soon.
+  void end_soon();
   /// Ends the child now.
   void end();
 
-  /// Once it has ended: whether it was ended from here; by a signal; its exit code; what a signal means; and
-  /// that its workers are gone too.
+  /// Once it has ended: whether it was ended from here; by a signal; its exit code; what a signal means.
   bool ended() const { return ended_; }
   bool was_killed() const;
   int code() const;
   std::string killed_line() const;
+  /// Its workers end with it, and are this process's children then. Waits for that, at most some seconds,
+  /// since a library may have started children too.
   void await_workers() const;
 
 private:

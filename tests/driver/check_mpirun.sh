@@ -60,11 +60,12 @@ fresh several
 on_ranks 3 several "${mesh[@]}" --format vtu,msh --executor serial
 [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files"
 
-# 2. An error that all meet is said once; other commands run once.
+# 2. An error that all meet is said once; other commands know nothing of ranks.
 one_line() {
   ((status == $1)) || fault "exit code is $status, not $1"
   [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
   grep -q "^dovetail: .*$2" "$sandbox/stderr" || fault "the line does not match '$2'"
+  grep -q "^dovetail: rank" "$sandbox/stderr" && fault "the line blames one rank"
 }
 fresh several
 on_ranks 3 several mesh "$inputs/none.off"
@@ -76,7 +77,21 @@ one_line 2 "--executor"
 on_ranks 3 several "${mesh[@]}" --out /proc/none
 one_line 1 "/proc/none"
 on_ranks 2 several models
-((status == 0)) && [[ $(grep -c "^orbiter" "$sandbox/stdout") == 1 ]] || fault "the models are not listed once"
+((status == 0)) && [[ $(grep -c "^orbiter" "$sandbox/stdout") == 2 ]] || fault "not each rank lists the models"
+
+# Ranks that differ, and a program that another MPI has started.
+what="two ranks with different options"
+(cd several && "$mpirun" -n 1 "$driver" "${mesh[@]}" : -n 1 "$driver" "${mesh[@]}" --force >"$sandbox/stdout" 2>"$sandbox/stderr")
+status=$?
+((status == 1)) || fault "exit code is $status, not 1"
+grep -q "^dovetail: rank 1: this rank starts from '.*--force', and rank 0 from" "$sandbox/stderr" || fault "the line does not say what differs"
+for variables in "PMI_RANK=0 PMI_SIZE=2" "SLURM_PROCID=0 SLURM_STEP_NUM_TASKS=2"; do
+  what="$variables without mpirun"
+  (cd several && timeout 60 env $variables "$driver" "${mesh[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr")
+  status=$?
+  ((status == 1)) || fault "exit code is $status, not 1"
+  grep -q "^dovetail: rank 0: mpirun says rank 0 of 2, and MPI rank 0 of 1" "$sandbox/stderr" || fault "the line does not say what is wrong"
+done
 
 # 3. A run that is killed goes on with another number of ranks.
 long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 8 --report report.json)

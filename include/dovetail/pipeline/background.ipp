@@ -140,7 +140,7 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
                         : detail::default_subdomains(predicted.elements, per_subdomain, options);
   const double coarse_elements =
       std::max(plan.subdomains * of_dimension(options.background_elements_per_subdomain),
-               std::min(of_dimension(options.background_elements), predicted.elements / (D == 3 ? 40 : 10)));
+               std::min(of_dimension(options.background_elements), predicted.elements / 10));
   plan.coarse_scale = options.coarse_scale > 0
                           ? options.coarse_scale
                           : std::max(1.5, D == 3 ? std::cbrt(predicted.elements / coarse_elements)

@@ -32,8 +32,8 @@ struct generate_options {
   double elements_per_subdomain = 0;
   double many_elements = 1e6;
   /// Elements of the background mesh: at least so many per subdomain, and about `background_elements` where
-  /// that is no more than a fortieth (D = 2: a tenth) of the final mesh. From there on the simplification
-  /// hardly refuses anything.
+  /// that is no more than a tenth of the final mesh. From there on the simplification hardly refuses
+  /// anything.
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above

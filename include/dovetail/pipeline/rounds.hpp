@@ -117,7 +117,7 @@ private:
   realized<D> with_clean_angles(realized<D> made) {
     auto places = small_angles_of(made);
     auto best = std::pair(places.size(), subdomain_of_element_);
-    while (!places.empty() && detour_rounds_ < most_detour_rounds &&
+    while (!places.empty() && places.size() <= most_detours && detour_rounds_ < most_detour_rounds &&
            divided_.angles.count(violation_cause::remeshing) == 0) {
       const auto before = subdomain_of_element_;
       const std::size_t moved = detours_.avoid(places, subdomain_of_element_, merges_.subdomains());
@@ -225,6 +225,9 @@ private:
 
   /// Each takes the time of what it changes, and mostly two are enough.
   static constexpr int most_detour_rounds = 8;
+  /// With more small angles the decomposition is poor as a whole: detours would take longer than all the
+  /// rest.
+  static constexpr std::size_t most_detours = 32;
 
   const any_geometry& model_;
   const simplicial_background<D>& mesh_;
