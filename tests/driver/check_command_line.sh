@@ -99,9 +99,9 @@ predicted --proximity 20
 ((count > 10 * by_default)) || fault "20 elements across the cube give $count, after $by_default"
 predicted --proximity 0
 ((count > by_default / 2 && count < by_default * 2)) || fault "the largest size gives $count, not about $by_default"
-predicted --proximity 100
+predicted --proximity 150
 ((count > 1900000 && count < 2100000)) || fault "$count is not 2 million"
-predicted --proximity 100 --size 0.1
+predicted --proximity 20 --size 0.012
 ((count > 2100000)) || fault "a size is given, and $count elements are bounded all the same"
 predicted --proximity 0 --size 0.1
 ((count > 8000 && count < 16000)) || fault "the size given is the largest: $count"

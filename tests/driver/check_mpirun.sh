@@ -140,7 +140,7 @@ kill -TERM $process
 ended_within 10
 ((status != 0)) || fault "exit code is 0"
 [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-grep -q "^dovetail: stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
+grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
 nothing_left several
 resume_on 2
 

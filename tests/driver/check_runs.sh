@@ -73,9 +73,10 @@ done
 mesh --size 0.08 --subdomains 4 --format vtu,msh --order 2 --files 1
 [[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh of second-order elements"
 grep -q '"moved_back"' "$sandbox/work/report.json" || fault "the report does not tell of middles"
-cp "$sandbox/work/out/mesh.msh" "$sandbox/work/out/mesh_0000.vtu" "$inputs"
-expect_error "elements of type 8; only points" check "$inputs/mesh.msh"
-expect_error "quadratic tetrahedron" check "$inputs/mesh_0000.vtu"
+cp "$sandbox/work/out/mesh.msh" "$inputs/second.msh"
+cp "$sandbox/work/out/mesh_0000.vtu" "$inputs/second.vtu"
+expect_error "elements of type 8; only points" check "$inputs/second.msh"
+expect_error "quadratic tetrahedron" check "$inputs/second.vtu"
 expect_usage_error "--order" mesh --order 3
 
 # An edge so sharp that interfaces cannot end there without small angles: they are listed with what forces them.

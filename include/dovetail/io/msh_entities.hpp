@@ -7,6 +7,7 @@
 #include "dovetail/io/msh_encoder.hpp"
 #include "dovetail/io/partition_entities.hpp"
 #include "dovetail/io/skeleton_entities.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>

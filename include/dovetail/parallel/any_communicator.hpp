@@ -48,8 +48,10 @@ public:
   }
   /// The next message with this tag that has arrived.
   std::optional<rank_message> receive(std::int32_t tag) {
-    while (auto arrived = state_->link->receive())
-      state_->waiting[arrived->tag].push_back(*std::move(arrived));
+    while (auto arrived = state_->link->receive()) {
+      std::deque<rank_message>& queue = state_->waiting[arrived->tag];
+      queue.push_back(*std::move(arrived));
+    }
     const auto found = state_->waiting.find(tag);
     if (found == state_->waiting.end())
       return std::nullopt;

@@ -2,6 +2,7 @@
 /// Sizes at the corners of an octree's leaves, and between them by trilinear interpolation.
 #pragma once
 
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/octree.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The least that a program has of the library: quick to compile in any way, with a function that is compiled or not.
+// The least that a program has of the library: quick to compile in any way, with a function that is compiled
+// or not.
 #include "dovetail/partition/greedy.hpp"
 
 #include <cstdio>
