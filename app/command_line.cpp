@@ -114,6 +114,8 @@ void add_output_options(CLI::App& command, mesh_options& options) {
                   "Order of the elements: 1, or 2 with nodes in the middle of edges, on the CAD model")
       ->check(CLI::IsMember({1, 2}));
   command.add_option("--report", options.report, "JSON file for figures about the run");
+  command.add_option("--trace", options.trace,
+                     "JSON file for what ran when and where: for ui.perfetto.dev and dovetail simulate");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
   command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
@@ -130,6 +132,7 @@ struct parser {
   improve_options improve;
   adapt_options adapt;
   compare_options compare;
+  simulate_options simulate;
   std::function<int()> chosen;
   command_outputs outputs;
 
@@ -152,6 +155,7 @@ struct parser {
     add_improve();
     add_adapt();
     add_compare();
+    add_simulate();
     for (CLI::App* command : app.get_subcommands({}))
       refuse_empty_values(*command);
   }
@@ -166,7 +170,7 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      outputs = {.files = {mesh.report}, .folder = mesh.out, .resumable = true};
+      outputs = {.files = {mesh.report, mesh.trace}, .folder = mesh.out, .resumable = true};
     });
   }
   void add_plan() {
@@ -179,6 +183,37 @@ struct parser {
       chosen = [this] { return run_plan(plan); };
       outputs.files = {plan.report};
     });
+  }
+  void add_simulate() {
+    auto& command = *app.add_subcommand(
+        "simulate", "Predict the time of a run on machines with more workers, from traces");
+    add_examples(command, {"dovetail simulate wing.trace.json --workers 2,64,512",
+                           "dovetail simulate small.json large.json --elements 1e9 --workers 32,512"});
+    command
+        .add_option("trace", simulate.traces,
+                    "A trace that mesh --trace wrote; or two, of a smaller and a larger mesh of a model")
+        ->required()
+        ->expected(1, 2);
+    command
+        .add_option("--elements", simulate.elements,
+                    "Elements of the mesh, by power laws through two traces (default: those of the trace)")
+        ->check(CLI::Range(1.0, 1e13));
+    command.add_option("--workers", simulate.workers, "Numbers of workers")
+        ->delimiter(',')
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{10000000}))
+        ->default_str("1,2,4, ..., 512");
+    command.add_option("--cores", simulate.machine.cores, "Cores that they share (default: one each)")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--latency", simulate.machine.latency, "Seconds that a message takes")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--bandwidth", simulate.machine.bandwidth, "Bytes per second of a link")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--request", simulate.machine.request_seconds, "Seconds of the manager per task")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.callback([this] { chosen = [this] { return run_simulate(simulate); }; });
   }
   void add_models() {
     auto& command = *app.add_subcommand("models", "List the built-in models");

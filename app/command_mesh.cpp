@@ -14,6 +14,8 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/second_order.hpp"
+#include "dovetail/io/write_trace.hpp"
+#include "dovetail/parallel/traced.hpp"
 
 #include <algorithm>
 #include <array>
@@ -138,15 +140,22 @@ public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
-        parameters_(make_generate_options(options)), formats_(make_formats<D>(options)) {}
+        parameters_(make_generate_options(options)), formats_(make_formats<D>(options)) {
+    if (!options_.trace.empty()) {
+      trace_.emplace(policies_.executor);
+      policies_.executor = any_executor(*trace_, policies_.executor.name());
+    }
+  }
 
   int run() {
     require_same(options_.command_line);
-    if (leads_ && !options_.report.empty())
-      check_can_create(options_.report);
+    for (const std::string& file : {options_.report, options_.trace})
+      if (leads_ && !file.empty())
+        check_can_create(file);
     if (leads_ && !options_.quiet)
       lines_.emplace(stderr);
-    show("geometry");
+    parameters_.on_progress = callbacks();
+    parameters_.on_progress("geometry", 0, 0);
     const model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
     const run_identity identity = identity_of_run(options_, source);
@@ -230,16 +239,12 @@ private:
       finished.record(figures_.files);
   }
 
-  void show(const char* stage) {
-    if (lines_)
-      lines_->update(stage, 0, 0);
+  progress callbacks() {
+    progress shown = lines_ ? lines_->callbacks() : progress{.stop_requested = stop_was_requested};
+    return trace_ ? trace_->watch(std::move(shown)) : shown;
   }
 
   generated<D> generate(const model_source& source, const std::filesystem::path& folder) {
-    if (lines_)
-      parameters_.on_progress = lines_->callbacks();
-    else
-      parameters_.on_progress.stop_requested = stop_was_requested;
     if (!options_.force)
       parameters_.largest_prediction =
           policies_.executor.once([&] { return elements_with_room(formats_, folder); });
@@ -338,13 +343,22 @@ private:
     return peak;
   }
 
+  void write_trace() const {
+    execution_trace trace = trace_->trace();
+    trace.elements = static_cast<double>(figures_.elements);
+    io::write_trace(trace, options_.trace);
+  }
+
   void finish() {
+    parameters_.on_progress = {}; // of the lines
     lines_.reset();
     figures_.seconds.total = clock_.seconds();
     figures_.details.seconds = figures_.seconds.total;
     figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes, peak_of_ranks());
     if (leads_ && !options_.report.empty())
       write_report(figures_, options_.report);
+    if (leads_ && trace_)
+      write_trace();
     if (leads_ && !options_.quiet)
       std::fputs(summary_text(figures_).c_str(), stdout);
   }
@@ -352,6 +366,7 @@ private:
   const stopwatch clock_;
   const mesh_options& options_;
   policies_of<D> policies_;
+  std::optional<parallel::traced> trace_;
   const bool leads_ = policies_.executor.leads();
   generate_options parameters_;
   std::vector<output_format<D>> formats_;

@@ -4,6 +4,7 @@
 
 #include "compare_options.hpp"
 #include "options.hpp"
+#include "simulate_options.hpp"
 
 namespace dovetail::app {
 
@@ -15,5 +16,6 @@ int run_check(const check_options& options);
 int run_stats(const stats_options& options);
 int run_improve(const improve_options& options);
 int run_adapt(const adapt_options& options);
+int run_simulate(const simulate_options& options);
 
 } // namespace dovetail::app

@@ -1,0 +1,141 @@
+#include "commands.hpp"
+#include "failure.hpp"
+#include "terminal_progress.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/read_trace.hpp"
+#include "dovetail/simulation/workload.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+namespace {
+
+simulation::workload wanted_work(const simulate_options& options) {
+  std::vector<simulation::workload> known;
+  for (const std::string& trace : options.traces)
+    known.push_back(simulation::workload_of(io::read_trace(trace)));
+  std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.elements < b.elements; });
+  if (!options.elements)
+    return known.back();
+  if (known.size() != 2)
+    throw command_line_error("--elements: a law needs two traces of different sizes; give a smaller and a "
+                             "larger one");
+  return simulation::scaled_to(*options.elements, known.front(), known.back());
+}
+
+/// As the paper counts them: all that comes before the pieces are meshed, but for reading the model.
+bool is_decomposition(const std::vector<simulation::simulated_times>& stages, std::size_t at) {
+  const auto is_meshing = [](const auto& stage) { return stage.stage == "meshing"; };
+  return stages[at].stage != "geometry" &&
+         std::none_of(stages.begin(), stages.begin() + static_cast<std::ptrdiff_t>(at) + 1, is_meshing);
+}
+
+/// One column per number of workers.
+class columns {
+public:
+  void row(const std::string& label, const std::function<std::string(std::size_t)>& value) {
+    std::printf("  %-38s", label.c_str());
+    for (std::size_t k = 0; k < count_; ++k)
+      std::printf(" %9s", value(k).c_str());
+    std::printf("\n");
+  }
+  explicit columns(std::size_t count) : count_(count) {}
+
+private:
+  std::size_t count_;
+};
+
+std::string fixed(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+/// Table 9 of the paper (DOI 10.1016/j.advengsoft.2018.02.004), F16-IV, Algorithm 1.
+struct paper_column {
+  std::int64_t cores;
+  double seconds, decomposition, speed;
+};
+constexpr std::array<paper_column, 5> paper_table_9 = {{{32, 2648.7, 93.6, 12300},
+                                                        {64, 1365.5, 86.5, 11900},
+                                                        {128, 717.0, 75.3, 11300},
+                                                        {256, 388.4, 68.0, 10500},
+                                                        {512, 219.8, 60.2, 9200}}};
+
+void print_paper(const std::vector<std::int64_t>& workers) {
+  columns table(workers.size());
+  const auto row = [&](const char* label, double paper_column::*value, int digits) {
+    table.row(label, [&](std::size_t k) {
+      const auto* column = std::find_if(paper_table_9.begin(), paper_table_9.end(),
+                                        [&](const paper_column& c) { return c.cores == workers[k]; });
+      return column == paper_table_9.end() ? "-" : fixed(column->*value, digits);
+    });
+  };
+  std::printf("Measured by the paper, Table 9, about 1 billion tetrahedra of an aircraft\n");
+  row("Entire scheme (s)", &paper_column::seconds, 1);
+  row("  Domain decomposition", &paper_column::decomposition, 1);
+  row("Relative speed (elements/s/core)", &paper_column::speed, 0);
+}
+
+void print(const simulate_options& options, double elements,
+           const std::vector<simulation::simulated_run>& runs) {
+  const auto share = [&](std::size_t k, bool decomposition) {
+    double seconds = 0;
+    for (std::size_t s = 0; s < runs[k].stages.size(); ++s)
+      if (is_decomposition(runs[k].stages, s) == decomposition)
+        seconds += runs[k].stages[s].alone + runs[k].stages[s].tasks;
+    return seconds;
+  };
+  const auto speed = [&](std::size_t k) {
+    return elements / runs[k].seconds / static_cast<double>(options.workers[k]);
+  };
+  columns table(runs.size());
+  std::printf("Simulated, for %s tetrahedra\n", count_text(elements).c_str());
+  table.row("No. of workers", [&](std::size_t k) { return std::to_string(options.workers[k]); });
+  table.row("Entire scheme (s)", [&](std::size_t k) { return fixed(runs[k].seconds, 1); });
+  table.row("  Domain decomposition", [&](std::size_t k) { return fixed(share(k, true), 1); });
+  table.row("  Other steps", [&](std::size_t k) { return fixed(share(k, false), 1); });
+  table.row("Relative speed (elements/s/worker)", [&](std::size_t k) { return count_text(speed(k)); });
+  table.row("  of that of the first (percent)",
+            [&](std::size_t k) { return fixed(100 * speed(k) / speed(0), 0); });
+  table.row("Manager (percent of the run)", [&](std::size_t k) {
+    double managing = 0;
+    for (const auto& stage : runs[k].stages)
+      managing += stage.managing;
+    return fixed(100 * managing / runs[k].seconds, 2);
+  });
+  std::printf("What takes longest\n");
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto& most = simulation::bottleneck(runs[k]);
+    std::printf("  %-38s %s: %.1f s, of which one process alone %.1f\n",
+                (std::to_string(options.workers[k]) + " workers").c_str(), most.stage.c_str(),
+                most.alone + most.tasks, most.alone);
+  }
+  if (std::abs(elements / 1e9 - 1) < 0.1)
+    print_paper(options.workers);
+}
+
+} // namespace
+
+int run_simulate(const simulate_options& options) {
+  const simulation::workload work = wanted_work(options);
+  std::vector<simulation::simulated_run> runs;
+  for (const std::int64_t workers : options.workers) {
+    simulation::simulated_machine machine = options.machine;
+    machine.workers = workers;
+    runs.push_back(simulation::simulate(work, machine));
+  }
+  print(options, work.elements, runs);
+  return exit_ok;
+}
+
+} // namespace dovetail::app

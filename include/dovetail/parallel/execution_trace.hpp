@@ -1,0 +1,63 @@
+/// @file
+/// What ran when, and where: the record of a run, for pictures and for the simulation of larger machines.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace dovetail {
+
+/// A task that gave a result. Times are seconds since its batch began.
+struct task_span {
+  std::size_t task = 0;
+  int worker = 0; ///< of the batch, by when they began
+  double begin = 0;
+  double seconds = 0;
+  std::size_t result_bytes = 0;
+
+  friend bool operator==(const task_span&, const task_span&) = default;
+};
+
+/// The tasks that were given to an executor at once. Times are seconds since the trace began.
+struct batch_span {
+  std::string stage;
+  double begin = 0;
+  double end = 0;
+  std::vector<task_span> tasks = {}; ///< by number
+  std::size_t failed = 0;            ///< tasks without result, of which no times are known
+
+  friend bool operator==(const batch_span&, const batch_span&) = default;
+};
+
+/// What progress calls a stage, from one name to the next.
+struct stage_span {
+  std::string stage;
+  double begin = 0;
+  double end = 0;
+
+  friend bool operator==(const stage_span&, const stage_span&) = default;
+};
+
+/// As `parallel::traced` makes it, in the order in which things began.
+struct execution_trace {
+  int workers = 1;
+  double elements = 0; ///< of the mesh that was made, when known
+  double seconds = 0;
+  std::vector<stage_span> stages = {};
+  std::vector<batch_span> batches = {};
+
+  friend bool operator==(const execution_trace&, const execution_trace&) = default;
+};
+
+/// Seconds between the first and the last moment of a stretch of the trace that no batch fills: what one
+/// process does alone. `begin` and `end` are seconds since the trace began.
+inline double seconds_alone(const execution_trace& trace, double begin, double end) {
+  double alone = end - begin;
+  for (const batch_span& batch : trace.batches)
+    alone -= std::max(0.0, std::min(end, batch.end) - std::max(begin, batch.begin));
+  return std::max(0.0, alone);
+}
+
+} // namespace dovetail

@@ -1,0 +1,37 @@
+#!/bin/bash
+# Traces of runs, and what simulations make of them.
+#   check_trace.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+
+write_cube >"$inputs/cube.off"
+hash_of() { grep -o '"mesh_hash": "[0-9a-f]*"' "$sandbox/work/report.json"; }
+
+expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 4 --format none --report report.json
+plain=$(hash_of)
+for size in 0.1 0.06; do
+  expect_success mesh "$inputs/cube.off" --size $size --subdomains 4 --format none --report report.json \
+    --trace trace.json
+  cp "$sandbox/work/trace.json" "$inputs/$size.json"
+  [[ $size != 0.1 || $(hash_of) == "$plain" ]] || fault "another mesh with a trace"
+done
+for stage in planning simplification partition skeleton meshing finishing; do
+  grep -q "\"tid\": 0, \"name\": \"$stage\"" "$inputs/0.1.json" || fault "the trace has no stage $stage"
+done
+(($(grep -c '"name": "meshing".*"task"' "$inputs/0.1.json") == 5)) || fault "not a task for the background and each of 4 pieces"
+
+expect_success simulate "$inputs/0.1.json" --workers 1,2
+grep -q "Entire scheme" "$sandbox/stdout" || fault "no times"
+grep -q "Table 9" "$sandbox/stdout" && fault "the paper's table beside a small mesh"
+expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --workers 32,512
+grep -A2 "Table 9" "$sandbox/stdout" | grep -q "2648.7 *219.8" || fault "not the paper's columns"
+
+expect_usage_error "give a smaller and a larger one" simulate "$inputs/0.1.json" --elements 1e9
+expect_error "at least 1.5 times" simulate "$inputs/0.1.json" "$inputs/0.1.json" --elements 1e9
+expect_usage_error "workers" simulate "$inputs/0.1.json" --workers 0
+echo '{}' >"$inputs/none.json"
+expect_error 'none.json:1: there is no "otherData"' simulate "$inputs/none.json"
+expect_error "nowhere.json: cannot be opened" simulate nowhere.json
+expect_error "cannot create" mesh "$inputs/cube.off" --size 0.1 --trace /nowhere/trace.json
+
+finish

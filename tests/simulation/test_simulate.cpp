@@ -1,0 +1,106 @@
+#include "dovetail/core/error.hpp"
+#include "dovetail/simulation/simulate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+using namespace dovetail;
+using namespace dovetail::simulation;
+
+namespace {
+
+workload tasks(std::size_t count, double seconds, double bytes = 0) {
+  return {1, {{"meshing", 0, {std::vector<simulated_task>(count, {seconds, bytes})}}}};
+}
+
+simulated_machine without_delays(std::int64_t workers) {
+  return {.workers = workers, .latency = 0, .request_seconds = 0};
+}
+
+} // namespace
+
+TEST_CASE("Without delays equal tasks take as many rounds as there are") {
+  for (const auto& [count, workers, rounds] :
+       {std::tuple{12, 1, 12}, {12, 4, 3}, {13, 4, 4}, {3, 8, 1}, {1000, 100000, 1}}) {
+    const auto run = simulate(tasks(static_cast<std::size_t>(count), 2), without_delays(workers));
+    CHECK(run.seconds == doctest::Approx(2 * rounds));
+    CHECK(run.stages[0].busy == doctest::Approx(2 * count));
+    CHECK(run.stages[0].idle == doctest::Approx(workers * run.seconds - 2 * count));
+    CHECK(run.stages[0].managing == 0);
+  }
+}
+
+TEST_CASE("What is done alone costs the same for any number of workers, and batches wait for each other") {
+  workload work = tasks(4, 1);
+  work.stages[0].batches.push_back(work.stages[0].batches[0]);
+  work.stages[0].seconds_alone = 3;
+  CHECK(simulate(work, without_delays(1)).seconds == doctest::Approx(3 + 8));
+  CHECK(simulate(work, without_delays(3)).seconds == doctest::Approx(3 + 2 + 2)); // not 8 tasks in 3 rounds
+  CHECK(simulate(work, without_delays(4)).seconds == doctest::Approx(3 + 2));
+}
+
+TEST_CASE("A manager who is slower than the workers decides") {
+  simulated_machine machine = without_delays(1000);
+  machine.request_seconds = 0.01;
+  const auto run = simulate(tasks(5000, 1e-6), machine);
+  // A grant for each of the first two rounds of requests, and one for each result.
+  CHECK(run.stages[0].managing == doctest::Approx(0.01 * (2000 + 5000)));
+  CHECK(run.seconds == doctest::Approx(run.stages[0].managing).epsilon(0.01));
+}
+
+TEST_CASE("Messages take their latency and their bytes; a task granted ahead hides them") {
+  simulated_machine machine{
+      .workers = 1, .latency = 0.5, .bandwidth = 100, .request_seconds = 0, .granted_ahead = 1};
+  // There and back for each task, and 50 bytes each way out.
+  CHECK(simulate(tasks(4, 1, 50), machine).seconds == doctest::Approx(4 * (0.5 + 1 + 0.5 + 0.5)));
+  machine.granted_ahead = 3;
+  CHECK(simulate(tasks(4, 1, 50), machine).seconds == doctest::Approx(0.5 + 4 + 0.5 + 0.5));
+  machine.workers = 4; // who all have to know the results in the end
+  CHECK(simulate(tasks(4, 1, 50), machine).seconds ==
+        doctest::Approx(0.5 + 1 + 0.5 + 0.5 + 200. / 100 + 2 * 0.5));
+}
+
+TEST_CASE("Workers who share cores are slower by as much") {
+  simulated_machine machine = without_delays(8);
+  machine.cores = 2;
+  CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8));
+  machine.cores = 16;
+  CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(2));
+}
+
+TEST_CASE("For any tasks the time is between the bounds of list scheduling") {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    workload work = tasks(1 + random() % 300, 0);
+    auto& batch = work.stages[0].batches[0];
+    for (auto& task : batch)
+      task.seconds = std::uniform_real_distribution<double>(0.1, 10)(random);
+    const auto workers = static_cast<std::int64_t>(1 + random() % 40);
+    simulated_machine machine = without_delays(workers);
+    machine.granted_ahead = 1;
+    const double sum = std::accumulate(batch.begin(), batch.end(), 0.0,
+                                       [](double s, const simulated_task& t) { return s + t.seconds; });
+    const double longest = std::max_element(batch.begin(), batch.end(), [](const auto& a, const auto& b) {
+                             return a.seconds < b.seconds;
+                           })->seconds;
+    const double time = simulate(work, machine).seconds;
+    const double share = sum / static_cast<double>(workers);
+    CHECK(time >= std::max(share, longest) - 1e-9);
+    CHECK(time <= share + longest + 1e-9); // Graham
+  }
+}
+
+TEST_CASE("The bottleneck is the longest stage; machines that cannot be are refused") {
+  workload work = tasks(8, 1);
+  work.stages.push_back({"partition", 3});
+  CHECK(bottleneck(simulate(work, without_delays(1))).stage == "meshing");
+  CHECK(bottleneck(simulate(work, without_delays(8))).stage == "partition");
+  CHECK_THROWS_AS(bottleneck(simulated_run{}), usage_error);
+  CHECK_THROWS_AS(simulate(work, without_delays(0)), usage_error);
+  CHECK_THROWS_AS(simulate(work, {.bandwidth = 0}), usage_error);
+  CHECK_THROWS_AS(simulate(work, {.latency = -1}), usage_error);
+  CHECK_THROWS_AS(simulate(work, {.granted_ahead = 0}), usage_error);
+}
