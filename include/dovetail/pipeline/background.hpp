@@ -35,7 +35,7 @@ public:
 /// What is known before the background mesh: sizes of the mesh and of its decomposition.
 struct mesh_plan {
   double predicted_elements = 0;
-  double relative_error = 0; ///< of the integral, estimated
+  double relative_error = 0; ///< estimated: of the integral of sizes, and of what meshers make of it
   int subdomains = 1;
   double coarse_scale = 1; ///< factor between coarse and final size
   double size_scale = 1;   ///< factor between final size and that given (`generate_options::enlarged_above`)
