@@ -59,6 +59,32 @@ std::vector<std::array<global_id, D + 1>> put_together(const std::vector<rank_me
 }
 
 template <int D>
+std::array<global_id, D> by_number(const rank_mesh<D>& rank, const simplex<D - 1>& side) {
+  std::array<global_id, D> numbers;
+  for (std::size_t k = 0; k < D; ++k)
+    numbers[k] = rank.vertex_numbers[static_cast<std::size_t>(side[k])];
+  return numbers;
+}
+
+/// Is it a side of the element, and where it must be, turned outwards?
+template <int D>
+bool has_side(const simplex<D>& element, const simplex<D - 1>& side, bool outwards) {
+  for (const auto& local : numbering::sides<D>) {
+    simplex<D - 1> at;
+    for (std::size_t k = 0; k < D; ++k)
+      at[k] = element[static_cast<std::size_t>(local[k])];
+    if (!outwards && sorted_vertices(at) == sorted_vertices(side))
+      return true;
+    for (int turn = 0; turn < (D == 3 ? 3 : 1); ++turn) {
+      if (at == side)
+        return true;
+      std::rotate(at.begin(), at.begin() + 1, at.end());
+    }
+  }
+  return false;
+}
+
+template <int D>
 void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<local_id>& rank_of_piece,
                   local_id ranks) {
   const auto plain = all_ranks(mesh, rank_of_piece, ranks, false);
@@ -73,6 +99,13 @@ void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<
   for (std::size_t e = 0; e < elements.size(); ++e)
     same = same && std::equal(elements[e].begin(), elements[e].end(), whole.mesh.elements[e].begin());
   CHECK(same);
+  std::set<std::pair<std::array<global_id, D>, local_id>> hosts;
+  for (std::size_t s = 0; s < whole.sides.size(); ++s) {
+    std::array<global_id, D> key;
+    std::copy(whole.sides[s].begin(), whole.sides[s].end(), key.begin());
+    std::sort(key.begin(), key.end());
+    hosts.insert({key, whole.side_hosts[s]});
+  }
   io::mesh_hasher hasher;
   std::size_t sides = 0;
   for (const auto& rank : plain) {
@@ -87,6 +120,14 @@ void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<
     }
     for (const auto& elements_of_side : rank.side_elements)
       sides += elements_of_side[1] == no_id ? 1 : 2;
+    for (std::size_t s = 0; s < rank.sides.size(); ++s) {
+      auto key = by_number(rank, rank.sides[s]);
+      std::sort(key.begin(), key.end());
+      same = same && hosts.count({key, rank.side_hosts[s]}) == 1;
+      for (const local_id e : rank.side_elements[s])
+        same = same && (e == no_id || has_side<D>(rank.mesh.elements[static_cast<std::size_t>(e)],
+                                                  rank.sides[s], e == rank.side_elements[s][0]));
+    }
   }
   CHECK(same);
   CHECK(hasher.value() == io::mesh_hash(mesh));
@@ -221,6 +262,21 @@ TEST_CASE("arrays as solvers take them") {
       CHECK(volume(cells, first) == doctest::Approx(1.0 / 48));
       CHECK(volume(turned, first) == doctest::Approx(-1.0 / 48));
     }
+    const auto sides = sides_by_ids(rank);
+    REQUIRE(sides.size() == 3 * rank.side_hosts.size());
+    bool on_cube = true; // all vertices of a side in one of its planes
+    for (std::size_t first = 0; first < sides.size(); first += 3) {
+      bool in_plane = false;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double plane : {0.0, 1.0}) {
+          const auto lies = [&](global_id v) {
+            return coordinates[3 * static_cast<std::size_t>(v) + axis] == plane;
+          };
+          in_plane = in_plane || (lies(sides[first]) && lies(sides[first + 1]) && lies(sides[first + 2]));
+        }
+      on_cube = on_cube && in_plane;
+    }
+    CHECK(on_cube);
   }
 }
 

@@ -3,10 +3,12 @@
 /// want it.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,20 +60,30 @@ struct rank_mesh {
   std::vector<rank_neighbour> neighbours; ///< by growing rank: those with which it shares a vertex
 };
 
-/// The elements as ids of their vertices, `D + 1` for each, without ghosts: what `dolfinx::mesh::create_mesh`
-/// takes, whose order of a simplex's vertices is free. O(elements).
-template <int D>
-std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
-  std::vector<global_id> cells;
-  cells.reserve(mesh.owned_elements * (D + 1));
-  for (std::size_t e = 0; e < mesh.owned_elements; ++e)
-    for (const local_id v : mesh.mesh.elements[e])
-      cells.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
-  return cells;
+namespace detail {
+
+template <int D, std::size_t N>
+std::vector<global_id> by_ids(const rank_mesh<D>& mesh, std::span<const std::array<local_id, N>> simplices) {
+  std::vector<global_id> ids;
+  ids.reserve(N * simplices.size());
+  for (const auto& vertices : simplices)
+    for (const local_id v : vertices)
+      ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
+  return ids;
 }
 
-/// The same with tetrahedra as `DMPlexCreateFromCellListParallel` takes them, whose first three vertices turn
-/// the other way: the first two vertices of each are exchanged (D = 3). O(elements).
+} // namespace detail
+
+/// The elements that the rank owns as ids of vertices: (owned elements) x (D + 1), row by row. The `cells` of
+/// `dolfinx::mesh::create_mesh`, which takes a simplex's vertices in any order. O(elements).
+template <int D>
+std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
+  return detail::by_ids(mesh, span_of(mesh.mesh.elements).first(mesh.owned_elements));
+}
+
+/// The same, and as large, in the order of PETSc's `DMPlexCreateFromCellListParallel`: the first three
+/// vertices of its tetrahedra turn the other way, so the first two of each are exchanged (D = 3).
+/// O(elements).
 template <int D>
 std::vector<global_id> cells_for_dmplex(const rank_mesh<D>& mesh) {
   auto cells = cells_by_ids(mesh);
@@ -81,8 +93,16 @@ std::vector<global_id> cells_for_dmplex(const rank_mesh<D>& mesh) {
   return cells;
 }
 
-/// The coordinates that belong to these cells: of the vertices that the rank owns, in the order of their ids,
-/// three of each. O(vertices).
+/// The sides on CAD faces or curves as ids of vertices: (sides) x D, row by row, for `side_hosts`. What
+/// `dolfinx::io::distribute_entity_data` makes tags of. O(sides).
+template <int D>
+std::vector<global_id> sides_by_ids(const rank_mesh<D>& mesh) {
+  return detail::by_ids(mesh, span_of(mesh.sides));
+}
+
+/// The coordinates that belong to these: (owned vertices) x 3, row by row, in the order of ids. The `x` of
+/// `create_mesh`, the `vertexCoords` of `DMPlexCreateFromCellListParallel`, which both take a vertex from the
+/// rank that owns it. O(vertices).
 template <int D>
 std::vector<double> owned_coordinates(const rank_mesh<D>& mesh) {
   std::vector<double> coordinates;
