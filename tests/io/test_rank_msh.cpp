@@ -65,6 +65,15 @@ public:
       std::vector<int> of_volume;
       gmsh::model::getPartitions(dimension, tag, of_volume);
       partitions.insert(of_volume.begin(), of_volume.end());
+      std::string type;
+      gmsh::model::getType(dimension, tag, type);
+      if (type != "Ghost volume")
+        continue;
+      std::vector<std::size_t> elements;
+      std::vector<int> owners;
+      gmsh::model::mesh::getGhostElements(dimension, tag, elements, owners);
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        ghosts[of_volume.at(0)][elements[e]] = owners[e];
     }
   }
   ~gmsh_model() { gmsh::finalize(); }
@@ -76,6 +85,7 @@ public:
   std::map<int, std::size_t> count; ///< of elements by dimension
   std::set<std::string> names;
   std::set<int> partitions;
+  std::map<int, std::map<std::size_t, int>> ghosts; ///< of a partition: elements, and whose they are
 };
 
 const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
@@ -128,4 +138,35 @@ TEST_CASE("Gmsh reads the binary file of each rank, and all of them together") {
 
 TEST_CASE("Gmsh reads text files of ranks") {
   check_files(false);
+}
+
+TEST_CASE("Gmsh reads the ghosts of each rank, and whose they are") {
+  const auto mesh = cubes.distributed();
+  for (const bool binary : {true, false}) {
+    const testing::scratch_folder folder("ranks_msh");
+    io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}, .ghosts = true}(mesh,
+                                                                                                   folder);
+    const auto numbers = io::number_by_ranks(mesh, redistribution_by::pieces{}(mesh, 4).rank_of_piece, 4);
+    for (int q = 1; q <= 4; ++q) {
+      const gmsh_model one({folder / ("ranks_" + std::to_string(q) + ".msh")});
+      CHECK(one.complaints == "");
+      const auto rank = io::make_rank_mesh<3>(mesh, numbers, q - 1, true);
+      CHECK(one.nodes.size() == rank.mesh.points.size());
+      REQUIRE(one.tetrahedra.size() == rank.mesh.elements.size());
+      std::map<int, std::map<std::size_t, int>> ghosts;
+      bool same = true;
+      for (std::size_t e = 0; e < rank.mesh.elements.size(); ++e) {
+        const auto tag = static_cast<std::size_t>(rank.element_ids[e] + 1);
+        if (e >= rank.owned_elements)
+          ghosts[q][tag] = rank.element_owners[e] + 1;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const auto v = static_cast<std::size_t>(rank.mesh.elements[e][k]);
+          const auto node = static_cast<std::size_t>(rank.vertex_ids[v] + 1);
+          same = same && one.tetrahedra.at(tag)[k] == node && one.nodes.at(node) == rank.mesh.points[v];
+        }
+      }
+      CHECK(same);
+      CHECK(one.ghosts == ghosts);
+    }
+  }
 }

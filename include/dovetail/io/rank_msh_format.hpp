@@ -13,8 +13,8 @@ namespace dovetail::io {
 
 /// `<stem>_1.msh`, `<stem>_2.msh`, ... with the partitioned entities of all ranks; partition q + 1 is rank q.
 /// A file has all nodes of its rank; the points, lines and triangles that ranks share are elements of the
-/// lowest of them. Tags are ids, counted from 1. Ghosts are left out. Each file costs n log n in the
-/// skeleton.
+/// lowest of them. Tags are ids, counted from 1. Ghosts are elements of an entity of their own, and
+/// `$GhostElements` names their owners. Each file costs n log n in the skeleton.
 struct rank_msh_format {
   bool binary = true;
   std::string stem = "ranks";

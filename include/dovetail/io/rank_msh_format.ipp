@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,6 +80,9 @@ public:
     const point_sharers sharers(ranks_.mesh.skeleton);
     document_.cad = number_cad_entities(ranks_.mesh, sharers, document_.materials.size());
     document_.parts = number_partition_entities(ranks_.mesh, sharers, document_.cad);
+    if (source.ghosts)
+      for (local_id q = 0; q < numbers_.ranks(); ++q)
+        document_.ghost_tags.push_back(document_.parts.tags[3].back() + 1 + q);
     for (auto& dimension : document_.parts.entities.of_dimension)
       for (auto& entity : dimension) {
         for (local_id& s : entity.sharers)
@@ -89,6 +93,8 @@ public:
     elements_.resize(ranks_.volumes.size());
     for (std::size_t e = 0; e < rank.owned_elements; ++e)
       elements_[volume_of(e)].push_back(static_cast<local_id>(e));
+    for (std::size_t e = rank.owned_elements; e < rank.mesh.elements.size(); ++e)
+      ghosts_.push_back(static_cast<local_id>(e));
   }
 
   void write(const std::filesystem::path& path, bool binary) {
@@ -100,15 +106,18 @@ public:
     write_entity_records(out, document_.cad, document_.groups, false);
     out.end("Entities");
     write_partitioned_entities(out, document_.parts, document_.groups,
-                               static_cast<std::size_t>(numbers_.ranks()), {});
+                               static_cast<std::size_t>(numbers_.ranks()), document_.ghost_tags);
     write_nodes(out);
     write_elements(out);
+    if (!document_.ghost_tags.empty())
+      write_ghosts(out);
     file.commit();
   }
 
 private:
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
   const msh_entities& parts() const { return document_.parts; }
+  local_id ghost_tag() const { return document_.ghost_tags[index(rank_.rank)]; }
   std::size_t volume_of(std::size_t element) const {
     return index(ranks_.volume(rank_.rank, rank_.mesh.tags[element]));
   }
@@ -144,26 +153,39 @@ private:
   void write_nodes(msh_encoder& out) const {
     std::uint64_t blocks = 0, nodes = 0;
     for_each_node_block([&](std::size_t, std::size_t, std::size_t count) { ++blocks, nodes += count; });
+    const auto& ids = rank_.vertex_ids;
+    const std::size_t of_ghosts = ids.size() - rank_.held_vertices;
     out.begin("Nodes");
-    out.count(blocks);
-    out.count(nodes);
-    const auto ids = span_of(rank_.vertex_ids).first(rank_.held_vertices);
+    out.count(blocks + (of_ghosts > 0 ? 1 : 0));
+    out.count(nodes + of_ghosts);
     out.count(ids.empty() ? 0 : msh_tag(*std::min_element(ids.begin(), ids.end())));
     out.count(ids.empty() ? 0 : msh_tag(*std::max_element(ids.begin(), ids.end())));
     out.line();
     for_each_node_block([&](std::size_t d, std::size_t i, std::size_t count) {
       write_block_head(out, static_cast<int>(d), parts().tags[d][i], 0, static_cast<global_id>(count));
-      const auto& members = d == 3 ? inner_[i] : parts().points[d][i];
-      for (const local_id v : members) {
-        out.count(msh_tag(d == 3 ? rank_.vertex_ids[index(v)] : numbers_.point_ids[index(v)]));
-        out.line();
-      }
-      for (const local_id v : members) {
-        out.point(d == 3 ? rank_.mesh.points[index(v)] : ranks_.mesh.skeleton.points[index(v)]);
-        out.line();
-      }
+      if (d == 3)
+        write_node_list(out, inner_[i], ids, rank_.mesh.points);
+      else
+        write_node_list(out, parts().points[d][i], numbers_.point_ids, ranks_.mesh.skeleton.points);
     });
+    if (of_ghosts > 0) {
+      write_block_head(out, 3, ghost_tag(), 0, static_cast<global_id>(of_ghosts));
+      std::vector<local_id> members(of_ghosts);
+      std::iota(members.begin(), members.end(), static_cast<local_id>(rank_.held_vertices));
+      write_node_list(out, members, ids, rank_.mesh.points);
+    }
     out.end("Nodes");
+  }
+  static void write_node_list(msh_encoder& out, const std::vector<local_id>& members,
+                              const std::vector<global_id>& ids, const std::vector<vec3>& points) {
+    for (const local_id v : members) {
+      out.count(msh_tag(ids[index(v)]));
+      out.line();
+    }
+    for (const local_id v : members) {
+      out.point(points[index(v)]);
+      out.line();
+    }
   }
 
   template <std::size_t N>
@@ -193,6 +215,10 @@ private:
     std::uint64_t blocks = 0, total = rank_.owned_elements, next = first_shared;
     std::uint64_t least = total > 0 ? msh_tag(rank_.element_ids.front()) : next;
     std::uint64_t last = total > 0 ? least + total - 1 : 0;
+    for (const local_id e : ghosts_) {
+      const std::uint64_t tag = msh_tag(rank_.element_ids[index(e)]);
+      ++total, least = std::min(least, tag), last = std::max(last, tag);
+    }
     for (std::size_t d = 0; d < 3; ++d)
       for (std::size_t i = 0; i < parts().tags[d].size(); ++i, next += shared_count(d, i - 1))
         if (shared_count(d, i) > 0 && parts().entities.of_dimension[d][i].sharers.front() == rank_.rank) {
@@ -202,6 +228,7 @@ private:
         }
     for (const auto& elements : elements_)
       blocks += elements.empty() ? 0 : 1;
+    blocks += ghosts_.empty() ? 0 : 1;
     out.begin("Elements");
     out.count(blocks);
     out.count(total);
@@ -226,19 +253,37 @@ private:
                                  const local_id s = parts().simplices[2][i][k];
                                  write_simplex(out, t, skeleton.triangles[index(s)]);
                                });
-    for (std::size_t volume = 0; volume < elements_.size(); ++volume) {
-      if (elements_[volume].empty())
-        continue;
-      write_block_head(out, 3, parts().tags[3][volume], static_cast<int>(msh_type::tetrahedron),
-                       static_cast<global_id>(elements_[volume].size()));
-      for (const local_id e : elements_[volume]) {
-        std::array<global_id, 4> ids;
-        for (std::size_t k = 0; k < 4; ++k)
-          ids[k] = rank_.vertex_ids[index(rank_.mesh.elements[index(e)][k])];
-        write_element(out, msh_tag(rank_.element_ids[index(e)]), ids);
-      }
-    }
+    for (std::size_t volume = 0; volume < elements_.size(); ++volume)
+      write_tetrahedra(out, parts().tags[3][volume], elements_[volume]);
+    if (!ghosts_.empty())
+      write_tetrahedra(out, ghost_tag(), ghosts_);
     out.end("Elements");
+  }
+  void write_tetrahedra(msh_encoder& out, local_id entity, const std::vector<local_id>& elements) const {
+    if (elements.empty())
+      return;
+    write_block_head(out, 3, entity, static_cast<int>(msh_type::tetrahedron),
+                     static_cast<global_id>(elements.size()));
+    for (const local_id e : elements) {
+      std::array<global_id, 4> ids;
+      for (std::size_t k = 0; k < 4; ++k)
+        ids[k] = rank_.vertex_ids[index(rank_.mesh.elements[index(e)][k])];
+      write_element(out, msh_tag(rank_.element_ids[index(e)]), ids);
+    }
+  }
+  /// Tag, partition of the owner, and the one partition that has it as a ghost in this file.
+  void write_ghosts(msh_encoder& out) const {
+    out.begin("GhostElements");
+    out.count(ghosts_.size());
+    out.line();
+    for (const local_id e : ghosts_) {
+      out.count(msh_tag(rank_.element_ids[index(e)]));
+      out.integer(partition_tag(rank_.element_owners[index(e)]));
+      out.count(1);
+      out.integer(partition_tag(rank_.rank));
+      out.line();
+    }
+    out.end("GhostElements");
   }
 
   const rank_numbering& numbers_;
@@ -248,6 +293,7 @@ private:
   msh_document<3> document_;
   std::vector<std::vector<local_id>> inner_;    ///< per volume: vertices of the rank
   std::vector<std::vector<local_id>> elements_; ///< per volume: of the rank
+  std::vector<local_id> ghosts_;
 };
 
 } // namespace detail
