@@ -2,6 +2,7 @@
 """Reads the files of a parallel solver with somebody else's reader and checks that the ranks make one mesh:
 check_rank_files.py FORMAT FOLDER RANKS. Prints one line of counts; exit status 0 when all is well."""
 
+import itertools
 import os
 import subprocess
 import sys
@@ -125,6 +126,18 @@ def check_xdmf(folder, count):
         sides, cad = file["sides/vertices"][:], file["sides/cad"][:]
         if len(first_vertex) != count + 1 or len(sides) != len(cad) or np.any(cad < 0):
             fail("sides or ranks")
+        first_side = file["ranks/first_side"][:]
+        if len(first_side) != count + 1 or first_side[0] != 0 or first_side[-1] != len(sides):
+            fail("where sides of ranks begin")
+        for q in range(count):  # each is a side of an element of its rank
+            of_rank = cells[first_cell[q]:first_cell[q + 1]]
+            of_cells = {tuple(sorted(c)) for cell in of_rank for c in itertools.combinations(cell, sides.shape[1])}
+            if not {tuple(sorted(side)) for side in sides[first_side[q]:first_side[q + 1]]} <= of_cells:
+                fail(f"rank {q} has sides of no element of it")
+        names = file["names/patches"].asstr()[:]
+        print("sides by patch:", {names[p]: int(n) for p, n in
+                                  zip(*np.unique(file["sides/patch"][:], return_counts=True))},
+              "regions:", file["names/regions"].asstr()[:].tolist())
         if len(np.unique(file["vertices/mesh_node"][:])) != len(points):
             fail("numbers of vertices")
     ranks = []

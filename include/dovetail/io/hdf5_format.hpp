@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/io/concepts.hpp"
+#include "dovetail/io/face_groups.hpp"
 
 #include <hdf5.h>
 
@@ -60,11 +61,17 @@ public:
   void create(const std::string& name, std::uint64_t rows, std::uint64_t columns = 1) {
     const std::array<hsize_t, 2> extent{rows, columns};
     const handle space(H5Screate_simple(columns == 1 ? 1 : 2, extent.data(), nullptr), H5Sclose, *this);
-    const handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, *this);
-    require(H5Pset_create_intermediate_group(links.id, 1));
-    const handle made(
-        H5Dcreate2(file_, name.c_str(), hdf5_type<T>(), space.id, links.id, H5P_DEFAULT, H5P_DEFAULT),
-        H5Dclose, *this);
+    create(name, hdf5_type<T>(), space.id, H5P_DEFAULT);
+  }
+  /// One without rows, for `append`.
+  template <class T>
+  void create_growing(const std::string& name, std::uint64_t columns = 1) {
+    const int rank = columns == 1 ? 1 : 2;
+    const std::array<hsize_t, 2> none{0, columns}, most{H5S_UNLIMITED, columns}, chunk{4096, columns};
+    const handle space(H5Screate_simple(rank, none.data(), most.data()), H5Sclose, *this);
+    const handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, *this);
+    require(H5Pset_chunk(layout.id, rank, chunk.data()));
+    create(name, hdf5_type<T>(), space.id, layout.id);
   }
   /// Writes rows from `first` on.
   template <class T>
@@ -84,11 +91,40 @@ public:
   void write(const std::string& name, std::uint64_t first, const std::vector<T>& values) {
     write(name, first, values.size(), values.data());
   }
+  /// Writes behind the last row of a growing dataset.
+  template <class T>
+  void append(const std::string& name, const std::vector<T>& values, std::uint64_t columns = 1) {
+    std::array<hsize_t, 2> extent{0, columns};
+    const std::uint64_t rows = values.size() / columns;
+    {
+      const handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, *this);
+      const handle there(H5Dget_space(set.id), H5Sclose, *this);
+      require(H5Sget_simple_extent_dims(there.id, extent.data(), nullptr));
+      extent[0] += rows;
+      require(H5Dset_extent(set.id, extent.data()));
+    }
+    write(name, extent[0] - rows, rows, values.data(), columns);
+  }
   /// A whole dataset at once.
   template <class T>
   void add(const std::string& name, const std::vector<T>& values) {
     create<T>(name, values.size());
     write(name, 0, values);
+  }
+  /// A dataset of texts.
+  void add(const std::string& name, const std::vector<std::string>& texts) {
+    const hsize_t extent = texts.size();
+    const handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose, *this);
+    const handle type(H5Tcopy(H5T_C_S1), H5Tclose, *this);
+    require(H5Tset_size(type.id, H5T_VARIABLE));
+    require(H5Tset_cset(type.id, H5T_CSET_UTF8));
+    create(name, type.id, space.id, H5P_DEFAULT);
+    std::vector<const char*> begins;
+    for (const auto& text : texts)
+      begins.push_back(text.c_str());
+    const handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, *this);
+    if (!begins.empty())
+      require(H5Dwrite(set.id, type.id, H5S_ALL, H5S_ALL, H5P_DEFAULT, begins.data()));
   }
   /// An attribute of a group or dataset: whole numbers, or a text.
   void attribute(const std::string& of, const std::string& name, const std::vector<std::int64_t>& values) {
@@ -129,6 +165,12 @@ private:
     herr_t (*close)(hid_t);
   };
 
+  void create(const std::string& name, hid_t type, hid_t space, hid_t layout) {
+    const handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, *this);
+    require(H5Pset_create_intermediate_group(links.id, 1));
+    const handle made(H5Dcreate2(file_, name.c_str(), type, space, links.id, layout, H5P_DEFAULT), H5Dclose,
+                      *this);
+  }
   void add_attribute(const std::string& of, const std::string& name, hid_t type, hid_t space,
                      const void* values) {
     const handle made(H5Acreate_by_name(file_, of.c_str(), name.c_str(), type, space, H5P_DEFAULT,
@@ -180,8 +222,15 @@ struct xdmf_format {
     file.create<local_id>("cells/subdomain", elements);
     file.add("ranks/first_vertex", numbers.first_vertex);
     file.add("ranks/first_cell", numbers.first_element);
-    std::vector<global_id> sides; // of the boundary, which is small beside the mesh
-    std::vector<local_id> cad;
+    file.create_growing<global_id>("sides/vertices", D);
+    file.create_growing<local_id>("sides/cad");
+    const auto groups = collect_face_groups(source.mesh); // of CAD faces; sides of triangles are on curves
+    if constexpr (D == 3) {
+      file.create_growing<local_id>("sides/patch");
+      file.add("names/patches", groups.names);
+    }
+    file.add("names/regions", names_of_tags(source.mesh));
+    std::vector<global_id> first_side{0};
     for (local_id q = 0; q < numbers.ranks(); ++q) {
       const auto rank = make_rank_mesh<D>(source.mesh, numbers, q);
       const auto first_vertex = static_cast<std::uint64_t>(numbers.first_vertex[static_cast<std::size_t>(q)]);
@@ -194,15 +243,17 @@ struct xdmf_format {
       file.write("cells/mesh_element", first_element, rank.element_numbers);
       file.write("cells/region", first_element, rank.mesh.tags);
       file.write("cells/subdomain", first_element, rank.subdomains);
-      for (std::size_t s = 0; s < rank.sides.size(); ++s) {
-        for (const local_id v : rank.sides[s])
-          sides.push_back(rank.vertex_ids[static_cast<std::size_t>(v)]);
-        cad.push_back(rank.side_hosts[s]);
+      file.append("sides/vertices", sides_by_ids(rank), D);
+      file.append("sides/cad", rank.side_hosts);
+      if constexpr (D == 3) {
+        std::vector<local_id> patches;
+        for (const local_id face : rank.side_hosts)
+          patches.push_back(groups.of_face[static_cast<std::size_t>(face)]);
+        file.append("sides/patch", patches);
       }
+      first_side.push_back(first_side.back() + static_cast<global_id>(rank.sides.size()));
     }
-    file.create<global_id>("sides/vertices", cad.size(), D);
-    file.write("sides/vertices", 0, cad.size(), sides.data(), D);
-    file.add("sides/cad", cad);
+    file.add("ranks/first_side", first_side);
     file.close();
     write_xdmf(paths.back(), D == 3 ? "Tetrahedron" : "Triangle", vertices, elements, corners);
   }
