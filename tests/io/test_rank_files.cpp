@@ -138,6 +138,10 @@ TEST_CASE("files of more ranks do not stay behind; a mesh that does not fit leav
   io::rank_writer<io::pvtu_format>{.ranks = 5}(cubes.distributed(), folder);
   io::rank_writer<io::pvtu_format>{.ranks = 2}(cubes.distributed(), folder);
   CHECK(testing::file_count(folder) == 3);
+  for (const int ranks : {4, 2}) // the number of folders says for how many processors the case is
+    io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes.distributed(), folder);
+  CHECK(std::filesystem::exists(folder / "processor1/constant/polyMesh/points"));
+  CHECK_FALSE(std::filesystem::exists(folder / "processor2"));
   const testing::scratch_folder other("ranks_wrong");
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes.distributed(), other), partition_error);
   const auto cracked = cubes.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });

@@ -84,7 +84,8 @@ private:
     std::string name; ///< in the folder, perhaps below it
   };
 
-  /// Also removes what an earlier mesh of more ranks has left.
+  /// Also removes what an earlier mesh of more ranks has left, and folders that are empty then: the number of
+  /// OpenFOAM's says how many processors there are.
   template <int D>
   static report move_all(const rank_source<D>& source, const std::vector<file>& files, const Format& format,
                          const report& redistributed, const std::filesystem::path& folder) {
@@ -99,8 +100,12 @@ private:
     bool left = true;
     for (local_id q = source.numbers.ranks(); left; ++q) {
       left = false;
-      for (const auto& name : format.files_of_rank(q))
+      for (const auto& name : format.files_of_rank(q)) {
         left = std::filesystem::remove(folder / name, ignored) || left;
+        for (auto at = (folder / name).parent_path();
+             at != folder && std::filesystem::remove(at, ignored);) // not when something is in it
+          at = at.parent_path();
+      }
     }
     sync_to_disk(folder);
     summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
