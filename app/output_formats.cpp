@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "named_policies.hpp"
 
+#include "dovetail/io/mfem_format.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/openfoam_format.hpp"
 #include "dovetail/io/pvtu_format.hpp"
@@ -52,6 +53,7 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
   if constexpr (D == 3) {
     add_by_ranks(50.0, io::rank_msh_format{});
     add_by_ranks(85.0, io::openfoam_format{});
+    add_by_ranks(55.0, io::mfem_format{});
   }
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
   add_by_ranks(D == 3 ? 65.0 : 55.0, io::xdmf_format{});
@@ -80,8 +82,6 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");
     return;
   }
-  if (by_ranks && options.order == 2)
-    throw command_line_error("--order 2: files by ranks are of first order");
   const std::string given = "--ranks: " + std::to_string(*options.ranks);
   if (*options.ranks < 1)
     throw command_line_error(given + " is less than 1");
@@ -89,7 +89,7 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
     throw command_line_error(given + " are more than the " + std::to_string(*options.subdomains) +
                              " subdomains; a rank has one at least");
   if (options.order == 2)
-    throw command_line_error("--ranks: files by ranks have no second-order elements; leave --order out");
+    throw command_line_error("--order 2: files by ranks are of first order");
   if (!by_ranks)
     throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)));
 }

@@ -173,6 +173,114 @@ def check_vtkhdf(folder, count):
     check_ranks([whole])  # VTK reads all partitions into one
 
 
+def read_mfem(path):
+    """What mfem::ParMesh reads: words one after the other, where comments may stand between sections."""
+    with open(path, encoding="utf-8") as file:
+        if file.readline() != "MFEM mesh v1.2\n":
+            fail(f"the first line of {path}")
+        words = iter(" ".join(line for line in file if not line.startswith("#")).split())
+
+    def expect(*names):
+        for name in names:
+            if (found := next(words)) != name:
+                fail(f"{path} has {found} where {name} should be")
+
+    def table(columns):
+        return np.array([int(next(words)) for _ in range(int(next(words)) * columns)], int).reshape(-1, columns)
+
+    expect("dimension", "3", "elements")
+    elements = table(6)
+    expect("boundary")
+    boundary = table(5)
+    expect("vertices")
+    count = int(next(words))
+    expect("3")
+    points = np.array([float(next(words)) for _ in range(3 * count)]).reshape(-1, 3)
+    if np.any(elements[:, 1] != 4) or np.any(boundary[:, 1] != 2):
+        fail(f"{path} has other cells than tetrahedra, or other sides than triangles")
+    expect("mfem_serial_mesh_end", "communication_groups", "number_of_groups")
+    sharers = [tuple(int(next(words)) for _ in range(int(next(words)))) for _ in range(int(next(words)))]
+    totals = {}
+    for of in ("vertices", "edges", "faces"):
+        expect(f"total_shared_{of}")
+        totals[of] = int(next(words))
+    shared = {}
+    for group in sharers[1:]:
+        of_group = shared[group] = {}
+        for of, columns in (("vertices", 1), ("edges", 2), ("faces", 4)):
+            expect(f"shared_{of}")
+            of_group[of] = table(columns)
+            totals[of] -= len(of_group[of])
+    expect("mfem_mesh_end")
+    if any(totals.values()) or next(words, None) is not None:
+        fail(f"{path} does not have as much as it says")
+    return {"points": points, "cells": elements[:, 2:], "attributes": elements[:, 0], "boundary": boundary,
+            "self": sharers[0], "shared": shared}
+
+
+def check_mfem(folder, count):
+    """The reader above; what ranks share must be in the same order everywhere, and be all that is at the same place."""
+    files = [read_mfem(f"{folder}/mesh.{q:06}") for q in range(count)]
+    for q, file in enumerate(files):
+        foreign = file["foreign"] = np.zeros(len(file["points"]), bool)
+        faces = {tuple(sorted(np.delete(cell, k))) for cell in file["cells"] for k in range(4)}
+        edges = {tuple(sorted((cell[a], cell[b]))) for cell in file["cells"] for a in range(4) for b in range(a)}
+        if file["self"] != (q,):
+            fail(f"rank {q} says it is {file['self']}")
+        for group, here in file["shared"].items():
+            if q not in group or list(group) != sorted(set(group)) or not len(here["vertices"]) + len(here["edges"]):
+                fail(f"rank {q}: group {group}")
+            if len(here["faces"]) and (len(group) != 2 or np.any(here["faces"][:, 0] != 2)):
+                fail(f"rank {q}: faces of {group}")
+            here["faces"] = here["faces"][:, 1:]
+            for of, known in (("edges", edges), ("faces", faces)):
+                if not all(tuple(sorted(vertices)) in known for vertices in here[of]):
+                    fail(f"rank {q} has no such {of} as it shares with {group}")
+            foreign[here["vertices"].ravel()] = group[0] < q
+    first = 0
+    for q, file in enumerate(files):
+        file["ids"] = np.full(len(file["points"]), -1)
+        own = np.flatnonzero(~file["foreign"])
+        file["ids"][own] = np.arange(first, first + len(own))
+        first += len(own)
+        for group, here in file["shared"].items():
+            if group[0] < q:
+                there = files[group[0]]["shared"].get(group)
+                if there is None or len(there["vertices"]) != len(here["vertices"]):
+                    fail(f"rank {q} and {group[0]} differ in what {group} share")
+                file["ids"][here["vertices"].ravel()] = files[group[0]]["ids"][there["vertices"].ravel()]
+    for q, file in enumerate(files):
+        for group, here in file["shared"].items():
+            for other in group:
+                there = files[other]["shared"].get(group)
+                if there is None or any(not np.array_equal(file["ids"][here[of]], files[other]["ids"][there[of]])
+                                        for of in ("vertices", "edges", "faces")):
+                    fail(f"rank {q} and {other} differ in what {group} share")
+    for of, columns in (("edges", 2), ("faces", 3)):  # all that elements of two ranks have in common is shared
+        holders = {}
+        for q, file in enumerate(files):
+            local = {tuple(sorted(file["ids"][list(c)])) for cell in file["cells"]
+                     for c in itertools.combinations(cell, columns)}
+            for key in local:
+                holders.setdefault(key, []).append(q)
+        listed = {tuple(sorted(file["ids"][v])): group for file in files
+                  for group, here in file["shared"].items() for v in here[of]}
+        if listed != {key: tuple(group) for key, group in holders.items() if len(group) > 1}:
+            fail(f"not all {of} that ranks share are listed, or in another group")
+    sides = np.concatenate([np.sort(file["ids"][file["boundary"][:, 2:]], axis=1) for file in files])
+    if len(np.unique(sides, axis=0)) != len(sides):
+        fail("a boundary element is there twice")
+    first = 0
+    for file in files:
+        file["cell_ids"] = np.arange(first, first + len(file["cells"]))
+        file["ghost"] = np.zeros(len(file["cells"]), bool)
+        first += len(file["cells"])
+    check_ranks(files)
+    values, counts = np.unique(np.concatenate([file["boundary"][:, 0] for file in files]), return_counts=True)
+    print("boundary elements by attribute:", dict(zip(values.tolist(), counts.tolist())), "materials:",
+          np.unique(np.concatenate([file["attributes"] for file in files])).tolist())
+
+
 def check_openfoam(folder, count):
     """OpenFOAM's own checkMesh, on all processors at once."""
     def dictionary(name, text):

@@ -6,6 +6,7 @@
 #include "dovetail/geometry/plane_svg_path.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/io/mfem_format.hpp"
 #include "dovetail/io/openfoam_format.hpp"
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
@@ -110,6 +111,31 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
   testing::write_content(faces, text.substr(0, before) + text.substr(last, end + 1 - last) +
                                     text.substr(before, last - before) + text.substr(end + 1));
   CHECK(check("openfoam", folder, 3).first != 0);
+}
+
+TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are there once") {
+  if (!has_python_module("os")) // but NumPy
+    return;
+  const testing::scratch_folder folder("ranks_mfem");
+  const auto summary = io::rank_writer<io::mfem_format>{.ranks = 5}(cubes.distributed(), folder);
+  CHECK(summary.files.back() == "mesh.000004");
+  const auto [status, log] = check("mfem", folder, 5);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
+  // Bottom, two faces between solids, top, and the walls around.
+  CHECK(log.find("attribute: {1: 72, 2: 72, 3: 72, 4: 72, 5: 288} materials: [1, 2, 3]") !=
+        std::string::npos);
+  CHECK(testing::file_content(folder / "mesh.000000").find("# element attribute 2: solid \"1\" <&>\n") !=
+        std::string::npos);
+
+  auto spoilt = testing::file_content(folder / "mesh.000001");
+  const auto edges = spoilt.find("\n", spoilt.find("shared_edges")) + 1;
+  const auto gap = spoilt.find(' ', edges), end = spoilt.find('\n', edges);
+  testing::write_content(folder / "mesh.000001", spoilt.substr(0, edges) +
+                                                     spoilt.substr(gap + 1, end - gap - 1) + " " +
+                                                     spoilt.substr(edges, gap - edges) + spoilt.substr(end));
+  CHECK(check("mfem", folder, 5).first != 0); // an edge from its other end
 }
 
 TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {

@@ -82,8 +82,8 @@ concept piecewise_mesh_writer = mesh_writer<W, D> &&
 ///
 /// Failure: throws `io_error` naming the path when a file cannot be written.
 ///
-/// Models: io::pvtu_format, io::xdmf_format and io::vtkhdf_format for D = 2 and 3, io::openfoam_format and
-/// io::rank_msh_format for D = 3.
+/// Models: io::pvtu_format, io::xdmf_format and io::vtkhdf_format for D = 2 and 3, io::openfoam_format,
+/// io::mfem_format and io::rank_msh_format for D = 3.
 template <class F, int D = 3>
 concept rank_format = std::copy_constructible<F> &&
     requires(const F& f, local_id q, const io::rank_source<D>& source, const rank_mesh<D>& mesh,
