@@ -11,6 +11,7 @@
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/mesh/mid_nodes.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -20,6 +21,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 using namespace dovetail;
@@ -170,6 +172,10 @@ TEST_CASE("files of more ranks do not stay behind; a mesh that does not fit leav
   CHECK_FALSE(std::filesystem::exists(folder / "processor2"));
   const testing::scratch_folder other("ranks_wrong");
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes.distributed(), other), partition_error);
+  auto quadratic = cubes.distributed();
+  quadratic.mid_nodes = std::make_shared<const mid_edge_nodes<3>>();
+  CHECK_THROWS_WITH_AS(io::rank_writer<io::mfem_format>{.ranks = 2}(quadratic, other),
+                       doctest::Contains("of first order"), usage_error);
   const auto cracked = cubes.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 2}(cracked, other), mesh_error);
   CHECK(testing::file_count(other) == 0);
