@@ -46,7 +46,7 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
   const auto add_by_ranks = [&](double bytes_per_element, auto format) {
     const io::rank_writer<decltype(format), any_redistributor<D>> writer{
         options.ranks.value_or(1), format,
-        chosen(redistributors<D>(), options.redistribute, "--redistribute")};
+        chosen(redistributors<D>(), options.redistribute, "--redistribute"), options.ghosts};
     known.push_back({format.name(), bytes_per_element, writer, true});
   };
   add_by_ranks(D == 3 ? 65.0 : 60.0, io::pvtu_format{});
@@ -78,7 +78,7 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   const bool by_ranks =
       std::any_of(formats.begin(), formats.end(), [](const auto& format) { return format.by_ranks; });
   if (!options.ranks) {
-    if (by_ranks || !options.redistribute.empty())
+    if (by_ranks || options.ghosts || !options.redistribute.empty())
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");
     return;
   }

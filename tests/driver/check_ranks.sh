@@ -39,15 +39,20 @@ expect_files="ranks_1.msh ranks_2.msh processor0/constant/polyMesh/boundary proc
 for file in $expect_files; do
   [[ -s $sandbox/work/out/$file ]] || fault "no $file"
 done
+expect_success "${small[@]}" --subdomains 8 --ranks 2 --format mfem,pvtu --ghosts
+[[ -s $sandbox/work/out/mesh.000001 ]] || fault "no mesh.000001"
+grep -q 'GhostLevel="1"' "$sandbox/work/out/ranks.pvtu" || fault "no ghosts"
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2
 
 # What does not fit is refused before anything is read.
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
+expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
 expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off --ranks 5 --subdomains 4
 expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu
 expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2
+expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2 --format vtu,mfem
 expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, none" \
   mesh nothing.off --ranks 2 --redistribute x
 expect_usage_error "--format: there is no 'x'.*with --ranks also pvtu" mesh nothing.off --ranks 2 --format x
