@@ -2,11 +2,15 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
 #include "surface_checks.hpp"
 
 #include <doctest/doctest.h>
 
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 using namespace dovetail;
 using namespace dovetail::test;
@@ -83,11 +87,34 @@ TEST_CASE("every vertex has the host of lowest dimension, every triangle its fac
   }
 }
 
-TEST_CASE("refinement balls make edges small where they are") {
-  const capped_cylinder model(4);
+/// The native mesher, and how often it was called for caps, by their height.
+struct counted_mesher {
+  std::shared_ptr<std::map<double, int>> calls = std::make_shared<std::map<double, int>>();
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
+                        const any_sizing& size) const {
+    const box3 box = box_around(boundary.points);
+    if (box.lower.z == box.upper.z)
+      ++(*calls)[box.lower.z];
+    return remesh::patch_remesher{}(surface, boundary, size);
+  }
+};
+
+TEST_CASE("where a caller wants it finer edges get small, and faces out of reach are not made again") {
+  const capped_cylinder model(6);
+  const counted_mesher counted;
   background::coarse_surface_parameters parameters;
-  parameters.refinement = {{{0, 0, 4}, 0.2, 0.05}};
+  parameters.mesher = counted;
+  std::size_t triangles = 0;
+  parameters.finer_at = [&](const background::coarse_surface_result& made) {
+    const bool first = std::exchange(triangles, made.surface.mesh.elements.size()) == 0;
+    return first ? std::vector<size_ball>{{{0, 0, 6}, 0.2, 0.05}} : std::vector<size_ball>{};
+  };
   const auto refined = mesh(model, 0.7, parameters);
+  CHECK(refined.summary.get("refinement_rounds") == 1);
+  CHECK(refined.surface.mesh.elements.size() == triangles);
+  CHECK(refined.bounds.back().size == 0.05);
+  CHECK(counted.calls->at(0) == 1);
+  CHECK(counted.calls->at(6) == 2);
   check_surface(model, refined.surface);
   double shortest = 1e300;
   for (const auto& t : refined.surface.mesh.elements)

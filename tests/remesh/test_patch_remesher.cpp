@@ -131,6 +131,23 @@ TEST_CASE("a long thin cylinder with a coarse circle is not folded") {
   check_patch(s, b, remesh::patch_remesher{}(s, b, uniform(0.79)), 47);
 }
 
+TEST_CASE(
+    "a tube far thinner than the size, whose triangles stay bad, costs no more than some tries of each") {
+  struct counted_cylinder : cylinder {
+    std::size_t* frames;
+    surface_frame frame(vec2 uv) const {
+      ++*frames;
+      return cylinder::frame(uv);
+    }
+  };
+  std::size_t frames = 0;
+  const counted_cylinder s{{0.02}, &frames};
+  const patch_boundary b = seam_rectangle(s, 2 * pi, 0, 100, 3, 60, false, false);
+  const auto mesh = remesh::patch_remesher{}(s, b, uniform(1.7));
+  REQUIRE(mesh.triangles.size() > 300);
+  CHECK(frames < 8 * mesh.triangles.size());
+}
+
 TEST_CASE("a sphere with two poles is closed") {
   const sphere s{};
   for (const int n : {6, 16, 60}) {

@@ -4,7 +4,7 @@
 /// Curves are spaced first, once for all faces at them; then every face is meshed as one region
 /// (`mesh_regions`). What is wrong with a face after that (loops that cross in its parameter plane, folds,
 /// triangles that two faces have in common) refines the curves concerned, and the faces at them are done
-/// again.
+/// again; so does a caller who wants the whole finer at some places.
 #pragma once
 
 #include "dovetail/core/progress.hpp"
@@ -16,20 +16,10 @@
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace dovetail::background {
-
-/// Parameters of `coarse_surface`.
-struct coarse_surface_parameters {
-  double turn = 0.785398163397448; ///< largest turn of curve and surface per edge, in radians (45 degrees)
-  double growth = 0.3;             ///< growth of the size away from curvature, per unit of length
-  double smallest_fraction = 0.1;  ///< curvature refines to no less than this times the given size
-  int rounds = 10;                 ///< most rounds of refinement where faces fail
-  std::vector<size_ball> refinement = {}; ///< places that need a smaller size, e.g. where two sheets are near
-  any_surface_mesher mesher = {};
-  progress on_progress = {};
-};
 
 struct coarse_surface_result {
   surface_mesh surface;
@@ -39,9 +29,23 @@ struct coarse_surface_result {
   report summary;
 };
 
+/// Parameters of `coarse_surface`.
+struct coarse_surface_parameters {
+  double turn = 0.785398163397448; ///< largest turn of curve and surface per edge, in radians (45 degrees)
+  double growth = 0.3;             ///< growth of the size away from curvature, per unit of length
+  double smallest_fraction = 0.1;  ///< curvature refines to no less than this times the given size
+  int rounds = 10;                 ///< most rounds of refinement where faces fail
+  /// Looks at each surface that is whole: the places where it must be finer, such as where two sheets are
+  /// near; none when it will do. Faces out of reach of new places are not meshed again.
+  std::function<std::vector<size_ball>(const coarse_surface_result&)> finer_at = {};
+  any_surface_mesher mesher = {};
+  progress on_progress = {};
+};
+
 /// Meshes the surface of `model` with edges of about min(`sizing`, curvature bound, diagonal / 4). Triangles
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
-/// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed.
+/// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
+/// what `finer_at` throws.
 coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
                                      const coarse_surface_parameters& parameters,
                                      const any_executor& run_tasks);

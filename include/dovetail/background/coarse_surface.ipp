@@ -31,27 +31,28 @@ public:
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
         }),
-        bounds_(all_balls(model, given_, parameters)), balls_(bounds_, parameters.growth),
-        size_([this](vec3 p) { return balls_(p, given_(p)); }) {}
-
-  coarse_surface_result run() {
-    const stopwatch clock;
-    curves_ = space_curves(model_, size_, parameters_.turn, parameters_.smallest_fraction);
-    regions_.resize(topology_.faces.size());
-    faces_.count = regions_.size();
+        bounds_(curvature_balls(model, given_, {parameters.turn, parameters.smallest_fraction})),
+        curvature_(bounds_, parameters.growth), size_([this](vec3 p) { return curvature_(p, given_(p)); }) {
+    faces_.count = topology_.faces.size();
     faces_.surface_of = [](const any_geometry& own, std::size_t f) {
       return surface_of_face(own, static_cast<local_id>(f));
     };
-    build_regions();
-    int round = 0;
-    do
-      mesh();
-    while (repair(++round >= parameters_.rounds));
-    coarse_surface_result result{assemble(), std::move(bounds_), {}};
-    result.summary.name = "coarse surface";
-    summarise(result, round);
-    result.summary.seconds = clock.seconds();
-    return result;
+  }
+
+  coarse_surface_result run() {
+    const stopwatch clock;
+    for (int refinements = 0;; ++refinements) {
+      coarse_surface_result result = make();
+      const std::vector<size_ball> places =
+          parameters_.finer_at ? parameters_.finer_at(result) : std::vector<size_ball>{};
+      if (places.empty()) {
+        result.summary.set("refinement_rounds", refinements);
+        result.summary.seconds = clock.seconds();
+        return result;
+      }
+      append(bounds_, places);
+      size_.refine(places);
+    }
   }
 
 private:
@@ -59,12 +60,20 @@ private:
 
   static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
 
-  static std::vector<size_ball> all_balls(const any_geometry& model, const any_sizing& sizing,
-                                          const coarse_surface_parameters& parameters) {
-    std::vector<size_ball> balls =
-        curvature_balls(model, sizing, {parameters.turn, parameters.smallest_fraction});
-    append(balls, parameters.refinement);
-    return balls;
+  /// At the sizes refined so far.
+  coarse_surface_result make() {
+    curves_ = space_curves(model_, size_.everywhere(), parameters_.turn, parameters_.smallest_fraction);
+    regions_.assign(face_count(), {});
+    folds_before_.clear();
+    build_regions();
+    int round = 0;
+    do
+      mesh();
+    while (repair(++round >= parameters_.rounds));
+    coarse_surface_result result{assemble(), bounds_, {}};
+    result.summary.name = "coarse surface";
+    summarise(result, round);
+    return result;
   }
 
   std::size_t face_count() const { return topology_.faces.size(); }
@@ -253,21 +262,21 @@ private:
     result.summary.set("min_angle_deg", least);
     result.summary.set("mean_min_angle_deg", triangles > 0 ? angle_sum / triangles : 0);
     result.summary.set("rounds", rounds);
-    result.summary.set("size_balls", static_cast<double>(balls_.size()));
+    result.summary.set("size_balls", static_cast<double>(bounds_.size()));
   }
 
   const any_geometry& model_;
   const coarse_surface_parameters& parameters_;
   const any_executor& run_tasks_;
   const geometry_topology& topology_;
-  any_sizing given_; ///< the caller's field, never above a quarter of the model's diagonal
-  std::vector<size_ball> bounds_;
-  graded_balls balls_;
-  any_sizing size_;
+  any_sizing given_;              ///< the caller's field, never above a quarter of the model's diagonal
+  std::vector<size_ball> bounds_; ///< of the curvature, and the places refined
+  graded_balls curvature_;
+  refined_sizing size_; ///< the given one, bounded by curvature, and the places refined
   curve_points curves_;
   std::vector<surface_region> regions_; ///< the faces
   region_set faces_{.count = 0, .build = [this](std::size_t f) { return regions_[f]; }, .surface_of = {}};
-  batched_entities store_{std::make_shared<entity_store>()}; ///< faces away from what is refined stay
+  batched_entities store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces
   std::vector<intervals> origins_; ///< of the segments of each face

@@ -97,26 +97,25 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
   parameters.on_progress = on_progress.only_stopping();
   // Sheets that lie upon each other, or pass through each other, cross at more and more triangles.
   double most_pairs = 0, most_late = 0;
-  for (int round = 0;; ++round) {
-    auto result = background::coarse_surface(model, size, parameters, run);
-    const auto pairs = crossing_triangles(result.surface.mesh.points, result.surface.mesh.elements, {}, run,
-                                          {}, parameters.on_progress);
-    result.summary.set("refinement_rounds", round);
-    if (pairs.empty())
-      return result;
+  int round = 0;
+  parameters.finer_at = [&](const background::coarse_surface_result& made) {
+    const simplicial_mesh<2>& mesh = made.surface.mesh;
+    const auto pairs = crossing_triangles(mesh.points, mesh.elements, {}, run, {}, parameters.on_progress);
     const auto count = static_cast<double>(pairs.size());
     if (round == 0) {
-      most_pairs = 10.0 * static_cast<double>(result.surface.mesh.elements.size()) + 1000;
+      most_pairs = 10.0 * static_cast<double>(mesh.elements.size()) + 1000;
       most_late = 2 * count + 1000;
     }
-    if (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)) {
-      const auto& tags = result.surface.mesh.tags;
-      throw_crossing_faces(model.topology(), {tags[static_cast<std::size_t>(pairs.front().first)],
-                                              tags[static_cast<std::size_t>(pairs.front().second)]});
-    }
+    if (count > 0 && (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
+      throw_crossing_faces(model.topology(), {mesh.tags[static_cast<std::size_t>(pairs.front().first)],
+                                              mesh.tags[static_cast<std::size_t>(pairs.front().second)]});
+    ++round;
+    std::vector<size_ball> places;
     for (const triangle_pair& pair : pairs)
-      detail::add_balls_at_crossing(result.surface, pair, parameters.refinement);
-  }
+      detail::add_balls_at_crossing(made.surface, pair, places);
+    return places;
+  };
+  return background::coarse_surface(model, size, parameters, run);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 /// What `patch_remesher.hpp` declares.
 #pragma once
 
+#include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/surface_smoothing.hpp"
@@ -10,7 +11,9 @@
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/remesh/repeated_edges.hpp"
 
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace dovetail::detail {
 
@@ -57,8 +60,9 @@ private:
           break;
     }
     flip_all(state, flips);
+    hopeless_stars hopeless;
     for (int round = 0; round < repair_rounds; ++round)
-      if (repair_worst(state, flips, smooth) == 0)
+      if (repair_worst(state, flips, smooth, hopeless) == 0)
         break;
   }
 
@@ -112,9 +116,42 @@ private:
     return added;
   }
 
+  /// The stars that repair could not make better, by vertex: tried again they would give the same. On a tube
+  /// far thinner than the size most triangles stay bad, and each vertex is a corner of six.
+  class hopeless_stars {
+  public:
+    template <class State>
+    bool has(const State& state, local_id v) const {
+      return state.at(v) < keys_.size() && keys_[state.at(v)] == key_of(state, v);
+    }
+    template <class State>
+    void add(const State& state, local_id v) {
+      keys_.resize(state.point.size(), 0);
+      keys_[state.at(v)] = key_of(state, v);
+    }
+
+  private:
+    /// Points and frames follow from the parameters.
+    template <class State>
+    static std::uint64_t key_of(const State& state, local_id v) {
+      content_hash hash;
+      const auto add_vertex = [&](local_id w) {
+        hash.word(static_cast<std::uint64_t>(w));
+        hash.number(state.xy[state.at(w)].x);
+        hash.number(state.xy[state.at(w)].y);
+      };
+      add_vertex(v);
+      state.table.for_each_corner(v, [&](local_id c) { add_vertex(state.table.tail(c)); });
+      return hash.value();
+    }
+
+    std::vector<std::uint64_t> keys_;
+  };
+
   /// Works on each triangle below 30 degrees by flips, moves, removal of a vertex and, at last, a split.
   template <class State>
-  std::size_t repair_worst(State& state, flip_queue& flips, smoother<State>& smooth) const {
+  std::size_t repair_worst(State& state, flip_queue& flips, smoother<State>& smooth,
+                           hopeless_stars& hopeless) const {
     constexpr double thirty_degrees = 0.25;
     std::size_t improved = 0;
     const local_id slots = state.table.triangle_slots(); // triangles added on the way wait for the next round
@@ -128,7 +165,7 @@ private:
         ++improved;
       for (local_id i = 0; i < 3 && state.table.alive(t) && state.quality(t) < thirty_degrees; ++i) {
         const local_id v = state.table.vertex[state.at(3 * t + i)];
-        if (!state.inner(v))
+        if (!state.inner(v) || hopeless.has(state, v))
           continue;
         const double worst = star_quality(state, v);
         if (remove_vertex(state, v, std::max(worst + 0.01, 0.0), long_edge, flips)) {
@@ -138,6 +175,8 @@ private:
         }
         if (smooth.maximise_worst(v))
           ++improved;
+        else
+          hopeless.add(state, v);
       }
       if (state.table.alive(t) && state.quality(t) < 0 && before < 0)
         improved += split_folded(state, t, flips);
