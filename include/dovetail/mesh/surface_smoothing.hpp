@@ -39,7 +39,8 @@ public:
   bool relax(local_id v) {
     collect_link(s_, v, link_);
     const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
-    return try_step(v, step, strict_rule{}) || try_step(v, 0.4 * step, strict_rule{});
+    star now = measure(v);
+    return try_step(v, step, strict_rule{}, now) || try_step(v, 0.4 * step, strict_rule{}, now);
   }
 
   /// Moves v to where the worst triangle of its star is best, by a shrinking pattern search; stops at
@@ -47,6 +48,7 @@ public:
   bool maximise_worst(local_id v, double enough = 1) {
     collect_link(s_, v, link_);
     bool any = false;
+    star now = measure(v);
     double reach = 0.3 * link_radius(v);
     for (int round = 0; round < 6; ++round) {
       const vec3 n = s_.normal[s_.at(v)];
@@ -54,12 +56,12 @@ public:
       bool better = false;
       for (int k = 0; k < 6 && !better; ++k) {
         const double angle = 1.0471975511965976 * (k + 0.5 * (round % 2));
-        better = try_step(v, reach * (std::cos(angle) * x + std::sin(angle) * y), worst_rule{});
+        better = try_step(v, reach * (std::cos(angle) * x + std::sin(angle) * y), worst_rule{}, now);
       }
       any = any || better;
       if (!better)
         reach *= 0.5;
-      else if (enough < 1 && measure(v).least >= enough)
+      else if (enough < 1 && now.least >= enough)
         break;
     }
     return any;
@@ -96,7 +98,8 @@ private:
     const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
     if (norm_squared(step) < 1e-4 * s_.size[s_.at(v)] * s_.size[s_.at(v)])
       return false;
-    return try_step(v, step, balanced_rule{}) || try_step(v, 0.4 * step, balanced_rule{});
+    star now = measure(v);
+    return try_step(v, step, balanced_rule{}, now) || try_step(v, 0.4 * step, balanced_rule{}, now);
   }
 
   /// The mean of the apexes that would make each triangle of the star equilateral.
@@ -118,16 +121,18 @@ private:
     return sum / static_cast<double>(link_.size());
   }
 
+  /// `now` is what the star measures.
   template <class Rule>
-  bool try_step(local_id v, vec3 step, Rule accepts) {
+  bool try_step(local_id v, vec3 step, Rule accepts, star& now) {
     const auto to = s_.displaced(v, step, span_of(link_));
     if (!to)
       return false;
-    const star before = measure(v);
     const auto old = s_.location_of(v);
     s_.place(v, *to);
-    if (accepts(before, measure(v)))
+    if (const star after = measure(v); accepts(now, after)) {
+      now = after;
       return true;
+    }
     s_.place(v, old);
     return false;
   }
