@@ -346,7 +346,7 @@ struct rank_format : copyable_only {
 // for redistributor
 struct redistributor : copyable_only {
   using copyable_only::copyable_only;
-  redistribution operator()(const distributed_mesh&, int) const { return {}; }
+  redistribution<3> operator()(const distributed_mesh&, int) const { return {}; }
 };
 // end
 

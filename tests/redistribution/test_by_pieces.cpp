@@ -1,5 +1,6 @@
 // Whole pieces to ranks: even, connected, repeatable, with a report that says so.
 #include "io/stacked_cubes.hpp"
+#include "lumps.hpp"
 
 #include "dovetail/partition/recursive_coordinate.hpp"
 #include "dovetail/redistribution/any_redistributor.hpp"
@@ -8,38 +9,15 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
-#include <random>
 #include <string>
 #include <vector>
 
 using namespace dovetail;
+using dovetail::testing::lumps;
 
 namespace {
 
-/// A mesh of pieces around random places, which differ in size by factors.
-distributed_mesh lumps(int pieces, std::uint32_t seed) {
-  const testing::stacked_cubes cubes{.cells = 12};
-  const auto whole = cubes.whole();
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<vec3> centres;
-  for (int p = 0; p < pieces; ++p)
-    centres.push_back({unit(random), unit(random), unit(random)});
-  std::vector<local_id> parts;
-  for (const auto& element : whole.elements) {
-    vec3 at{};
-    for (const local_id v : element)
-      at += whole.points[static_cast<std::size_t>(v)] / 4;
-    std::size_t best = 0;
-    for (std::size_t p = 0; p < centres.size(); ++p)
-      if (norm(centres[p] - at) < norm(centres[best] - at))
-        best = p;
-    parts.push_back(static_cast<local_id>(best));
-  }
-  return cubes.distributed(parts);
-}
-
-double imbalance(const distributed_mesh& mesh, const redistribution& given, int ranks) {
+double imbalance(const distributed_mesh& mesh, const redistribution<3>& given, int ranks) {
   std::vector<double> elements(static_cast<std::size_t>(ranks), 0);
   double all = 0;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
@@ -113,7 +91,7 @@ TEST_CASE("more ranks than pieces are refused, and so are ranks that no solver c
   const auto gives = [](std::vector<local_id> ranks) {
     return any_redistributor<3>(
         [ranks](const distributed_mesh&, int) {
-          return redistribution{ranks, {}};
+          return redistribution<3>{ranks, {}, {}};
         },
         "mine");
   };

@@ -82,7 +82,7 @@ namespace detail {
 template <int D>
 struct oriented_side {
   simplex<D - 1> vertices;
-  local_id origin; ///< a skeleton side, or an element
+  local_id origin; ///< its place in a list of skeleton sides, or an element
 
   friend bool operator<(const oriented_side& a, const oriented_side& b) { return a.vertices < b.vertices; }
 };
@@ -105,7 +105,7 @@ std::vector<oriented_side<D>> expected_sides(const simplicial_skeleton<D>& skele
     const bool second_side_of_sheet = i > 0 && listed[i - 1] == listed[i];
     if (skeleton.subdomains[t][0] != subdomain || second_side_of_sheet)
       std::swap(vertices[D - 2], vertices[D - 1]);
-    sides.push_back(make_oriented<D>(vertices, listed[i]));
+    sides.push_back(make_oriented<D>(vertices, static_cast<local_id>(i)));
   }
   sort_all(sides);
   return sides;
@@ -186,7 +186,8 @@ void check_boundary(const simplicial_piece<D>& piece, const side_table<D>& table
   }
   sort_all(found);
   compare_sides<D>(
-      expected, found, [&](local_id side) { faults.add(seam_fault::missing_triangle, side); },
+      expected, found,
+      [&](local_id i) { faults.add(seam_fault::missing_triangle, listed[static_cast<std::size_t>(i)]); },
       [&](local_id element) { faults.add(seam_fault::surplus_side, element); });
 }
 

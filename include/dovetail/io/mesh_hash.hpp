@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace dovetail::io {
 
@@ -70,6 +71,27 @@ void hash_piece(mesh_hasher& hasher, const simplicial_piece<D>& piece, const glo
     std::array<global_id, D + 1> vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k)
       vertices[k] = global_point(piece, numbers, element[k]);
+    hasher.element(vertices);
+  }
+}
+
+/// Adds the elements of a piece, each known by the places of its points and by its tag alone: neither numbers
+/// nor the division into pieces matter. O(piece).
+template <int D>
+void hash_elements_by_place(mesh_hasher& hasher, const simplicial_piece<D>& piece) {
+  std::vector<global_id> places;
+  places.reserve(piece.mesh.points.size());
+  for (const vec3& p : piece.mesh.points) {
+    content_hash hash;
+    for (int axis = 0; axis < 3; ++axis)
+      hash.number(p[axis]);
+    places.push_back(static_cast<global_id>(hash.value()));
+  }
+  for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
+    const local_id tag = piece.mesh.tags.empty() ? piece.material : piece.mesh.tags[e];
+    std::array<global_id, D + 1> vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      vertices[k] = places[static_cast<std::size_t>(piece.mesh.elements[e][k])] ^ tag;
     hasher.element(vertices);
   }
 }

@@ -45,9 +45,11 @@ struct rank_writer {
   const {
     if (mesh.mid_nodes)
       throw usage_error("files by ranks are of first order: write them of the mesh without middles of edges");
-    redistribution given = redistribute(mesh, ranks);
-    const auto source = std::make_shared<const rank_source<D>>(
-        rank_source<D>{mesh, number_by_ranks(mesh, std::move(given.rank_of_piece), ranks), ghosts});
+    redistribution<D> given = redistribute(mesh, ranks);
+    const auto& divided = given.divided(mesh);
+    const auto held = std::make_shared<const held_source<D>>(held_source<D>{
+        given.mesh, {divided, number_by_ranks(divided, std::move(given.rank_of_piece), ranks), ghosts}});
+    const std::shared_ptr<const rank_source<D>> source(held, &held->source);
     piecewise_output<D> output;
     std::vector<file> files;
     const auto add = [&](const std::vector<std::string>& names) {
@@ -67,7 +69,7 @@ struct rank_writer {
         });
     }
     if (format.files_of_rank(0).empty()) // one task has all ranks, one after the other
-      output.most_loaded = static_cast<local_id>(mesh.counts.size());
+      output.most_loaded = static_cast<local_id>(divided.counts.size());
     if (auto paths = add(format.files_of_all()); !paths.empty())
       output.others.push_back(
           [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); });
@@ -79,6 +81,12 @@ struct rank_writer {
   }
 
 private:
+  /// What is read from, with the mesh where the redistributor has made it.
+  template <int D>
+  struct held_source {
+    std::shared_ptr<const distributed_simplicial_mesh<D>> mesh;
+    rank_source<D> source;
+  };
   struct file {
     std::filesystem::path unfinished;
     std::string name; ///< in the folder, perhaps below it

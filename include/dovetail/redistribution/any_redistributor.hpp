@@ -27,10 +27,10 @@ public:
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
-  redistribution operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
-    redistribution result = call_policy<partition_error>([&] { return named_policy("redistributor", name_); },
-                                                         [&] { return call_(mesh, ranks); });
-    check(result.rank_of_piece, mesh.counts.size(), ranks);
+  redistribution<D> operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
+    redistribution<D> result = call_policy<partition_error>(
+        [&] { return named_policy("redistributor", name_); }, [&] { return call_(mesh, ranks); });
+    check(result.rank_of_piece, result.divided(mesh).counts.size(), ranks);
     return result;
   }
 
@@ -55,7 +55,7 @@ private:
   }
 
   std::string name_;
-  std::function<redistribution(const distributed_simplicial_mesh<D>&, int)> call_;
+  std::function<redistribution<D>(const distributed_simplicial_mesh<D>&, int)> call_;
 };
 static_assert(redistributor<any_redistributor<2>, 2> && redistributor<any_redistributor<3>, 3>);
 

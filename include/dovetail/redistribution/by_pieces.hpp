@@ -28,13 +28,13 @@ struct pieces {
   double imbalance = 1.02; ///< largest over average rank that is tried for
 
   template <int D>
-  redistribution operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
+  redistribution<D> operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
     require_pieces_for(mesh.counts.size(), ranks);
     const csr_graph graph = piece_graph(mesh);
     std::vector<local_id> rank = partitioner(graph, ranks);
     even_out_connected(graph, rank, ranks, imbalance);
     report summary = describe_redistribution(graph, rank, ranks);
-    return {std::move(rank), std::move(summary)};
+    return {std::move(rank), std::move(summary), {}};
   }
 };
 static_assert(redistributor<pieces, 2> && redistributor<pieces, 3>);
@@ -43,14 +43,14 @@ static_assert(redistributor<pieces, 2> && redistributor<pieces, 3>);
 /// made the pieces in turn have already.
 struct blocks {
   template <int D>
-  redistribution operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
+  redistribution<D> operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {
     require_pieces_for(mesh.counts.size(), ranks);
     const auto count = static_cast<global_id>(mesh.counts.size());
     std::vector<local_id> rank;
     for (global_id p = 0; p < count; ++p)
       rank.push_back(static_cast<local_id>(p * ranks / count));
     report summary = describe_redistribution(piece_graph(mesh), rank, ranks);
-    return {std::move(rank), std::move(summary)};
+    return {std::move(rank), std::move(summary), {}};
   }
 };
 static_assert(redistributor<blocks, 2> && redistributor<blocks, 3>);

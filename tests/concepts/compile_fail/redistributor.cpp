@@ -10,11 +10,11 @@ struct my_redistributor {
 #if NEAR_MISS == 1
   std::vector<dovetail::local_id> operator()(const dovetail::distributed_mesh&, int) const;
 #elif NEAR_MISS == 2
-  dovetail::redistribution operator()(const dovetail::distributed_mesh&) const;
+  dovetail::redistribution<3> operator()(const dovetail::distributed_mesh&) const;
 #elif NEAR_MISS == 3
-  dovetail::redistribution operator()(const dovetail::distributed_mesh&, int);
+  dovetail::redistribution<3> operator()(const dovetail::distributed_mesh&, int);
 #else
-  dovetail::redistribution operator()(const dovetail::distributed_mesh&, int) const;
+  dovetail::redistribution<3> operator()(const dovetail::distributed_mesh&, int) const;
 #endif
 };
 
