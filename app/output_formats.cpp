@@ -11,7 +11,7 @@
 #include "dovetail/io/rank_msh_format.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/partition/metis.hpp"
-#include "dovetail/redistribution/any_redistributor.hpp"
+#include "dovetail/redistribution/by_pieces.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
 #include "dovetail/io/hdf5_format.hpp"
@@ -27,15 +27,21 @@ namespace {
 /// Of the spool: four 4-byte corners, and a 24-byte point for every fifth to sixth element.
 constexpr double spool_bytes_per_element = 22;
 
+/// By elements is done before any file is begun (`redistribute_by_elements`).
 template <int D>
 std::vector<any_redistributor<D>> redistributors() {
+  const auto done_before = [](const distributed_simplicial_mesh<D>&, int) -> redistribution<D> {
+    throw usage_error("the elements have not been redistributed yet");
+  };
   return {{redistribution_by::pieces{.partitioner = partition::metis{}}, "by-pieces"},
+          {done_before, by_elements},
           {redistribution_by::blocks{}, "none"}};
 }
 
 /// All of them: a new format is one more line.
 template <int D>
-std::vector<output_format<D>> known_formats(const mesh_options& options) {
+std::vector<output_format<D>> known_formats(const mesh_options& options,
+                                            const any_redistributor<D>& redistribute) {
   const double msh_bytes = options.order == 2 ? (D == 3 ? 140 : 130) : D == 3 ? 48 : 45;
   const double vtu_bytes = options.order == 2 ? 110 : D == 3 ? 50 : 45;
   std::vector<output_format<D>> known;
@@ -44,9 +50,8 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
   const auto add_by_ranks = [&](double bytes_per_element, auto format) {
-    const io::rank_writer<decltype(format), any_redistributor<D>> writer{
-        options.ranks.value_or(1), format,
-        chosen(redistributors<D>(), options.redistribute, "--redistribute"), options.ghosts};
+    const io::rank_writer<decltype(format), any_redistributor<D>> writer{options.ranks.value_or(1), format,
+                                                                         redistribute, options.ghosts};
     known.push_back({format.name(), bytes_per_element, writer, true});
   };
   add_by_ranks(D == 3 ? 65.0 : 60.0, io::pvtu_format{});
@@ -65,7 +70,7 @@ std::vector<output_format<D>> known_formats(const mesh_options& options) {
 template <int D>
 std::vector<std::string> names_of_formats(bool by_ranks) {
   std::vector<std::string> names;
-  for (const auto& format : known_formats<D>({}))
+  for (const auto& format : known_formats<D>({}, redistribution_by::blocks{}))
     if (format.by_ranks == by_ranks)
       names.push_back(format.name);
   if (!by_ranks)
@@ -85,7 +90,7 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   const std::string given = "--ranks: " + std::to_string(*options.ranks);
   if (*options.ranks < 1)
     throw command_line_error(given + " is less than 1");
-  if (options.subdomains && *options.subdomains < *options.ranks)
+  if (options.subdomains && *options.subdomains < *options.ranks && options.redistribute != by_elements)
     throw command_line_error(given + " are more than the " + std::to_string(*options.subdomains) +
                              " subdomains; a rank has one at least");
   if (options.order == 2)
@@ -106,9 +111,15 @@ std::vector<std::string> redistributor_names() {
 
 template <int D>
 std::vector<output_format<D>> make_formats(const mesh_options& options) {
+  return make_formats<D>(options, chosen(redistributors<D>(), options.redistribute, "--redistribute"));
+}
+
+template <int D>
+std::vector<output_format<D>> make_formats(const mesh_options& options,
+                                           const any_redistributor<D>& redistribute) {
   if (options.files < 0)
     throw command_line_error("--files: " + std::to_string(options.files) + " is negative");
-  const auto known = known_formats<D>(options);
+  const auto known = known_formats<D>(options, redistribute);
   const auto add = [&](std::vector<output_format<D>>& formats, const std::string& name) {
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const auto& format) { return format.name == name; });
@@ -146,6 +157,8 @@ double elements_with_room(const std::vector<output_format<D>>& formats, const st
 
 template std::vector<output_format<2>> make_formats<2>(const mesh_options&);
 template std::vector<output_format<3>> make_formats<3>(const mesh_options&);
+template std::vector<output_format<2>> make_formats<2>(const mesh_options&, const any_redistributor<2>&);
+template std::vector<output_format<3>> make_formats<3>(const mesh_options&, const any_redistributor<3>&);
 template double bytes_per_element<2>(const std::vector<output_format<2>>&);
 template double bytes_per_element<3>(const std::vector<output_format<3>>&);
 template double elements_with_room<2>(const std::vector<output_format<2>>&, const std::filesystem::path&);

@@ -6,6 +6,7 @@
 
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/redistribution/any_redistributor.hpp"
 
 #include <filesystem>
 #include <string>
@@ -27,12 +28,18 @@ struct output_format {
 std::vector<std::string> format_names(int dimension, bool by_ranks);
 /// What `--redistribute` may name; the first is the default.
 std::vector<std::string> redistributor_names();
+/// The one of these that makes other pieces, one or more for each rank.
+inline constexpr const char* by_elements = "by-elements";
 
 /// The formats that were chosen; the default one when none was; none for "none". Throws `command_line_error`
 /// for an unknown name, for a negative number of files, and for ranks that do not fit the formats or the
 /// subdomains.
 template <int D>
 std::vector<output_format<D>> make_formats(const mesh_options& options);
+/// The same, whatever redistributor the options name.
+template <int D>
+std::vector<output_format<D>> make_formats(const mesh_options& options,
+                                           const any_redistributor<D>& redistribute);
 
 /// Disk that a mesh takes per element, about, with its spool and in all the formats.
 template <int D>

@@ -44,6 +44,23 @@ expect_success "${small[@]}" --subdomains 8 --ranks 2 --format mfem,pvtu --ghost
 grep -q 'GhostLevel="1"' "$sandbox/work/out/ranks.pvtu" || fault "no ghosts"
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2
 
+# Elements go to other pieces: as many, in even shares, the same by one worker, and for more ranks than subdomains.
+by_elements=("${small[@]}" --subdomains 2 --ranks 3 --redistribute by-elements --report report.json)
+expect_success "${by_elements[@]}" --workers 2 --format pvtu,msh-ranks,openfoam
+(($(counter largest_rank | cut -d. -f1) * 100 <= ($(counter elements) / 3 + 1) * 105)) || fault "uneven ranks"
+(($(counter seams_before | cut -d. -f1) > 0)) || fault "no interface before"
+hash=$(counter mesh_hash)
+rm -rf "$inputs/elements" && cp -r "$sandbox/work/out" "$inputs/elements"
+[[ ! -e $sandbox/work/out/spool ]] || fault "the spool is left"
+if /usr/bin/python3 -c 'import numpy, vtkmodules.vtkIOXML' 2>/dev/null; then
+  said=$(/usr/bin/python3 "$reader" pvtu "$inputs/elements" 3) || fault "VTK finds no mesh of redistributed elements"
+  [[ $said == "$(counter elements) elements, "*" measure 1.000000000,"* ]] || fault "VTK says: $said"
+fi
+expect_success "${by_elements[@]}" --workers 1 --format pvtu,msh-ranks,openfoam
+[[ $(counter mesh_hash) == "$hash" ]] || fault "elements went elsewhere by one worker"
+diff -rq "$inputs/elements" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
+expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 3 --redistribute by-elements
+
 # What does not fit is refused before anything is read.
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
@@ -53,7 +70,7 @@ expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off 
 expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu
 expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2
 expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2 --format vtu,mfem
-expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, none" \
+expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, by-elements, none" \
   mesh nothing.off --ranks 2 --redistribute x
 expect_usage_error "--format: there is no 'x'.*with --ranks also pvtu" mesh nothing.off --ranks 2 --format x
 finish
