@@ -1,0 +1,93 @@
+// Redistribution by elements: what its steps cost, and what the interfaces are like before and after.
+//
+//   redistribution [MODEL] [ELEMENTS] [SUBDOMAINS] [RANKS]
+//
+// MODEL is the name of a built-in model (orbiter), meshed by TetGen and the own improver at about ELEMENTS
+// (500000) elements in SUBDOMAINS (80) pieces, which go to RANKS (4). Seconds are processor time of one core.
+#include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/improver/native.hpp"
+#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/partition/metis.hpp"
+#include "dovetail/pipeline/by_elements.ipp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/redistribution/by_pieces.hpp"
+#include "dovetail/sizing/compose.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <utility>
+
+using namespace dovetail;
+
+namespace {
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void print_steps(const distributed_mesh& mesh, const redistribution_by::elements& how) {
+  const io::sides_by_subdomain<3> sides(mesh);
+  double loading = 0, simplifying = 0, elements = 0;
+  for (local_id p = 0; p < static_cast<local_id>(mesh.counts.size()); ++p) {
+    const double start = processor_seconds();
+    const auto piece = io::load_checked(mesh, p);
+    const double loaded = processor_seconds();
+    detail::simplify_piece<3>(piece, mesh.skeleton, sides[p], how.simplify_by, how.super_elements);
+    loading += loaded - start;
+    simplifying += processor_seconds() - loaded;
+    elements += static_cast<double>(piece.mesh.elements.size());
+  }
+  std::printf("Simplification of %.0f elements: %.2f s, %.0f elements/s; loading them %.2f s.\n\n", elements,
+              simplifying, elements / simplifying, loading);
+}
+
+void print_row(const char* name, const report& summary, double seconds) {
+  std::printf("| %s | %.3f | %.0f | %.0f | %.0f | %.1f | %.1f | %.0f | %.2f |\n", name,
+              summary.get("imbalance"), summary.get("sides_between_ranks"), summary.get("disconnected_ranks"),
+              summary.get("most_neighbours"), summary.get("min_face_angle_deg"), summary.get("min_wedge_deg"),
+              summary.get("avoidable_angles"), seconds);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "orbiter";
+  const double wanted = argc > 2 ? std::atof(argv[2]) : 5e5;
+  const int subdomains = argc > 3 ? std::atoi(argv[3]) : 80;
+  const int ranks = argc > 4 ? std::atoi(argv[4]) : 4;
+  auto built = builtin_model(name);
+  const any_geometry model(std::move(built.model));
+  const any_sizing size = keep_bounds(source_field(built.size, std::move(built.sources)));
+  generate_options options;
+  options.subdomains = subdomains;
+  const any_parameters<3> policies(parameters<>{}
+                                       .with_mesher(mesher::tetgen{})
+                                       .with_improver(improvement::native{})
+                                       .with_partitioner(partition::metis{})
+                                       .with_options(options));
+  double scale = 1;
+  for (int step = 0; step < 3; ++step)
+    scale *= std::cbrt(
+        plan_background<3>(model, keep_bounds(scaled(size, scale)), policies).predicted_elements / wanted);
+  const auto made = generate<3>(model, keep_bounds(scaled(size, scale)), policies);
+  const distributed_mesh& mesh = made.mesh;
+  const redistribution_by::elements by_elements{.partitioner = partition::metis{}};
+  print_steps(mesh, by_elements);
+  std::printf(
+      "| | imbalance | sides between ranks | disconnected ranks | most neighbours | least face angle | "
+      "least wedge | avoidable small angles | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  double start = processor_seconds();
+  const auto whole = redistribution_by::pieces{.partitioner = partition::metis{}}(mesh, ranks);
+  print_row("by pieces", whole.summary, processor_seconds() - start);
+  start = processor_seconds();
+  const auto given = by_elements(mesh, ranks);
+  print_row("by elements", given.summary, processor_seconds() - start);
+  std::printf("\nOf %.0f sides of interfaces %.0f are left, and there are %.0f in all; small angles: %.0f.\n",
+              given.summary.get("seams_before"), given.summary.get("seams_after"),
+              given.summary.get("interface_sides"), given.summary.get("small_angles"));
+  for (const report& step : given.summary.children)
+    std::printf("%s: %.2f s\n", step.name.c_str(), step.seconds);
+}
