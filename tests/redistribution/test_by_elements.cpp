@@ -10,8 +10,9 @@
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/metis.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
-#include "dovetail/pipeline/by_elements.ipp"
+#include "dovetail/pipeline/by_elements.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/pipeline/piece_supers.hpp"
 #include "dovetail/redistribution/by_pieces.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "geometry/discrete_shapes.hpp"
@@ -217,8 +218,7 @@ TEST_CASE("super-elements are about as many as asked for, connected, and none cr
   const auto mesh = stacked_cubes{.cells = 8, .cuts = 1, .jitter = 0.6}.distributed();
   const auto sides = sort_by_subdomain(mesh.skeleton, 1);
   const auto piece = mesh.load(0);
-  const auto [known, supers] =
-      dovetail::detail::simplify_piece<3>(piece, mesh.skeleton, sides[0], simplifier::paper{}, 150);
+  const auto [known, supers] = simplify_piece<3>(piece, mesh.skeleton, sides[0], simplifier::paper{}, 150);
   CHECK(known.graph.node_count() <= 150);
   CHECK(known.graph.node_count() >= 60);
   CHECK(known.super_at_side.size() == mesh.skeleton.sides.size());
@@ -249,9 +249,9 @@ TEST_CASE("bad sides of an old interface have a price, and so have those beside 
   std::size_t dear = 0;
   for (local_id p = 0; p < 8; ++p) {
     const auto piece = mesh.load(p);
-    const auto known = dovetail::detail::simplify_piece<3>(piece, mesh.skeleton, sides[p],
-                                                           simplifier::paper{.volume_shape_deg = 36}, 50)
-                           .first;
+    const auto known =
+        simplify_piece<3>(piece, mesh.skeleton, sides[p], simplifier::paper{.volume_shape_deg = 36}, 50)
+            .first;
     for (std::size_t i = 0; i < known.price_of_side.size(); ++i) {
       const auto corners_of =
           corners(span_of(mesh.skeleton.points), mesh.skeleton.sides[static_cast<std::size_t>(sides[p][i])]);

@@ -10,14 +10,14 @@
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/final_errors.hpp"
 #include "dovetail/partition/connectivity.hpp"
-#include "dovetail/partition/multilevel.hpp"
+#include "dovetail/partition/refinement.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/pipeline/kept_tasks.hpp"
+#include "dovetail/pipeline/piece_supers.hpp"
 #include "dovetail/redistribution/piece_cut.hpp"
 #include "dovetail/redistribution/piece_graph.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
-#include "dovetail/simplification/simplify.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,96 +35,6 @@
 namespace dovetail {
 
 namespace detail {
-
-/// The super-element of each element of a piece, and the sides that ought to have been removed, growing.
-struct elements_of_supers {
-  std::vector<local_id> super_of_element;
-  std::vector<local_id> refused;
-
-  byte_buffer encoded() const {
-    byte_writer to;
-    to.array(super_of_element);
-    to.array(refused);
-    return to.take();
-  }
-  static elements_of_supers decoded(const byte_buffer& bytes) {
-    byte_reader from(bytes);
-    elements_of_supers supers;
-    supers.super_of_element = from.array<local_id>();
-    supers.refused = from.array<local_id>();
-    return supers;
-  }
-};
-
-template <int D>
-std::vector<vec3> centres_of_elements(const simplicial_mesh<D>& mesh) {
-  std::vector<vec3> centres;
-  centres.reserve(mesh.elements.size());
-  for (const auto& element : mesh.elements) {
-    vec3 sum{};
-    for (const local_id v : element)
-      sum += mesh.points[static_cast<std::size_t>(v)];
-    centres.push_back(sum / (D + 1.0));
-  }
-  return centres;
-}
-
-/// What each side of a piece's boundary would cost as an interface, for its own quality and for the wedges
-/// that it makes with another fixed side.
-inline std::vector<double> prices_of_sides(std::span<const local_id> sides, const side_judgement& judged,
-                                           const simplification& simplified,
-                                           const any_simplification_rule& rule) {
-  std::map<local_id, double> worst;                   // angle of the smallest wedge
-  for (const forced_wedge& wedge : simplified.forced) // by growing angle
-    for (const local_id side : wedge.sides)
-      worst.try_emplace(side, wedge.angle_deg);
-  std::vector<double> prices;
-  for (const local_id side : sides) {
-    double price = 1;
-    const double quality = judged.quality[static_cast<std::size_t>(side)];
-    if (quality < judged.wanted_quality)
-      price = std::max(price, rule.price({quality, judged.wanted_quality}));
-    if (const auto wedge = worst.find(side); wedge != worst.end())
-      price = std::max(price, rule.price({wedge->second, judged.wanted_angle_deg}));
-    prices.push_back(price);
-  }
-  return prices;
-}
-
-/// Joins the elements of a piece to about `most` super-elements: first what the rule wants removed, then
-/// along heavy edges.
-template <int D>
-std::pair<simplified_piece, elements_of_supers>
-simplify_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
-               std::span<const local_id> listed, const any_simplification_rule& rule, int most) {
-  const auto table = build_sides(piece.mesh);
-  const sides_of_piece on_skeleton = find_skeleton_sides<D>(piece, table, skeleton, listed);
-  auto fixed = fixed_inside<D>(piece.mesh, table, {});
-  for (const local_id side : on_skeleton.sides)
-    fixed[static_cast<std::size_t>(side)] = 1;
-  const side_judgement judged = rule(piece.mesh, table);
-  const contraction_bound bound{.subdomains = static_cast<double>(most), .fraction = 1.5};
-  simplification simplified = contract_bounded(element_dual<D>(table, {}, span_of(fixed)),
-                                               side_dual<D>(piece.mesh, table), judged, rule, bound);
-  std::pair<simplified_piece, elements_of_supers> result;
-  auto& [known, supers] = result;
-  supers.super_of_element = std::move(simplified.super_of_element);
-  for (const refused_side& refused : simplified.refused)
-    supers.refused.push_back(refused.side);
-  known.price_of_side = prices_of_sides(on_skeleton.sides, judged, simplified, rule);
-  known.graph = std::move(simplified.graph);
-  for (coarsened_graph& level : coarsened_levels(known.graph, 1, {.coarse_nodes_per_part = most})) {
-    for (local_id& super : supers.super_of_element)
-      super = level.node_of[static_cast<std::size_t>(super)];
-    known.graph = std::move(level.graph);
-  }
-  const auto centres = centres_of_elements(piece.mesh);
-  known.graph.positions =
-      mean_positions(span_of(centres), span_of(supers.super_of_element), known.graph.node_count());
-  for (const local_id e : on_skeleton.elements)
-    known.super_at_side.push_back(supers.super_of_element[static_cast<std::size_t>(e)]);
-  return result;
-}
 
 /// Joins what is stray within a component of the graph; a part may have a share of several components.
 inline void join_strays_within(const csr_graph& graph, const labelled_components& components,
@@ -163,7 +73,8 @@ public:
   element_redistribution(const distributed_simplicial_mesh<D>& mesh, int ranks,
                          const redistribution_by::elements& given)
       : mesh_(mesh), ranks_(ranks), given_(given), sides_(mesh),
-        store_(std::make_shared<entity_store>(given.store, "redistributed")) {
+        store_(std::make_shared<entity_store>(given.store, "redistributed")), tasks_{given.run_tasks, *store_,
+                                                                                     given.on_progress} {
     if (ranks < 1 || mesh.counts.empty())
       throw partition_error("cannot give elements to " + std::to_string(ranks) +
                             " ranks; ask for one at least");
@@ -190,40 +101,6 @@ private:
   static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   std::size_t old_pieces() const { return mesh_.counts.size(); }
 
-  /// Runs tasks, the largest first, and takes their results in turn. Any that fails ends it all.
-  template <class Task, class Take>
-  void run_all(const char* stage, const std::vector<global_id>& sizes, const Task& task, const Take& take) {
-    run_options options;
-    options.order.resize(sizes.size());
-    std::iota(options.order.begin(), options.order.end(), std::size_t{0});
-    stable_sort_all(options.order, [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
-    options.on_progress = given_.on_progress;
-    options.stage = stage;
-    auto outcomes = given_.run_tasks.run(
-        sizes.size(), [&](std::size_t i) { return with_final_errors([&] { return task(i); }); }, options);
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (!outcomes[i].ok)
-        throw mesh_error(std::string(stage) + ", number " + std::to_string(i) + ": " + outcomes[i].failure);
-      const byte_buffer said = without_final_errors(std::move(outcomes[i].result));
-      byte_reader from(said);
-      take(i, from);
-    }
-  }
-  /// In a task: keeps bytes under their key, or adds them to the reply.
-  void keep(content_key key, const byte_buffer& bytes, byte_writer& reply) const {
-    reply.value(key);
-    if (store_->is_shared())
-      store_->keep(key, bytes);
-    else
-      reply.array(bytes);
-  }
-  content_key take_kept(byte_reader& from) {
-    const auto key = from.value<content_key>();
-    if (!store_->is_shared())
-      store_->keep(key, from.array<std::byte>());
-    return key;
-  }
-
   void simplify_pieces() {
     const stopwatch clock;
     std::vector<global_id> sizes;
@@ -231,7 +108,7 @@ private:
       sizes.push_back(counts.elements);
     std::vector<simplified_piece> pieces(old_pieces());
     keys_.resize(old_pieces());
-    run_all(
+    tasks_.run(
         "simplifying pieces", sizes,
         [&](std::size_t p) {
           const auto id = static_cast<local_id>(p);
@@ -245,13 +122,14 @@ private:
           encode(reply, known);
           const byte_buffer bytes = supers.encoded();
           key_maker make;
-          keep(make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()))(bytes).key(), bytes, reply);
+          tasks_.keep(make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()))(bytes).key(), bytes,
+                      reply);
           return reply.take();
         },
         [&](std::size_t p, byte_reader& from) {
           hash_.merge(from.value<io::mesh_hasher>());
           pieces[p] = decode_simplified_piece(from);
-          keys_[p] = take_kept(from);
+          keys_[p] = tasks_.take_kept(from);
         });
     joined_ = join_supers<D>(mesh_.skeleton, pieces, given_.seam_weight);
     report done{"simplification", clock.seconds(), {}, {}, {}};
@@ -324,7 +202,7 @@ private:
         sizes.push_back(mesh_.counts[p].elements);
       }
     std::vector<piece_cut<D>> cuts(old_pieces());
-    run_all(
+    tasks_.run(
         "cutting pieces", sizes,
         [&](std::size_t k) {
           const local_id p = to_cut[k];
@@ -374,7 +252,7 @@ private:
     mesh->counts.resize(materials_.size());
     auto keys = std::make_shared<std::vector<content_key>>(materials_.size());
     io::mesh_hasher after;
-    run_all(
+    tasks_.run(
         "moving elements", sizes,
         [&](std::size_t n) {
           const content_key key = key_maker(from_all)(static_cast<std::int64_t>(n)).key();
@@ -389,13 +267,13 @@ private:
           reply.value(piece_counts{
               piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
               static_cast<global_id>(piece.mesh.elements.size())});
-          keep(key, bytes, reply);
+          tasks_.keep(key, bytes, reply);
           return reply.take();
         },
         [&](std::size_t n, byte_reader& from) {
           after.merge(from.value<io::mesh_hasher>());
           mesh->counts[n] = from.value<piece_counts>();
-          (*keys)[n] = take_kept(from);
+          (*keys)[n] = tasks_.take_kept(from);
         });
     if (after.value() != hash_.value())
       throw mesh_error("elements were changed or lost on their way to other pieces");
@@ -471,6 +349,7 @@ private:
   const redistribution_by::elements& given_;
   const io::sides_by_subdomain<D> sides_;
   std::shared_ptr<entity_store> store_;
+  const kept_tasks tasks_;
   std::vector<content_key> keys_; ///< per old piece: of its `elements_of_supers`
   io::mesh_hasher hash_;          ///< of all elements, by place
   joined_supers joined_;
