@@ -1,0 +1,46 @@
+/// @file
+/// Improves the pieces of a finished mesh once more, each inside its boundary: after redistribution by
+/// elements, what was at an interface when it was meshed is inside now (paper, section 4.4).
+#pragma once
+
+#include "dovetail/core/progress.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/spool.hpp"
+#include "dovetail/sizing/concepts.hpp"
+
+#include <optional>
+
+namespace dovetail {
+
+/// A mesh whose pieces were improved.
+struct improved_pieces {
+  distributed_mesh mesh;
+  quality_statistics quality; ///< of all of it
+  report summary;             ///< "pieces", "elements" before, "improver_seconds" over all workers
+};
+
+struct improving_options {
+  std::optional<spool> store = {}; ///< where improved pieces are kept; none: in memory
+  progress on_progress = {};
+};
+
+/// A task per piece, without any communication between them: points and sides of the skeleton stay, so the
+/// result conforms, which each task checks. It is the same for any executor. Memory: a piece per worker, and
+/// all of them without a store.
+///
+/// Throws `mesh_error` that names the piece when the improver fails or changes what it may not, `usage_error`
+/// for a mesh of second order or an improver that may not run in the executor's threads, `io_error` and
+/// `sizing_error`, and `cancelled`.
+improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
+                               const any_sizing& size, const any_executor& run_tasks,
+                               const improving_options& options = {});
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/improve_pieces.ipp"
+#endif

@@ -1,0 +1,105 @@
+/// @file
+/// What `improve_pieces.hpp` declares.
+#pragma once
+
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/meshing/piece_codec.hpp"
+#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/pipeline/improve_pieces.hpp"
+#include "dovetail/pipeline/kept_tasks.hpp"
+#include "dovetail/redistribution/super_graph.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Improves a piece inside its boundary, and checks that it still fits the skeleton.
+inline void improve_inside(mesh_piece& piece, const fine_skeleton& skeleton, std::span<const local_id> listed,
+                           const any_improver<3>& improve, const any_sizing& size) {
+  const auto table = build_sides(piece.mesh);
+  frozen_entities<3> frozen;
+  frozen.points = static_cast<local_id>(piece.skeleton_points.size());
+  for (const local_id side : find_skeleton_sides<3>(piece, table, skeleton, listed).sides)
+    frozen.sides.push_back(table.vertices[static_cast<std::size_t>(side)]);
+  improve(piece.mesh, frozen, size);
+  piece.mesh.tags.clear(); // the piece's material is that of all its elements
+  if (const auto faults = io::check_piece<3>(piece, skeleton, listed); !faults.valid())
+    throw mesh_error(named_policy("improver", improve.name()) + " left no mesh: " + faults.text());
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
+                                               const any_sizing& size, const any_executor& run_tasks,
+                                               const improving_options& options) {
+  const stopwatch clock;
+  if (mesh.mid_nodes)
+    throw usage_error("elements of second order are not improved: improve the mesh without middles of edges");
+  if (runs_in_threads(run_tasks) && !improve.actual_traits().thread_safe)
+    throw usage_error(named_policy("improver", improve.name()) +
+                      " must not run in several threads of one process; use worker processes");
+  const io::sides_by_subdomain<3> sides(mesh);
+  const auto store = std::make_shared<entity_store>(options.store, "improved");
+  const kept_tasks tasks{run_tasks, *store, options.on_progress};
+  const auto keys = std::make_shared<std::vector<content_key>>(mesh.counts.size());
+  improved_pieces result{mesh, {}, {}};
+  result.mesh.release = {};
+  result.mesh.released = {};
+  result.mesh.quality.resize(mesh.counts.size());
+  result.summary.name = "improvement";
+  std::vector<global_id> sizes;
+  for (const piece_counts& counts : mesh.counts) {
+    sizes.push_back(counts.elements);
+    result.summary.add("elements", static_cast<double>(counts.elements));
+  }
+  tasks.run(
+      "improving pieces", sizes,
+      [&](std::size_t p) {
+        auto piece = io::load_checked(mesh, static_cast<local_id>(p));
+        const stopwatch time;
+        detail::improve_inside(piece, mesh.skeleton, sides[static_cast<local_id>(p)], improve, size);
+        const double seconds = time.seconds();
+        piece_counts counts = mesh.counts[p];
+        counts.elements = static_cast<global_id>(piece.mesh.elements.size());
+        counts.inner_points = static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size());
+        byte_writer bytes, reply;
+        encode(bytes, piece);
+        const byte_buffer encoded = bytes.take();
+        reply.value(seconds);
+        reply.value(counts);
+        reply.value(measure_quality(piece.mesh));
+        key_maker make;
+        tasks.keep(make(static_cast<std::int64_t>(p))(encoded).key(), encoded, reply);
+        return reply.take();
+      },
+      [&](std::size_t p, byte_reader& from) {
+        result.summary.add("improver_seconds", from.value<double>());
+        result.mesh.counts[p] = from.value<piece_counts>();
+        result.mesh.quality[p] = from.value<quality_statistics>();
+        (*keys)[p] = tasks.take_kept(from);
+      });
+  global_id first_element = 0;
+  for (std::size_t p = 0; p < keys->size(); ++p) {
+    result.quality.merge(result.mesh.quality[p], first_element);
+    first_element += result.mesh.counts[p].elements;
+  }
+  result.mesh.load = [store, keys](local_id p) {
+    const byte_buffer bytes = store->get(keys->at(static_cast<std::size_t>(p)));
+    byte_reader from(bytes);
+    return decode_piece<3>(from);
+  };
+  result.summary.set("pieces", static_cast<double>(keys->size()));
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+} // namespace dovetail
