@@ -4,21 +4,18 @@
 //
 // MODEL is the name of a built-in model (orbiter), meshed by TetGen and the own improver at about ELEMENTS
 // (500000) elements in SUBDOMAINS (80) pieces, which go to RANKS (4). Seconds are processor time of one core.
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
-#include "dovetail/pipeline/by_elements.ipp"
-#include "dovetail/pipeline/generate.hpp"
-#include "dovetail/redistribution/by_pieces.hpp"
-#include "dovetail/sizing/compose.hpp"
+#include "many_pieces.hpp"
 
-#include <cmath>
+#include "dovetail/improver/native.hpp"
+#include "dovetail/partition/metis.hpp"
+#include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/pipeline/piece_supers.hpp"
+#include "dovetail/redistribution/by_pieces.hpp"
+
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <string>
-#include <utility>
 
 using namespace dovetail;
 
@@ -35,7 +32,7 @@ void print_steps(const distributed_mesh& mesh, const redistribution_by::elements
     const double start = processor_seconds();
     const auto piece = io::load_checked(mesh, p);
     const double loaded = processor_seconds();
-    detail::simplify_piece<3>(piece, mesh.skeleton, sides[p], how.simplify_by, how.super_elements);
+    simplify_piece<3>(piece, mesh.skeleton, sides[p], how.simplify_by, how.super_elements);
     loading += loaded - start;
     simplifying += processor_seconds() - loaded;
     elements += static_cast<double>(piece.mesh.elements.size());
@@ -58,22 +55,8 @@ int main(int argc, char** argv) {
   const double wanted = argc > 2 ? std::atof(argv[2]) : 5e5;
   const int subdomains = argc > 3 ? std::atoi(argv[3]) : 80;
   const int ranks = argc > 4 ? std::atoi(argv[4]) : 4;
-  auto built = builtin_model(name);
-  const any_geometry model(std::move(built.model));
-  const any_sizing size = keep_bounds(source_field(built.size, std::move(built.sources)));
-  generate_options options;
-  options.subdomains = subdomains;
-  const any_parameters<3> policies(parameters<>{}
-                                       .with_mesher(mesher::tetgen{})
-                                       .with_improver(improvement::native{})
-                                       .with_partitioner(partition::metis{})
-                                       .with_options(options));
-  double scale = 1;
-  for (int step = 0; step < 3; ++step)
-    scale *= std::cbrt(
-        plan_background<3>(model, keep_bounds(scaled(size, scale)), policies).predicted_elements / wanted);
-  const auto made = generate<3>(model, keep_bounds(scaled(size, scale)), policies);
-  const distributed_mesh& mesh = made.mesh;
+  const auto given_mesh = mesh_in_pieces({name, wanted, subdomains}, improvement::native{});
+  const distributed_mesh& mesh = given_mesh.made.mesh;
   const redistribution_by::elements by_elements{.partitioner = partition::metis{}};
   print_steps(mesh, by_elements);
   std::printf(
