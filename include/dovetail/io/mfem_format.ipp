@@ -7,6 +7,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/mfem_format.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 
 #include <algorithm>
 #include <array>
