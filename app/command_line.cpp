@@ -108,6 +108,8 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--ranks", options.ranks, "Files for a parallel solver: number of its processes");
   command.add_option("--redistribute", options.redistribute,
                      "How the pieces come to ranks: " + joined(redistributor_names()));
+  command.add_flag("--improve-again", options.improve_again,
+                   "After --redistribute by-elements, improve what each rank has");
   command.add_flag("--ghosts", options.ghosts,
                    "Each rank also has the elements of others that touch its own (pvtu, vtkhdf, msh-ranks)");
   command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");

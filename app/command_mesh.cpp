@@ -17,6 +17,7 @@
 #include "dovetail/io/write_trace.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/pipeline/improve_pieces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -235,7 +236,7 @@ private:
     if (options_.order == 2)
       add_middles(result.mesh, source);
     if (options_.redistribute == by_elements)
-      redistribute_by_elements(result.mesh);
+      redistribute_by_elements(result.mesh, source.size);
     write(result.mesh, folder, finished);
     finish();
     if (leads_ && !formats_.empty())
@@ -290,7 +291,8 @@ private:
   }
 
   /// Makes the pieces of the ranks, of which the files are written then.
-  void redistribute_by_elements(distributed_simplicial_mesh<D>& mesh) {
+  void redistribute_by_elements(distributed_simplicial_mesh<D>& mesh,
+                                [[maybe_unused]] const any_sizing& size) {
     const stopwatch clock;
     const auto given =
         redistribution_by::elements{.partitioner = policies_.partitioner,
@@ -299,6 +301,14 @@ private:
                                     .store = parameters_.store,
                                     .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
+    if constexpr (D == 3)
+      if (options_.improve_again) {
+        auto improved = improve_pieces(mesh, policies_.improver, size, policies_.executor,
+                                       {.store = parameters_.store, .on_progress = parameters_.on_progress});
+        mesh = std::move(improved.mesh);
+        figures_.details.children.push_back(std::move(improved.summary));
+        add_mesh_figures(mesh, figures_);
+      }
     const auto known = [given](const distributed_simplicial_mesh<D>&, int) {
       return redistribution<D>{given.rank_of_piece, given.summary, {}};
     };

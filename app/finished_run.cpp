@@ -23,7 +23,7 @@ finished_run::finished_run(const std::filesystem::path& folder, const run_identi
     started_with_ += "format " + format + "\n";
   if (options.ranks)
     started_with_ += "ranks " + std::to_string(*options.ranks) + " " + options.redistribute +
-                     (options.ghosts ? " ghosts\n" : "\n");
+                     (options.ghosts ? " ghosts" : "") + (options.improve_again ? " improved again\n" : "\n");
   started_with_ += "pieces " + std::to_string(options.files) + "\nfiles\n";
 }
 

@@ -47,8 +47,9 @@ struct mesh_options {
   int files = 0;            ///< number of VTU files; 0: one per subdomain
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
-  bool ghosts = false; ///< of each rank, in formats that have them
-  int order = 1;       ///< of the elements in the files: 1 or 2
+  bool improve_again = false; ///< also what ranks have, after redistribution by elements
+  bool ghosts = false;        ///< of each rank, in formats that have them
+  int order = 1;              ///< of the elements in the files: 1 or 2
   bool resume = false;
   bool force = false;
   bool quiet = false;

@@ -82,6 +82,8 @@ template <int D>
 void check_ranks(const mesh_options& options, const std::vector<output_format<D>>& formats) {
   const bool by_ranks =
       std::any_of(formats.begin(), formats.end(), [](const auto& format) { return format.by_ranks; });
+  if (options.improve_again && (D == 2 || options.redistribute != by_elements))
+    throw command_line_error("--improve-again goes with tetrahedra and --redistribute by-elements");
   if (!options.ranks) {
     if (by_ranks || options.ghosts || !options.redistribute.empty())
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");

@@ -61,7 +61,18 @@ expect_success "${by_elements[@]}" --workers 1 --format pvtu,msh-ranks,openfoam
 diff -rq "$inputs/elements" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 3 --redistribute by-elements
 
+# Improved again, the elements are no worse, and the same by another number of workers.
+again=(mesh "$inputs/cube.off" --size 0.15 --subdomains 8 --ranks 2 --redistribute by-elements --report report.json)
+expect_success "${again[@]}" --workers 2
+once=$(counter mesh_hash)
+expect_success "${again[@]}" --workers 2 --improve-again
+hash=$(counter mesh_hash)
+[[ $hash != "$once" && $(counter improver_seconds) ]] || fault "not improved again"
+expect_success "${again[@]}" --workers 1 --improve-again
+[[ $(counter mesh_hash) == "$hash" ]] || fault "improved otherwise by one worker"
+
 # What does not fit is refused before anything is read.
+expect_usage_error "--improve-again goes with" mesh nothing.off --ranks 2 --improve-again
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
 expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
