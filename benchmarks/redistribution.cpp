@@ -41,6 +41,7 @@ void print_steps(const distributed_mesh& mesh, const redistribution_by::elements
               simplifying, elements / simplifying, loading);
 }
 
+/// Angles are measured by elements alone.
 void print_row(const char* name, const report& summary, double seconds) {
   std::printf("| %s | %.3f | %.0f | %.0f | %.0f | %.1f | %.1f | %.0f | %.2f |\n", name,
               summary.get("imbalance"), summary.get("sides_between_ranks"), summary.get("disconnected_ranks"),
