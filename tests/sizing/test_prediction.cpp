@@ -113,6 +113,12 @@ TEST_CASE("a field without bounds is sampled everywhere") {
   CHECK(p.elements == doctest::Approx(exact).epsilon(0.05));
 }
 
+TEST_CASE("sizes too small for any number predict no number, and the prediction ends") {
+  const any_sizing h = [](vec3 p) { return distance(p, {0.3, 0.4, 0.6}) < 0.1 ? 1e-300 : 0.2; };
+  const auto p = predict_elements(box_mesh({0, 0, 0}, {1, 1, 1}, 4), h);
+  CHECK_FALSE(std::isfinite(p.elements));
+}
+
 TEST_CASE("the number of cells is bounded and the error reached is told") {
   const source_field h(10.0, {triangle_source({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, 1e-3, 0.01, 1e-4)});
   const auto p = predict_elements(box_mesh({-5, -5, -5}, {10, 10, 10}, 1), h, {.largest_cells = 2000});

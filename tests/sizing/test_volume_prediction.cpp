@@ -131,6 +131,13 @@ TEST_CASE("a tiny source in a large box is not missed, and one outside does not 
   CHECK(p.elements == doctest::Approx(exact).epsilon(0.05));
 }
 
+TEST_CASE("sizes too small for any number predict no number, and the prediction ends") {
+  simplicial_mesh<2> mesh;
+  append_box(mesh, {0, 0, 0}, {1, 1, 1});
+  const auto h = [](vec3 p) { return distance(p, {0.5, 0.5, 0.5}) < 0.2 ? 1e-300 : 0.1; };
+  CHECK_FALSE(std::isfinite(predict_volume_elements(mesh, h).elements));
+}
+
 TEST_CASE("a field without bounds, half in the body") {
   simplicial_mesh<2> mesh;
   append_box(mesh, {0, 0, 0}, {1, 1, 1});

@@ -205,7 +205,9 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
       total += c.integral;
     const double error = sizing::mark_largest_errors(cells, 0.5 * options.relative_error * total, marked);
     result.relative_error = total > 0 ? error / total : 0;
-    if (result.relative_error <= options.relative_error || cells.size() > options.largest_cells)
+    // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
+    if (result.relative_error <= options.relative_error || cells.size() > options.largest_cells ||
+        !std::isfinite(total))
       break;
     next.clear();
     for (std::size_t i = 0; i < cells.size(); ++i) {

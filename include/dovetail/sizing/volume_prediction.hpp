@@ -176,7 +176,9 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
     const double error = sizing::mark_volume_cells(cells, options.relative_error * total, marked);
     result.relative_error = total > 0 ? error / total : 1;
     const bool close = total > 0 && result.relative_error <= options.relative_error;
-    if (round >= sure_rounds && (close || cells.size() > options.largest_cells || cells.empty()))
+    // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
+    if (round >= sure_rounds &&
+        (close || cells.size() > options.largest_cells || cells.empty() || !std::isfinite(total)))
       break;
     next.clear();
     for (std::size_t i = 0; i < cells.size(); ++i)
