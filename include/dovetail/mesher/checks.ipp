@@ -116,7 +116,12 @@ DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
 
 DOVETAIL_INLINE void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {
   detail::check_entries(mesh);
+  for (std::size_t e = 0; e < mesh.tags.size(); ++e)
+    if (mesh.tags[e] != input.material)
+      throw mesher_error("element " + std::to_string(e) + " has the tag " + std::to_string(mesh.tags[e]) +
+                         ", the piece is of material " + std::to_string(input.material));
   detail::check_points_kept(input.boundary.points, mesh.points);
+  detail::check_points_used(input.boundary.points.size(), mesh);
   detail::check_boundary_kept(input.boundary, mesh);
   detail::check_volumes(input.boundary, mesh);
 }

@@ -41,6 +41,18 @@ inline void check_points_kept(const std::vector<vec3>& given, const std::vector<
       throw mesher_error("boundary point " + std::to_string(v) + " was moved");
 }
 
+/// The points after the `given` ones are each in an element: what nobody has is in no mesh and has no number.
+template <int D>
+void check_points_used(std::size_t given, const simplicial_mesh<D>& mesh) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const auto& element : mesh.elements)
+    for (const local_id v : element)
+      used[static_cast<std::size_t>(v)] = true;
+  for (std::size_t v = given; v < used.size(); ++v)
+    if (!used[v])
+      throw mesher_error("point " + std::to_string(v) + " is in no element");
+}
+
 /// Whether every side inside is passed by its elements as often in one direction as in the other, and one of
 /// the boundary once more as it is listed: none of them is missing, doubled or turned over. With positive
 /// elements it follows that they fill the boundary once.

@@ -88,6 +88,7 @@ inline void check_planes_filled(const mesher_input<2>& input, const simplicial_m
 inline void check_mesher_result(const mesher_input<2>& input, const simplicial_mesh<2>& mesh) {
   detail::check_entries(input, mesh);
   detail::check_points_kept(input.boundary.points, mesh.points);
+  detail::check_points_used(input.boundary.points.size(), mesh);
   detail::check_lines_kept(input.boundary, mesh);
   if (!detail::fit_together<2>(input.boundary, mesh))
     detail::throw_no_fit();
