@@ -10,6 +10,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -69,7 +70,7 @@ TEST_CASE("A rank that fails ends the others, and its own error is thrown") {
   for (int failing = 0; failing < 3; ++failing) {
     std::atomic<int> ended = 0;
     const auto work = [&](parallel::in_process& mine) {
-      any_communicator all(mine);
+      any_communicator all(std::move(mine)); // it is the rank's to give away
       if (all.rank() == failing)
         throw geometry_error("no solid");
       try {

@@ -94,19 +94,20 @@ inline void run_ranks(int ranks, const std::function<void(in_process&)>& work) {
   std::vector<std::thread> threads;
   for (int r = 0; r < ranks; ++r)
     threads.emplace_back([&, r] {
-      in_process mine(all, r);
+      in_process mine(all, r); // which the work may move into an `any_communicator`
+      const auto abandon = [&](const std::string& reason) { in_process(all, r).abandon(reason); };
       const auto at = static_cast<std::size_t>(r);
       try {
         work(mine);
       } catch (const communication_error& problem) {
         consequences[at] = std::current_exception();
-        mine.abandon(problem.what());
+        abandon(problem.what());
       } catch (const std::exception& problem) {
         causes[at] = std::current_exception();
-        mine.abandon(problem.what());
+        abandon(problem.what());
       } catch (...) {
         causes[at] = std::current_exception();
-        mine.abandon("an exception that is not a std::exception");
+        abandon("an exception that is not a std::exception");
       }
     });
   for (std::thread& thread : threads)
