@@ -95,7 +95,8 @@ TEST_CASE("arrays that do not fit together are refused, naming the place") {
   check_refused(soup, "the surface: triangle 5 refers to point -1, but there are 24 points");
   soup = cube;
   soup.groups.assign(3, 0);
-  check_refused(soup, "the surface: there are 3 groups of 12 triangles; give one per triangle, or none");
+  check_refused(soup,
+                "the surface: there are 3 groups or ids for 12 triangles; give one per triangle, or none");
   soup.groups.assign(12, 0);
   soup.groups[7] = 2;
   soup.group_names = {"a", "b"};

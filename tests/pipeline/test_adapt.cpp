@@ -268,6 +268,7 @@ TEST_CASE("what cannot be adapted is refused by typed errors") {
       "no tetrahedron");
   refused([](auto& m) { m.side_ids.pop_back(); }, "one id per side");
   refused([](auto& m) { m.side_ids[3] = -7; }, "ids are not negative");
+  refused([](auto& m) { m.sides[3][1] = 1'000'000; }, "side 3 has the point 1000000");
   refused([](auto& m) { std::swap(m.mesh.elements[5][0], m.mesh.elements[5][1]); }, "not valid");
   refused([](auto& m) { m.mesh.elements[5][0] = 1'000'000; }, "not valid");
   refused([](auto& m) { m.mesh.tags.pop_back(); }, "not valid");

@@ -33,7 +33,7 @@ struct triangle_soup {
 /// refers to a point or group that does not exist, or a point is not finite. O(n).
 inline void check_soup(const triangle_soup& soup, const std::string& name) {
   if (!soup.groups.empty() && soup.groups.size() != soup.triangles.size())
-    throw geometry_error(name + ": there are " + std::to_string(soup.groups.size()) + " groups of " +
+    throw geometry_error(name + ": there are " + std::to_string(soup.groups.size()) + " groups or ids for " +
                          std::to_string(soup.triangles.size()) +
                          " triangles; give one per triangle, or none");
   for (std::size_t i = 0; i < soup.points.size(); ++i)

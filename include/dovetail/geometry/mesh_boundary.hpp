@@ -70,14 +70,22 @@ inline std::pair<std::vector<local_id>, std::vector<local_id>> solids_of(const s
   return {std::move(solid), std::move(materials)};
 }
 
-inline void require_ids(std::size_t sides, const std::vector<local_id>& ids, const std::string& side) {
-  if (sides != ids.size())
-    throw mesh_error("there are " + std::to_string(sides) + " " + side + "s and " +
+/// Throws `mesh_error` unless sides or edges have points of the mesh, and one id each that is not negative.
+template <int D>
+void require_ids(const std::vector<vec3>& points, const std::vector<simplex<D>>& sides,
+                 const std::vector<local_id>& ids, const std::string& side) {
+  if (sides.size() != ids.size())
+    throw mesh_error("there are " + std::to_string(sides.size()) + " " + side + "s and " +
                      std::to_string(ids.size()) + " ids; give one id per " + side);
-  for (std::size_t s = 0; s < ids.size(); ++s)
+  for (std::size_t s = 0; s < ids.size(); ++s) {
     if (ids[s] < 0 && ids[s] != no_id)
       throw mesh_error(side + " " + std::to_string(s) + " has the id " + std::to_string(ids[s]) +
                        "; ids are not negative");
+    for (const local_id v : sides[s])
+      if (v < 0 || static_cast<std::size_t>(v) >= points.size())
+        throw mesh_error(side + " " + std::to_string(s) + " has the point " + std::to_string(v) +
+                         ", which does not exist");
+  }
 }
 
 /// Points where an id of edges begins or ends, numbered as after `drop_unused_points`.
@@ -85,12 +93,8 @@ inline std::vector<local_id> ends_of_ids(const simplicial_mesh<2>& mesh, const s
                                          const std::vector<local_id>& ids) {
   std::vector<std::pair<local_id, local_id>> at; // (point, id)
   for (std::size_t e = 0; e < edges.size(); ++e)
-    for (const local_id v : edges[e]) {
-      if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
-        throw mesh_error("edge " + std::to_string(e) + " has the point " + std::to_string(v) +
-                         ", which does not exist");
+    for (const local_id v : edges[e])
       at.emplace_back(v, ids[e]);
-    }
   sort_all(at);
   std::vector<local_id> number(mesh.points.size(), no_id);
   for (const auto& triangle : mesh.elements)
@@ -115,11 +119,11 @@ inline std::vector<local_id> ends_of_ids(const simplicial_mesh<2>& mesh, const s
 /// The boundary of a mesh and of its materials (`mesh.tags`). `given` are sides with ids, in any orientation;
 /// those inside a material do not count, which a warning tells, and sides that are not given have no id.
 /// O(n log n). Throws `mesh_error` for a mesh without elements or with faults, and when ids are negative or
-/// not one per side.
+/// not one per side, or a side has a point that does not exist.
 inline mesh_boundary boundary_of(const simplicial_mesh<3>& mesh, const std::vector<simplex<2>>& given,
                                  const std::vector<local_id>& ids) {
   detail::require_boundary_to_find(mesh);
-  detail::require_ids(given.size(), ids, "side");
+  detail::require_ids<2>(mesh.points, given, ids, "side");
   std::vector<std::pair<simplex<2>, local_id>> known;
   for (std::size_t s = 0; s < given.size(); ++s)
     known.emplace_back(sorted_vertices(given[s]), ids[s]);
@@ -169,7 +173,7 @@ inline mesh_boundary boundary_of(const simplicial_mesh<3>& mesh, const std::vect
 inline oriented_surfaces surface_of(const simplicial_mesh<2>& mesh, const std::vector<simplex<1>>& given = {},
                                     const std::vector<local_id>& ids = {}) {
   detail::require_boundary_to_find(mesh);
-  detail::require_ids(given.size(), ids, "edge");
+  detail::require_ids<1>(mesh.points, given, ids, "edge");
   oriented_surfaces surfaces;
   surfaces.mesh.points = mesh.points;
   surfaces.mesh.elements = mesh.elements;

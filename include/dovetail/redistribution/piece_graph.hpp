@@ -87,7 +87,8 @@ inline report describe_redistribution(const csr_graph& pieces, const std::vector
 /// Throws `partition_error` unless each of the ranks can have a piece.
 inline void require_pieces_for(std::size_t pieces, int ranks) {
   if (ranks < 1 || static_cast<std::size_t>(ranks) > pieces)
-    throw partition_error("cannot give " + std::to_string(pieces) + " pieces to " + std::to_string(ranks) +
+    throw partition_error("cannot give " + std::to_string(pieces) + " subdomains to " +
+                          std::to_string(ranks) +
                           " ranks; ask for at least one rank, and for as many subdomains as ranks");
 }
 
