@@ -96,6 +96,13 @@ void add_run_options(CLI::App& command, mesh_options& options) {
                      "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
 }
 
+void add_order_option(CLI::App& command, mesh_options& options) {
+  command
+      .add_option("--order", options.order,
+                  "Order of the elements: 1, or 2 with nodes in the middle of edges, on the CAD model")
+      ->check(CLI::IsMember({1, 2}));
+}
+
 void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("-o,--out", options.out, "Folder for the mesh")->capture_default_str();
   command
@@ -113,10 +120,7 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_flag("--ghosts", options.ghosts,
                    "Each rank also has the elements of others that touch its own (pvtu, vtkhdf, msh-ranks)");
   command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");
-  command
-      .add_option("--order", options.order,
-                  "Order of the elements: 1, or 2 with nodes in the middle of edges, on the CAD model")
-      ->check(CLI::IsMember({1, 2}));
+  add_order_option(command, options);
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_option("--trace", options.trace,
                      "JSON file for what ran when and where: for ui.perfetto.dev and dovetail simulate");
@@ -182,6 +186,7 @@ struct parser {
     add_examples(command, {"dovetail plan wing.step -s 5"});
     add_model_options(command, plan.mesh.model);
     add_run_options(command, plan.mesh);
+    add_order_option(command, plan.mesh);
     command.add_option("--report", plan.report, "JSON file for the figures");
     command.callback([this] {
       chosen = [this] { return run_plan(plan); };

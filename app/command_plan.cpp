@@ -60,7 +60,7 @@ int plan_run(const plan_options& options) {
   figures.parent_bytes =
       bytes_of_program +
       costs<D>.parent_bytes_per_side * predicted_skeleton_sides<D>(plan.predicted_elements, plan.subdomains);
-  figures.disk_bytes = plan.predicted_elements * bytes_per_element(make_formats<D>({}));
+  figures.disk_bytes = plan.predicted_elements * bytes_per_element(make_formats<D>(options.mesh));
   std::fputs(plan_text(figures).c_str(), stdout);
   if (!options.report.empty())
     write_plan(figures, options.report);
