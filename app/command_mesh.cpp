@@ -254,9 +254,11 @@ private:
           policies_.executor.once([&] { return elements_with_room(formats_, folder); });
     try {
       const auto background = make_background_mesh<D>(source.geometry, source.size, policies_, parameters_);
-      if (const int planned = background.plan.subdomains; options_.ranks && planned < *options_.ranks)
+      const int planned = background.plan.subdomains;
+      if (options_.ranks && planned < *options_.ranks && options_.redistribute != by_elements)
         throw partition_error("--ranks: " + std::to_string(*options_.ranks) + " are more than the " +
-                              std::to_string(planned) + " subdomains planned; give --subdomains as well");
+                              std::to_string(planned) +
+                              " subdomains planned; give --subdomains, or --redistribute " + by_elements);
       return generate_mesh_from<D>(background, source.geometry, policies_, parameters_);
     } catch (const too_many_elements& problem) {
       throw io_error(folder.string() + ": the sizes predict about " + count_text(problem.predicted) +
