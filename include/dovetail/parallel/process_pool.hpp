@@ -54,11 +54,13 @@ public:
   std::vector<task_outcome> run() {
     options_.on_progress(options_.stage, 0, outcomes_.size());
     while (!ended()) {
-      take_granted();
-      start_workers();
-      wait_for_news();
       const std::size_t before = progress_;
-      collect();
+      take_granted();
+      if (!ended()) { // by what was heard just now
+        start_workers();
+        wait_for_news();
+        collect();
+      }
       progress_ = feed_ != nullptr ? feed_->done() : done_;
       if (progress_ != before)
         options_.on_progress(options_.stage, progress_, outcomes_.size());
