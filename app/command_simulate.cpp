@@ -92,7 +92,7 @@ void print(const simulate_options& options, double elements,
     double seconds = 0;
     for (std::size_t s = 0; s < runs[k].stages.size(); ++s)
       if (is_decomposition(runs[k].stages, s) == decomposition)
-        seconds += runs[k].stages[s].alone + runs[k].stages[s].tasks;
+        seconds += whole(runs[k].stages[s]);
     return seconds;
   };
   const auto speed = [&](std::size_t k) {
@@ -116,9 +116,9 @@ void print(const simulate_options& options, double elements,
   std::printf("What takes longest\n");
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto& most = simulation::bottleneck(runs[k]);
-    std::printf("  %-38s %s: %.1f s, of which one process alone %.1f\n",
-                (std::to_string(options.workers[k]) + " workers").c_str(), most.stage.c_str(),
-                most.alone + most.tasks, most.alone);
+    std::printf("  %-38s %s: %.1f s, of which %.1f not spread over workers\n",
+                (std::to_string(options.workers[k]) + " workers").c_str(), most.stage.c_str(), whole(most),
+                most.alike + most.once);
   }
   if (std::abs(elements / 1e9 - 1) < 0.1)
     print_paper(options.workers);

@@ -178,7 +178,7 @@ any_executor make_executor(const std::string& name, int workers, const std::stri
   if (network)
     return {parallel::ranks(*network, kind == "serial" ? 0 : std::max(1, workers)), "ranks"};
   if (workers == 0)
-    workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    workers = parallel::available_processors();
   if (kind == "threads") {
     if (!traits.thread_safe)
       throw command_line_error("--executor: the mesher " + mesher +

@@ -16,7 +16,7 @@ execution_trace small_trace() {
   execution_trace trace{.workers = 2, .elements = 1234567, .seconds = 9.5};
   trace.stages = {{"planning", 0, 1.25}, {"meshing", 1.25, 9.5}};
   trace.batches = {{"meshing", 1.5, 9, {{0, 1, 0.25, 3.5, 1000}, {1, 0, 0.125, 7, 0}}, 1},
-                   {"finishing", 9, 9.25}};
+                   {"finishing", 9, 9.25, {{0, 0, 0, 0.125, 16}}, 0, true}};
   return trace;
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("A trace is read back as it was written, and its events are those of t
       for (const char* key : {"name", "ts", "dur", "pid", "tid", "args"})
         CHECK(event.find(key) != nullptr);
     }
-  CHECK(spans == 6);
+  CHECK(spans == 7);
 }
 
 TEST_CASE("What is no trace is refused by file and line") {

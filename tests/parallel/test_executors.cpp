@@ -1,3 +1,5 @@
+#include "dovetail/parallel/available_processors.hpp"
+#include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "parallel/executor_contract.hpp"
@@ -7,6 +9,8 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+
+#include <sched.h>
 
 using namespace dovetail;
 
@@ -37,4 +41,23 @@ TEST_CASE("Executors tell whether tasks share the process with others that run")
   CHECK_FALSE(runs_in_threads(parallel::serial{}));
   CHECK_FALSE(runs_in_threads(parallel::threads{1}));
   CHECK(runs_in_threads(parallel::threads{2}));
+}
+
+TEST_CASE("As many workers as there are processors that may be used, not as the machine has") {
+  int bound = 0, forked = 0, threads = 0;
+  std::thread([&] { // the binding is of this thread alone
+    const int here = ::sched_getcpu();
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(here, &one);
+    REQUIRE(::sched_setaffinity(0, sizeof one, &one) == 0);
+    bound = parallel::available_processors();
+    forked = parallel::processes{}.workers();
+    threads = parallel::threads{}.workers();
+  })
+      .join();
+  CHECK(bound == 1);
+  CHECK(forked == 1);
+  CHECK(threads == 1);
+  CHECK(parallel::processes{3}.workers() == 3);
 }

@@ -85,10 +85,28 @@ TEST_CASE("Stages begin with their first update and last until the next; copies 
   CHECK(trace.stages[1].end == trace.seconds);
 }
 
-TEST_CASE("What no batch fills one process does alone") {
+TEST_CASE("What one does for all is noted with its stage, time and bytes") {
+  const parallel::traced traced(any_executor(parallel::serial{}));
+  traced.watch({})("partition", 0, 0);
+  const auto bytes = traced.once([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return byte_buffer(5);
+  });
+  CHECK(bytes.size() == 5);
+  const auto trace = traced.trace();
+  REQUIRE(trace.batches.size() == 1);
+  CHECK(trace.batches[0].once);
+  CHECK(trace.batches[0].stage == "partition");
+  REQUIRE(trace.batches[0].tasks.size() == 1);
+  CHECK(trace.batches[0].tasks[0].seconds >= 0.01);
+  CHECK(trace.batches[0].tasks[0].result_bytes == 5);
+  CHECK(trace.batches[0].begin + trace.batches[0].tasks[0].seconds <= trace.batches[0].end);
+}
+
+TEST_CASE("What no batch fills all do alike") {
   execution_trace trace;
   trace.batches = {{"a", 1, 2}, {"b", 3, 5}};
-  CHECK(seconds_alone(trace, 0, 6) == doctest::Approx(3));
-  CHECK(seconds_alone(trace, 1.5, 4) == doctest::Approx(1));
-  CHECK(seconds_alone(trace, 3, 5) == doctest::Approx(0));
+  CHECK(seconds_alike(trace, 0, 6) == doctest::Approx(3));
+  CHECK(seconds_alike(trace, 1.5, 4) == doctest::Approx(1));
+  CHECK(seconds_alike(trace, 3, 5) == doctest::Approx(0));
 }

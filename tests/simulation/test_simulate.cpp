@@ -13,7 +13,7 @@ using namespace dovetail::simulation;
 namespace {
 
 workload tasks(std::size_t count, double seconds, double bytes = 0) {
-  return {1, {{"meshing", 0, {std::vector<simulated_task>(count, {seconds, bytes})}}}};
+  return {1, {{"meshing", 0, {}, {std::vector<simulated_task>(count, {seconds, bytes})}}}};
 }
 
 simulated_machine without_delays(std::int64_t workers) {
@@ -33,10 +33,10 @@ TEST_CASE("Without delays equal tasks take as many rounds as there are") {
   }
 }
 
-TEST_CASE("What is done alone costs the same for any number of workers, and batches wait for each other") {
+TEST_CASE("What all do alike costs the same for any number of workers, and batches wait for each other") {
   workload work = tasks(4, 1);
   work.stages[0].batches.push_back(work.stages[0].batches[0]);
-  work.stages[0].seconds_alone = 3;
+  work.stages[0].seconds_alike = 3;
   CHECK(simulate(work, without_delays(1)).seconds == doctest::Approx(3 + 8));
   CHECK(simulate(work, without_delays(3)).seconds == doctest::Approx(3 + 2 + 2)); // not 8 tasks in 3 rounds
   CHECK(simulate(work, without_delays(4)).seconds == doctest::Approx(3 + 2));
@@ -63,11 +63,25 @@ TEST_CASE("Messages take their latency and their bytes; a task granted ahead hid
         doctest::Approx(0.5 + 1 + 0.5 + 0.5 + 200. / 100 + 2 * 0.5));
 }
 
+TEST_CASE("What one does for all takes its time and that of telling them, however few the cores") {
+  workload work{1, {{"partition", 0, {{3, 50}, {1, 0}}}}};
+  simulated_machine machine{.workers = 1, .cores = 1, .latency = 0.5, .bandwidth = 100};
+  CHECK(simulate(work, machine).stages[0].once == doctest::Approx(4));
+  machine.workers = 4;
+  const auto run = simulate(work, machine);
+  CHECK(run.stages[0].once == doctest::Approx(3 + 0.5 + 2 * 0.5 + 1 + 2 * 0.5));
+  CHECK(run.seconds == doctest::Approx(run.stages[0].once));
+}
+
 TEST_CASE("Workers who share cores are slower by as much") {
   simulated_machine machine = without_delays(8);
   machine.cores = 2;
   CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8));
+  workload alike = tasks(1, 0);
+  alike.stages[0].seconds_alike = 3;
+  CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(12));
   machine.cores = 16;
+  CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(3));
   CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(2));
 }
 

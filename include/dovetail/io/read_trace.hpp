@@ -66,6 +66,7 @@ private:
     } else if (thread == trace_events::batches) {
       trace_.batches.push_back({text(event, "name"), begin, begin + seconds});
       trace_.batches.back().failed = static_cast<std::size_t>(number(arguments, "failed", 0, 1e15));
+      trace_.batches.back().once = number(arguments, "once", 0, 1) != 0;
     } else if (trace_.batches.empty()) {
       fail(event, "a task is before its batch");
     } else {

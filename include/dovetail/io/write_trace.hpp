@@ -82,6 +82,7 @@ inline void write_trace(const execution_trace& trace, const std::filesystem::pat
   for (const batch_span& batch : trace.batches) {
     events.span(trace_events::batches, batch.stage, batch.begin, batch.end - batch.begin);
     events.argument("failed", batch.failed);
+    events.argument("once", batch.once ? 1 : 0);
     events.end_span();
     for (const task_span& task : batch.tasks) {
       events.span(trace_events::first_worker + task.worker, batch.stage, batch.begin + task.begin,

@@ -27,6 +27,7 @@ struct batch_span {
   double end = 0;
   std::vector<task_span> tasks = {}; ///< by number
   std::size_t failed = 0;            ///< tasks without result, of which no times are known
+  bool once = false;                 ///< not given away: the process that leads works, and tells the others
 
   friend bool operator==(const batch_span&, const batch_span&) = default;
 };
@@ -51,9 +52,9 @@ struct execution_trace {
   friend bool operator==(const execution_trace&, const execution_trace&) = default;
 };
 
-/// Seconds between the first and the last moment of a stretch of the trace that no batch fills: what one
-/// process does alone. `begin` and `end` are seconds since the trace began.
-inline double seconds_alone(const execution_trace& trace, double begin, double end) {
+/// Seconds between the first and the last moment of a stretch of the trace that no batch fills: what all
+/// ranks do alike. `begin` and `end` are seconds since the trace began.
+inline double seconds_alike(const execution_trace& trace, double begin, double end) {
   double alone = end - begin;
   for (const batch_span& batch : trace.batches)
     alone -= std::max(0.0, std::min(end, batch.end) - std::max(begin, batch.begin));

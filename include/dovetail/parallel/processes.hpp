@@ -2,14 +2,10 @@
 /// The executor that runs tasks in forked worker processes: a crash, leak or hang costs one task. Linux.
 #pragma once
 
+#include "dovetail/parallel/available_processors.hpp"
 #include "dovetail/parallel/worker_process.hpp"
 
-#include <algorithm>
 #include <cstddef>
-
-#include <poll.h>
-#include <system_error>
-#include <thread>
 #include <vector>
 
 namespace dovetail::parallel {
@@ -20,12 +16,9 @@ namespace dovetail::parallel {
 /// task failed is replaced, so that nothing of the failure reaches other tasks. Refuses with `usage_error` in
 /// a process that has other threads: forking copies locks but not their holders.
 struct processes {
-  int worker_count = 0; ///< 0: one per hardware thread
+  int worker_count = 0; ///< 0: one per processor that this process may use
 
-  int workers() const {
-    return worker_count > 0 ? worker_count
-                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  int workers() const { return worker_count > 0 ? worker_count : available_processors(); }
   bool shares_process() const { return false; }
 
   std::vector<task_outcome> run(std::size_t count, const task_function& task,

@@ -2,13 +2,10 @@
 /// The executor that runs tasks in threads of this process.
 #pragma once
 
+#include "dovetail/parallel/available_processors.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
-#include <algorithm>
-#include <condition_variable>
 #include <cstddef>
-#include <mutex>
-#include <thread>
 #include <vector>
 
 namespace dovetail::parallel {
@@ -16,12 +13,9 @@ namespace dovetail::parallel {
 /// A model of `executor` for tasks that may run side by side in one process; TetGen and Gmsh may not. A task
 /// that crashes ends the process, and one that hangs is not interrupted.
 struct threads {
-  int worker_count = 0; ///< 0: one per hardware thread
+  int worker_count = 0; ///< 0: one per processor that this process may use
 
-  int workers() const {
-    return worker_count > 0 ? worker_count
-                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
+  int workers() const { return worker_count > 0 ? worker_count : available_processors(); }
   bool shares_process() const { return true; }
 
   /// Progress is reported from the calling thread; a stop takes effect when the running tasks have ended.

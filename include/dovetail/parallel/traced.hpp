@@ -69,7 +69,25 @@ public:
   bool shares_process() const { return run_.shares_process(); }
   bool leads() const { return run_.leads(); }
   bool has_others() const { return run_.has_others(); }
-  byte_buffer once(const std::function<byte_buffer()>& work) const { return run_.once(work); }
+  byte_buffer once(const std::function<byte_buffer()>& work) const {
+    auto& trace = record_->trace;
+    const std::string stage = trace.stages.empty() ? "" : trace.stages.back().stage;
+    const double begun = seconds_between(origin_, clock::now());
+    double worked = 0;
+    byte_buffer made = run_.once([&] {
+      const clock::time_point work_begun = clock::now();
+      byte_buffer result = work();
+      worked = seconds_between(work_begun, clock::now());
+      return result;
+    });
+    trace.batches.push_back({stage,
+                             begun,
+                             seconds_between(origin_, clock::now()),
+                             {{.seconds = worked, .result_bytes = made.size()}},
+                             0,
+                             true});
+    return made;
+  }
 
   /// The same callbacks, which note the stages too. They hold the record, not this object.
   progress watch(progress given) const {

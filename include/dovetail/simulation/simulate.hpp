@@ -31,12 +31,18 @@ struct simulated_machine {
 
 struct simulated_times {
   std::string stage;
-  double alone = 0;    ///< in which workers wait for one process, or all do the same
+  double alike = 0;    ///< in which all do the same
+  double once = 0;     ///< in which all wait for one process, and until they know its result
   double tasks = 0;    ///< from the first grant to the last result at all ranks
   double busy = 0;     ///< of all workers together
   double idle = 0;     ///< the rest of the workers' time in `tasks`
   double managing = 0; ///< of the manager, within `tasks`
 };
+
+/// Seconds of a stage.
+inline double whole(const simulated_times& times) {
+  return times.alike + times.once + times.tasks;
+}
 
 struct simulated_run {
   std::vector<simulated_times> stages = {};
@@ -45,19 +51,28 @@ struct simulated_run {
 
 namespace detail {
 
+/// By how much workers that share cores are slower, when so many of them work.
+inline double slowdown(const simulated_machine& machine, std::int64_t working) {
+  return machine.cores == 0
+             ? 1.0
+             : std::max(1.0, static_cast<double>(working) / static_cast<double>(machine.cores));
+}
+
+/// Seconds until all know so many bytes of one.
+inline double telling(const simulated_machine& machine, double bytes) {
+  return machine.workers > 1
+             ? bytes / machine.bandwidth +
+                   std::ceil(std::log2(static_cast<double>(machine.workers))) * machine.latency
+             : 0;
+}
+
 /// One batch: the tasks in their order, to whoever asks first. O(tasks log workers)
 class batch_simulation {
 public:
   batch_simulation(const std::vector<simulated_task>& tasks, const simulated_machine& machine)
       : tasks_(tasks), machine_(machine),
-        slowdown_(machine.cores == 0
-                      ? 1.0
-                      : std::max(1.0, static_cast<double>(std::min<std::int64_t>(
-                                          machine.workers, static_cast<std::int64_t>(tasks.size()))) /
-                                          static_cast<double>(machine.cores))),
-        free_(static_cast<std::size_t>(
-                  std::min<std::int64_t>(machine.workers, static_cast<std::int64_t>(tasks.size()))),
-              0.0) {}
+        working_(std::min<std::int64_t>(machine.workers, static_cast<std::int64_t>(tasks.size()))),
+        slowdown_(slowdown(machine, working_)), free_(static_cast<std::size_t>(working_), 0.0) {}
 
   void add_to(simulated_times& times) {
     for (int ahead = 0; ahead < machine_.granted_ahead; ++ahead)
@@ -72,9 +87,7 @@ public:
     }
     for (const simulated_task& task : tasks_)
       bytes += task.bytes;
-    const double hops =
-        std::ceil(std::log2(static_cast<double>(std::max<std::int64_t>(machine_.workers, 1))));
-    const double told = machine_.workers > 1 ? bytes / machine_.bandwidth + hops * machine_.latency : 0;
+    const double told = telling(machine_, bytes);
     times.tasks += manager_ + told;
     times.busy += busy_;
     times.idle += static_cast<double>(machine_.workers) * (manager_ + told) - busy_;
@@ -98,6 +111,7 @@ private:
 
   const std::vector<simulated_task>& tasks_;
   const simulated_machine& machine_;
+  std::int64_t working_; ///< workers that get a task
   double slowdown_;
   std::vector<double> free_; ///< when each worker is done with what it has
   std::priority_queue<arrival, std::vector<arrival>, std::greater<>> arrivals_ = {};
@@ -117,22 +131,24 @@ inline simulated_run simulate(const workload& work, const simulated_machine& mac
   simulated_run run;
   for (const simulated_stage& stage : work.stages) {
     simulated_times& times = run.stages.emplace_back(simulated_times{stage.stage});
-    times.alone = stage.seconds_alone;
+    times.alike = stage.seconds_alike * detail::slowdown(machine, machine.workers);
+    for (const simulated_task& task : stage.once)
+      times.once += task.seconds + detail::telling(machine, task.bytes);
     for (const auto& batch : stage.batches)
       detail::batch_simulation(batch, machine).add_to(times);
-    run.seconds += times.alone + times.tasks;
+    run.seconds += whole(times);
   }
   return run;
 }
 
-/// The stage that takes most of a run, alone or by its tasks. Throws `usage_error` for a run without stages.
+/// The stage that takes most of a run, with all that is done in it. Throws `usage_error` for a run without
+/// stages.
 inline const simulated_times& bottleneck(const simulated_run& run) {
   if (run.stages.empty())
     throw usage_error("a run without stages has no bottleneck");
-  return *std::max_element(run.stages.begin(), run.stages.end(),
-                           [](const simulated_times& a, const simulated_times& b) {
-                             return a.alone + a.tasks < b.alone + b.tasks;
-                           });
+  return *std::max_element(
+      run.stages.begin(), run.stages.end(),
+      [](const simulated_times& a, const simulated_times& b) { return whole(a) < whole(b); });
 }
 
 } // namespace dovetail::simulation

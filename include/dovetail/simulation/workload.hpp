@@ -21,11 +21,12 @@ struct simulated_task {
   double bytes = 0;
 };
 
-/// What is done in a stage: first what one process does alone, or all do alike; then the tasks, where the
-/// next batch begins when the last is done.
+/// What is done in a stage: what all do alike; what one process does for all, who wait and are told; and the
+/// tasks, where the next batch begins when the last is done.
 struct simulated_stage {
   std::string stage;
-  double seconds_alone = 0;
+  double seconds_alike = 0;
+  std::vector<simulated_task> once = {};
   std::vector<std::vector<simulated_task>> batches = {};
 };
 
@@ -57,14 +58,15 @@ inline workload workload_of(const execution_trace& trace) {
     return under_way;
   };
   for (const stage_span& span : trace.stages)
-    stage_called(span.stage).seconds_alone += seconds_alone(trace, span.begin, span.end);
+    stage_called(span.stage).seconds_alike += seconds_alike(trace, span.begin, span.end);
   for (const batch_span& batch : trace.batches) {
     if (batch.tasks.empty())
       continue;
     std::vector<task_span> begun = batch.tasks;
     std::stable_sort(begun.begin(), begun.end(),
                      [](const task_span& a, const task_span& b) { return a.begin < b.begin; });
-    auto& tasks = stage_called(stage_of(batch)).batches.emplace_back();
+    simulated_stage& stage = stage_called(stage_of(batch));
+    auto& tasks = batch.once ? stage.once : stage.batches.emplace_back();
     for (const task_span& task : begun)
       tasks.push_back({task.seconds, static_cast<double>(task.result_bytes)});
   }
@@ -75,14 +77,16 @@ namespace detail {
 
 /// Sums over a stage.
 struct stage_sums {
-  double alone = 0, tasks = 0, seconds = 0;
+  double alike = 0, once = 0, tasks = 0, seconds = 0;
 };
 
 inline std::map<std::string, stage_sums> sums_of(const workload& work) {
   std::map<std::string, stage_sums> sums;
   for (const simulated_stage& stage : work.stages) {
     stage_sums& of = sums[stage.stage];
-    of.alone += stage.seconds_alone;
+    of.alike += stage.seconds_alike;
+    for (const simulated_task& task : stage.once)
+      of.once += task.seconds;
     for (const auto& batch : stage.batches) {
       of.tasks += static_cast<double>(batch.size());
       for (const simulated_task& task : batch)
@@ -102,9 +106,10 @@ inline double growth(double small, double large, double times_elements, double l
 } // namespace detail
 
 /// The work for a mesh of so many elements, by power laws through two runs of different sizes, of which the
-/// larger one gives the order of batches and how tasks differ: for each stage a law for the time alone, for
-/// the number of tasks and for the time of one. What takes less than `short_time` in the larger run grows
-/// with the elements. Throws `usage_error` unless the second run has at least 1.5 times the elements.
+/// larger one gives the order of batches and how tasks differ: for each stage a law for what all do alike,
+/// for what one does for all, for the number of tasks and for the time of one. What takes less than
+/// `short_time` in the larger run grows with the elements. Throws `usage_error` unless the second run has at
+/// least 1.5 times the elements.
 inline workload scaled_to(double elements, const workload& smaller, const workload& larger,
                           double short_time = 1e-3) {
   const double times = larger.elements / smaller.elements;
@@ -121,12 +126,17 @@ inline workload scaled_to(double elements, const workload& smaller, const worklo
     const auto by_law = [&](double a, double b, double least, double most) {
       return std::pow(factor, detail::growth(a, b, times, least, most));
     };
-    const double alone = now.alone > short_time ? by_law(was.alone, now.alone, 0, 1.5) : factor;
+    const auto by_law_unless_short = [&](double a, double b) {
+      return b > short_time ? by_law(a, b, 0, 1.5) : factor;
+    };
+    const double once = by_law_unless_short(was.once, now.once);
     const double count = now.tasks > 0 ? by_law(was.tasks, now.tasks, 0, 1) : 1;
     const double each = now.tasks > 0 && was.tasks > 0
                             ? by_law(was.seconds / was.tasks, now.seconds / now.tasks, -0.5, 1)
                             : 1;
-    simulated_stage next{stage.stage, stage.seconds_alone * alone};
+    simulated_stage next{stage.stage, stage.seconds_alike * by_law_unless_short(was.alike, now.alike)};
+    for (const simulated_task& task : stage.once)
+      next.once.push_back({task.seconds * once, task.bytes * once});
     for (const auto& batch : stage.batches) {
       const auto wanted =
           static_cast<std::size_t>(std::max(1.0, std::round(static_cast<double>(batch.size()) * count)));
