@@ -132,6 +132,36 @@ inline suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&,
   return {};
 }
 
+/// Where pieces fail since regions of theirs are folded over or the lines around them cross: there smaller
+/// sizes may help. The regions of the failed pieces are meshed again by the surface mesher.
+inline std::vector<surface_crossing>
+faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2>& mesh,
+                        const realized<2>& made, const std::vector<piece_failure>& failures,
+                        const refined_sizing& size, skeleton_store& store,
+                        const any_parameters<2>& given) try {
+  std::set<local_id> failed;
+  for (const piece_failure& failure : failures)
+    failed.insert(failure.subdomain);
+  coarse_skeleton of_failed = made.coarse;
+  std::erase_if(of_failed.regions, [&](const auto& region) {
+    return !failed.contains(region.subdomains[0]) && !failed.contains(region.subdomains[1]);
+  });
+  const auto again = remesh_skeleton(model, mesh.surface, mesh.surface.mesh.points, of_failed, made.lines,
+                                     size, given.mesh_surface, given.run_tasks, store.patches);
+  suppression_plan plan = detail::plan_for_failed_patches(of_failed, again.patches.failures);
+  append(plan.surface_crossings, plan.interface_crossings);
+  return std::move(plan.surface_crossings);
+} catch (const mesher_error&) {
+  return {}; // the failures tell more
+}
+/// Tetrahedra fail inside boundaries that were found whole.
+inline std::vector<surface_crossing>
+faults_of_failed_pieces(const any_geometry&, const simplicial_background<3>&, const realized<3>&,
+                        const std::vector<piece_failure>&, const refined_sizing&, skeleton_store&,
+                        const any_parameters<3>&) {
+  return {};
+}
+
 /// What to do about finished pieces, in an order that does not depend on the executor. Loads points and
 /// triangles of all pieces at once, also from a spool: about 32 bytes per triangle with the search's lists,
 /// which is the only step of D = 2 that needs memory for the whole mesh. Nothing is loaded when the model

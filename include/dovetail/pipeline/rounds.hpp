@@ -87,14 +87,14 @@ public:
     }
   }
 
-  /// The same with the pieces meshed. What no rung of the mesher's ladder can mesh is merged with a
-  /// neighbour, as long as that may be.
+  /// The same with the pieces meshed. What no rung of the mesher's ladder can mesh is refined where a surface
+  /// is at fault, or merged with a neighbour, as long as that may be.
   std::pair<realized<D>, meshed_pieces<D>> mesh_pieces() {
     for (;;) {
       auto made = realize_boundaries();
       auto meshed = mesh_all_pieces(model_, mesh_, made, divided_.weights, size_, pieces_, given_);
       finished_.insert(meshed.keys.begin(), meshed.keys.end());
-      if (merge_failed(made, meshed) ||
+      if (refine_failed(made, meshed) || merge_failed(made, meshed) ||
           !suppress(plan_for_pieces(model_, made, meshed, given_, intersection_)))
         continue;
       append(meshed.summary.warnings, told_);
@@ -203,6 +203,16 @@ private:
   void refine(std::span<const surface_crossing> crossings) {
     size_.refine(balls_around(crossings));
     ++refinements_;
+  }
+
+  /// Smaller sizes where no attempt could mesh a surface; whether there are such places and rounds left.
+  bool refine_failed(const realized<D>& made, const meshed_pieces<D>& meshed) {
+    if (meshed.failures.empty() || refinements_ == given_.options.refinement_rounds)
+      return false;
+    const auto faults = faults_of_failed_pieces(model_, mesh_, made, meshed.failures, size_, made_, given_);
+    if (!faults.empty())
+      refine(one_of_each_place(faults));
+    return !faults.empty();
   }
 
   /// Merges what no attempt could mesh; whether that changed anything.
