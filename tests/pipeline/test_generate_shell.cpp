@@ -175,6 +175,58 @@ TEST_CASE("pieces that still cross when no round is left are an error that names
                        doctest::Contains(" and face "), intersection_error);
 }
 
+TEST_CASE(
+    "a ring far thinner than the size: its coarse surface crosses itself until the whole face is finer") {
+  const auto model = occt_shape_from(BRepPrimAPI_MakeTorus(50, 0.3).Shape()).model;
+  const auto result = generate<2>(model, uniform_size(8.0), parameters<>{}.with_options(in_parts(2)));
+  CHECK(euler_characteristic(require_valid(result)) == 0);
+  CHECK(crossings_of(result) == 0);
+  const double rounds = result.summary.find("background").find("coarse surface").get("refinement_rounds");
+  CHECK(rounds > 2);
+}
+
+/// Folds over beside segments of fine length near one place of a rim, as surfaces do that turn sharply there.
+struct folding_at_a_place {
+  patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
+                        const any_sizing& size) const {
+    patch_mesh made = remesh::patch_remesher{}(surface, boundary, size);
+    for (const auto& [a, b] : boundary.segments) {
+      const vec3 from = boundary.points[static_cast<std::size_t>(a)],
+                 to = boundary.points[static_cast<std::size_t>(b)];
+      const double length = distance(from, to);
+      if (length < 0.1 || length > 0.3 || distance(midpoint(from, to), place) > 0.3)
+        continue;
+      for (std::size_t t = 0; t < made.triangles.size() && made.folded.empty(); ++t)
+        if (std::find(made.triangles[t].begin(), made.triangles[t].end(), a) != made.triangles[t].end())
+          made.folded.push_back(static_cast<local_id>(t));
+    }
+    return made;
+  }
+  static constexpr vec3 place{1, 0, 2};
+};
+
+TEST_CASE("where a piece stays folded over its lines become finer, and nothing else does") {
+  const auto model = occt_shape_from(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape()).model;
+  generate_options options = in_parts(3);
+  options.coarse_scale = 4;
+  auto given = parameters<>{}.with_options(options);
+  const auto plain = generate<2>(model, uniform_size(0.2), given);
+  given.mesh_surface = folding_at_a_place{};
+  const auto finer = generate<2>(model, uniform_size(0.2), given);
+  CHECK(finer.failures.empty());
+  CHECK(finer.summary.find("intersection").get("refinements") > 0);
+  CHECK(finer.summary.find("intersection").get("merged_after_failure") == 0);
+  CHECK(finer.mesh.counts.size() == plain.mesh.counts.size());
+  const auto mesh = require_valid(finer);
+  CHECK(mesh.triangles.size() > require_valid(plain).triangles.size());
+  CHECK(mesh.triangles.size() < 2 * require_valid(plain).triangles.size());
+
+  options.refinement_rounds = 0; // then it is merged, and fails
+  given = parameters<>{}.with_options(options);
+  given.mesh_surface = folding_at_a_place{};
+  CHECK_FALSE(generate<2>(model, uniform_size(0.2), given).failures.empty());
+}
+
 TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, with its faces") {
   const auto result = mesh_shell(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape(), 0.2, 3);
   std::map<local_id, std::size_t> of_face;

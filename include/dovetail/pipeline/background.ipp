@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 namespace dovetail {
@@ -53,21 +54,38 @@ inline int default_subdomains(double elements, double per_subdomain, const gener
   return static_cast<int>(std::clamp(std::round(plain / std::sqrt(excess)), 1.0, most));
 }
 
-/// Whether a pair of coarse triangles crosses, as places to refine: a ball around both at half their size.
-inline void add_balls_at_crossing(const surface_mesh& surface, const triangle_pair& pair,
-                                  std::vector<size_ball>& balls) {
-  for (const local_id t : {pair.first, pair.second}) {
-    const auto& triangle = surface.mesh.elements[static_cast<std::size_t>(t)];
-    vec3 center{};
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 a = surface.mesh.points[static_cast<std::size_t>(triangle[k])];
-      const vec3 b = surface.mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
-      center += a / 3.0;
-      longest = std::max(longest, distance(a, b));
-    }
-    balls.push_back({center, longest, 0.4 * longest});
+/// The place of a coarse triangle, for sizes of so many times its longest edge.
+inline size_ball place_of_triangle(const simplicial_mesh<2>& mesh, std::size_t t, double times) {
+  const auto& triangle = mesh.elements[t];
+  vec3 center{};
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const vec3 a = mesh.points[static_cast<std::size_t>(triangle[k])];
+    const vec3 b = mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+    center += a / 3.0;
+    longest = std::max(longest, distance(a, b));
   }
+  return {center, longest, times * longest};
+}
+
+/// Where coarse triangles cross, as places to refine: a ball around both at less than half their size. Thin
+/// tubes and sheets cross elsewhere when that is done; of these, in late rounds, the whole faces, as long as
+/// the mesh is small.
+inline std::vector<size_ball> places_to_refine(const simplicial_mesh<2>& mesh,
+                                               const std::vector<triangle_pair>& crossing, bool late) {
+  constexpr std::size_t small = 20000; // triangles; it grows threefold
+
+  std::vector<size_ball> places;
+  std::set<local_id> faces;
+  for (const triangle_pair& pair : crossing)
+    for (const local_id t : {pair.first, pair.second}) {
+      faces.insert(mesh.tags[static_cast<std::size_t>(t)]);
+      places.push_back(place_of_triangle(mesh, static_cast<std::size_t>(t), 0.4));
+    }
+  for (std::size_t t = 0; late && mesh.elements.size() <= small && t < mesh.elements.size(); ++t)
+    if (faces.contains(mesh.tags[t]))
+      places.push_back(place_of_triangle(mesh, t, 0.7));
+  return places;
 }
 
 } // namespace detail
@@ -97,6 +115,7 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
   parameters.on_progress = on_progress.only_stopping();
   // Sheets that lie upon each other, or pass through each other, cross at more and more triangles.
   double most_pairs = 0, most_late = 0;
+  constexpr int rounds_at_crossings = 2;
   int round = 0;
   parameters.finer_at = [&](const background::coarse_surface_result& made) {
     const simplicial_mesh<2>& mesh = made.surface.mesh;
@@ -109,11 +128,7 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
     if (count > 0 && (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
       throw_crossing_faces(model.topology(), {mesh.tags[static_cast<std::size_t>(pairs.front().first)],
                                               mesh.tags[static_cast<std::size_t>(pairs.front().second)]});
-    ++round;
-    std::vector<size_ball> places;
-    for (const triangle_pair& pair : pairs)
-      detail::add_balls_at_crossing(made.surface, pair, places);
-    return places;
+    return detail::places_to_refine(mesh, pairs, ++round > rounds_at_crossings);
   };
   return background::coarse_surface(model, size, parameters, run);
 }
