@@ -119,7 +119,7 @@ void add_output_options(CLI::App& command, mesh_options& options) {
                    "After --redistribute by-elements, improve what each rank has");
   command.add_flag("--ghosts", options.ghosts,
                    "Each rank also has the elements of others that touch its own (pvtu, vtkhdf, msh-ranks)");
-  command.add_option("--files", options.files, "Number of VTU files (default: one per subdomain)");
+  command.add_option("--files", options.files, "Number of VTU files (0, the default: one per subdomain)");
   add_order_option(command, options);
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_option("--trace", options.trace,
@@ -327,6 +327,15 @@ std::string text_of_command_line(int argc, char** argv) {
   return text;
 }
 
+/// Where the options of the command that was given are told.
+std::string help_for(const CLI::App& app, int argc, char** argv) {
+  std::string command;
+  for (const auto* known : app.get_subcommands({}))
+    if (argc > 1 && known->get_name() == argv[1])
+      command = known->get_name() + " ";
+  return "see dovetail " + command + "--help";
+}
+
 /// CLI11 only says that a command is required when the one given is none.
 std::optional<std::string> unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-' || !app.get_subcommands().empty())
@@ -343,13 +352,14 @@ int run_command_line(int argc, char** argv) {
   const mpirun_rank process = rank_of_mpirun();
   const bool shared = process.size > 1 && argc > 1 && std::string_view(argv[1]) == "mesh";
   const bool speaks = !shared || process.rank == 0; // or all would say the same
+  parser line;
+  const std::string help = help_for(line.app, argc, argv);
   const auto refuse = [&](const std::string& text) {
     if (!speaks)
       return exit_ok; // or mpirun would end the one that speaks
-    complain(text + " (see dovetail --help)");
+    complain(text + " (" + help + ")");
     return exit_usage;
   };
-  parser line;
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::Success& request) { // --help, --version
@@ -362,16 +372,18 @@ int run_command_line(int argc, char** argv) {
   line.compare.command_line = line.mesh.command_line = text_of_command_line(argc, argv);
   const unfinished_output unfinished(line.outputs);
   const auto clean_up = [&] { return unfinished.remove(); };
+  const auto chosen = [&] { return run_guarded(line.chosen, help); };
   if (!shared)
-    return run_supervised([&] { return run_guarded(line.chosen); }, clean_up);
-  return run_guarded([&] {
+    return run_supervised(chosen, clean_up);
+  const auto on_ranks = [&] {
     return run_on_ranks(
         [&](const any_communicator& network) {
           line.mesh.network = network;
-          return run_guarded(line.chosen);
+          return chosen();
         },
         clean_up);
-  });
+  };
+  return run_guarded(on_ranks, help);
 }
 
 } // namespace dovetail::app

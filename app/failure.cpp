@@ -29,11 +29,11 @@ void complain(const std::string& text) {
   std::fprintf(stderr, "dovetail: %s\n", on_one_line(text).c_str());
 }
 
-int run_guarded(const std::function<int()>& command) {
+int run_guarded(const std::function<int()>& command, const std::string& help) {
   try {
     return command();
   } catch (const command_line_error& problem) {
-    complain(problem.what() + std::string(" (see dovetail --help)"));
+    complain(problem.what() + (" (" + help + ")"));
     return exit_usage;
   } catch (const cancelled&) {
     complain(stopped_line(false));

@@ -21,9 +21,9 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Runs a command; on an exception says on one line of the error stream what went wrong, and returns the exit
-/// code.
-int run_guarded(const std::function<int()>& command);
+/// Runs a command; on an exception says on one line of the error stream what went wrong, and for a command
+/// line that is wrong where to find `help`, and returns the exit code.
+int run_guarded(const std::function<int()>& command, const std::string& help);
 
 /// What a command that was stopped says, and whether another one can go on from what it leaves.
 inline std::string stopped_line(bool can_go_on) {

@@ -12,7 +12,8 @@ grep -q aircraft "$sandbox/stdout" || fault "the aircraft is not listed"
 
 expect_usage_error "required|subcommand"
 expect_usage_error "not expected|nonsense" nonsense
-expect_usage_error "nonsense" mesh --nonsense
+expect_usage_error "nonsense.*see dovetail mesh --help" mesh --nonsense
+expect_usage_error "nonsense.*see dovetail plan --help" plan --model combustor --mesher nonsense
 expect_usage_error "nonsense" mesh --model nonsense
 expect_usage_error "nonsense.*tetgen" mesh --model combustor --mesher nonsense
 expect_usage_error "nonsense.*native" mesh --model combustor --dimension 2 --mesher nonsense

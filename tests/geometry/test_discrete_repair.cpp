@@ -41,6 +41,12 @@ triangle_soup exploded(const triangle_soup& soup) {
 
 } // namespace
 
+TEST_CASE("no triangles at all, and nothing but degenerate ones, are refused for what they are") {
+  CHECK(refusal({}).find("part.stl: there are no triangles") == 0);
+  triangle_soup flat{.points = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 1, 1}}};
+  CHECK(refusal(flat).find("part.stl: all triangles are degenerate") == 0);
+}
+
 TEST_CASE("points are merged, triangles turned consistently outwards") {
   auto soup = exploded(box_soup({0, 0, 0}, {1, 2, 3}, 3));
   std::mt19937 random(1);

@@ -183,6 +183,8 @@ private:
   }
 
   void drop(const std::vector<char>& dropped) {
+    if (dropped.empty())
+      throw geometry_error(name_ + ": there are no triangles; give a closed surface");
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles().size(); ++t)
       if (!dropped[t]) {

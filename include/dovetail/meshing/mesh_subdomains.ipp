@@ -240,7 +240,7 @@ private:
     summary.set("peak_rss_bytes",
                 std::max(summary.get("peak_rss_bytes"), static_cast<double>(outcome.peak_rss_bytes)));
     if (!outcome.ok) {
-      piece.reasons.push_back(outcome.failure);
+      piece.reasons.push_back(outcome.failure.empty() ? "the executor gave no reason" : outcome.failure);
       piece.timed_out = piece.timed_out || outcome.timed_out;
       return false;
     }
