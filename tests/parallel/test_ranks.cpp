@@ -33,7 +33,7 @@ TEST_CASE("Each task is run once, on whichever rank is free") {
     const int rank = mine.rank();
     const parallel::ranks run(mine);
     CHECK(run.workers() == 4);
-    CHECK(run.leads() == (rank == 0));
+    CHECK(run.network().leads() == (rank == 0));
     run.run(100, [&](std::size_t i) {
       ++times[i];
       ++by_rank[static_cast<std::size_t>(rank)];

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -159,6 +160,33 @@ public:
       in.push_back(await(tag));
     std::sort(in.begin(), in.end(), [](const auto& a, const auto& b) { return a.peer < b.peer; });
     return in;
+  }
+
+  /// What `work()` returns on rank 0, on all ranks; an error of it is thrown on all.
+  byte_buffer once(const std::function<byte_buffer()>& work) {
+    if (size() == 1)
+      return work();
+    byte_writer reply;
+    std::exception_ptr failure;
+    if (leads()) {
+      byte_buffer made;
+      try {
+        made = work();
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      reply.value<std::uint8_t>(failure != nullptr);
+      reply.array(failure ? encode_error(failure) : made);
+    }
+    const byte_buffer known = broadcast(reply.take());
+    if (failure) // with its own type
+      std::rethrow_exception(failure);
+    byte_reader from(known);
+    const bool failed = from.value<std::uint8_t>() != 0;
+    byte_buffer bytes = from.array<std::byte>();
+    if (failed)
+      throw_error(bytes);
+    return bytes;
   }
 
   /// Returns when all ranks have come here. Where one comes with an error, all throw it: that of the lowest

@@ -4,7 +4,9 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/self.hpp"
 
 #include <concepts>
 #include <cstdint>
@@ -25,14 +27,13 @@ public:
     requires(!std::same_as<E, any_executor> && executor<E>)
   any_executor(E policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
-        shares_process_(policy.shares_process()) {
-    if constexpr (requires(const E& e) {
-                    { e.has_others() } -> std::same_as<bool>;
-                  }) {
-      leads_ = policy.leads();
-      if (policy.has_others())
-        once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
-    }
+        shares_process_(policy.shares_process()), network_(network_of(policy)) {
+    if constexpr (requires(const E& e, const std::function<byte_buffer()>& work) {
+                    { e.once(work) } -> std::same_as<byte_buffer>;
+                  })
+      once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
+    else
+      once_ = [held = network_](const auto& work) mutable { return held.once(work); };
     run_ = [held = std::move(policy)](std::size_t count, const task_function& task,
                                       const run_options& options) { return held.run(count, task, options); };
   }
@@ -41,14 +42,18 @@ public:
   const std::string& name() const { return name_; }
   int workers() const { return workers_; }
   bool shares_process() const { return shares_process_; }
+  /// Of the ranks that go through the same program; `self` where there is one process.
+  any_communicator network() const { return network_; }
   /// Whether what is not a task, files for example, is this process's to do: not on all ranks of `ranks`.
-  bool leads() const { return leads_; }
+  bool leads() const { return network_.leads(); }
+  /// Whether other processes go through the same program, so that what is made `once` has to be bytes.
+  bool has_others() const { return network_.size() > 1; }
   /// What `work()` returns, bytes or a plain value, made by the process that leads alone; an error of it is
   /// thrown by all.
   template <class Work>
   auto once(const Work& work) const {
     using result = decltype(work());
-    if (!once_)
+    if (!has_others())
       return work();
     if constexpr (std::same_as<result, byte_buffer>) {
       return once_(work);
@@ -61,8 +66,6 @@ public:
       return byte_reader(known).template value<result>();
     }
   }
-  /// Whether other processes go through the same program, so that what is made `once` has to be bytes.
-  bool has_others() const { return static_cast<bool>(once_); }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
     const auto who = [&] { return named_policy("executor", name_); };
@@ -77,6 +80,15 @@ public:
   }
 
 private:
+  template <class E>
+  static any_communicator network_of(const E& policy) {
+    if constexpr (requires {
+                    { policy.network() } -> std::same_as<any_communicator>;
+                  })
+      return policy.network();
+    else
+      return parallel::self{};
+  }
   /// Each result ends with its task's number, so that none is lost or taken for another's.
   static task_function marked(const task_function& task) {
     return [&task](std::size_t i) {
@@ -100,8 +112,8 @@ private:
   std::string name_;
   int workers_;
   bool shares_process_;
-  bool leads_ = true;
-  std::function<byte_buffer(const std::function<byte_buffer()>&)> once_; ///< of `ranks`
+  any_communicator network_;
+  std::function<byte_buffer(const std::function<byte_buffer()>&)> once_;
   std::function<std::vector<task_outcome>(std::size_t, const task_function&, const run_options&)> run_;
 };
 static_assert(executor<any_executor>);

@@ -28,8 +28,7 @@ public:
   }
   int workers() const { return run_.workers(); }
   bool shares_process() const { return run_.shares_process(); }
-  bool leads() const { return run_.leads(); }
-  bool has_others() const { return run_.has_others(); }
+  any_communicator network() const { return run_.network(); }
   byte_buffer once(const std::function<byte_buffer()>& work) const { return run_.once(work); }
 
   /// Tasks that the limit has stopped so far, or one within them: what was done instead, the clock has

@@ -57,7 +57,8 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
 /// An executor whose tasks are shared by several ranks, which all go through the same program, has besides
-/// `e.has_others()`, `e.leads()` and `e.once(work)`; see `ranks`.
+/// `e.network()`: an any_communicator between them; see `ranks`. A wrapper may have `e.once(work)` in place
+/// of the network's.
 ///
 /// Models: serial, threads, processes, ranks, clock_watch, any_executor.
 template <class E>

@@ -6,7 +6,6 @@
 #include "dovetail/parallel/concepts.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -27,13 +26,10 @@ public:
   /// Of all ranks.
   int workers() const { return workers_; }
   bool shares_process() const { return network_.shares_process(); }
-  bool leads() const { return network_.leads(); }
-  bool has_others() const { return network_.size() > 1; }
+  any_communicator network() const { return network_; }
 
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options = {}) const;
-  /// What rank 0 makes, on all ranks; an error of it is thrown on all.
-  byte_buffer once(const std::function<byte_buffer()>& work) const;
 
 private:
   any_communicator network_;

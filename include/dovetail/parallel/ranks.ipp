@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <utility>
 #include <vector>
 
@@ -100,31 +99,6 @@ DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const ta
     detail::decode_outcomes(theirs, mine);
   options.on_progress(options.stage, count, count);
   return mine;
-}
-
-DOVETAIL_INLINE byte_buffer ranks::once(const std::function<byte_buffer()>& work) const {
-  auto network = network_;
-  byte_writer reply;
-  std::exception_ptr failure;
-  if (network.leads()) {
-    byte_buffer made;
-    try {
-      made = work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    reply.value<std::uint8_t>(failure != nullptr);
-    reply.array(failure ? encode_error(failure) : made);
-  }
-  const byte_buffer known = network.broadcast(reply.take());
-  if (failure) // with its own type
-    std::rethrow_exception(failure);
-  byte_reader from(known);
-  const bool failed = from.value<std::uint8_t>() != 0;
-  byte_buffer bytes = from.array<std::byte>();
-  if (failed)
-    throw_error(bytes);
-  return bytes;
 }
 
 } // namespace dovetail::parallel

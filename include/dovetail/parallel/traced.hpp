@@ -67,8 +67,7 @@ public:
   }
   int workers() const { return run_.workers(); }
   bool shares_process() const { return run_.shares_process(); }
-  bool leads() const { return run_.leads(); }
-  bool has_others() const { return run_.has_others(); }
+  any_communicator network() const { return run_.network(); }
   byte_buffer once(const std::function<byte_buffer()>& work) const {
     auto& trace = record_->trace;
     const std::string stage = trace.stages.empty() ? "" : trace.stages.back().stage;
