@@ -16,6 +16,7 @@
 #include "dovetail/parallel/communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/distributed_concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
 #include "dovetail/redistribution/concepts.hpp"
 #include "dovetail/remesh/concepts.hpp"
@@ -54,6 +55,20 @@ struct partitioner : copyable_only {
       part[node] = static_cast<local_id>(node * static_cast<std::size_t>(parts) / nodes);
     return part;
   }
+};
+// end
+
+// for distributed_graph_partitioner
+/// The same of the whole graph.
+struct distributed_partitioner : copyable_only {
+  using copyable_only::copyable_only;
+  std::vector<local_id> operator()(any_communicator&, const distributed_csr_graph& graph, int parts) const {
+    std::vector<local_id> part;
+    for (std::int64_t node = graph.first(); node < graph.end(); ++node)
+      part.push_back(static_cast<local_id>(node * parts / graph.node_count()));
+    return part;
+  }
+  short depends_on_ranks() const { return 0; }
 };
 // end
 

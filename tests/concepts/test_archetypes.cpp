@@ -13,6 +13,7 @@
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "dovetail/partition/any_distributed_partitioner.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 #include "dovetail/redistribution/any_redistributor.hpp"
@@ -30,6 +31,10 @@ namespace {
 
 static_assert(graph_partitioner<archetype::partitioner>);
 static_assert(graph_partitioner<std::function<std::vector<local_id>(const csr_graph&, int)>>);
+static_assert(distributed_graph_partitioner<archetype::distributed_partitioner>);
+static_assert(!distributed_graph_partitioner<archetype::partitioner>, "it wants the whole graph");
+static_assert(std::is_constructible_v<any_distributed_partitioner, archetype::distributed_partitioner> &&
+              std::is_constructible_v<any_distributed_partitioner, archetype::partitioner>);
 static_assert(sizing_field<archetype::sizing> && sizing_field<any_sizing>);
 static_assert(sizing_field<decltype([](vec3 p) { return p.x; })>);
 static_assert(bounded_below_sizing_field<archetype::bounded_sizing>);

@@ -172,6 +172,8 @@ TEST_CASE("any partitioner does, and more ranks than pieces are no matter") {
 TEST_CASE("the result is the same for every executor, any number of ranks, and with a spool") {
   const auto mesh = lumps(12, 1, 0.5);
   const auto alone = by_elements(mesh, 3);
+  CHECK(alone.summary.get("depends_on_ranks", 1) == 0);
+  CHECK(alone.summary.warnings.empty());
   const auto same = [&](const any_executor& run, const std::optional<spool>& store) {
     auto how = by_elements;
     how.run_tasks = run;

@@ -7,7 +7,7 @@
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool.hpp"
-#include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/partition/any_distributed_partitioner.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/redistribution/concepts.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
@@ -23,10 +23,11 @@ namespace dovetail::redistribution_by {
 /// is.
 ///
 /// Super-elements are made per piece, never per rank, so the result is the same for any executor and number
-/// of its workers. Memory: the new skeleton, the joined graph, a list of the points that come onto the
-/// skeleton, and of each worker a new piece and the largest old one.
+/// of its workers, unless the partitioner `depends_on_ranks`: then the pieces are the same up to here.
+/// Memory: the new skeleton, the joined graph, a list of the points that come onto the skeleton, and of each
+/// worker a new piece and the largest old one.
 struct elements {
-  any_partitioner partitioner = partition::greedy{};
+  any_distributed_partitioner partitioner = partition::greedy{};
   any_simplification_rule simplify_by = simplifier::paper{};
   int super_elements = 2000;       ///< about so many of each piece
   double seam_weight = 4;          ///< of a side that is an interface already; of others it is 1
@@ -37,7 +38,8 @@ struct elements {
   progress on_progress = {};
 
   /// The summary has, beside what `describe_redistribution` says: super_elements, seams_before and
-  /// seams_after (sides inside solids that were interfaces, and still are), interface_sides; in D = 3 also
+  /// seams_after (sides inside solids that were interfaces, and still are), interface_sides, depends_on_ranks
+  /// (1 where the partitioner does, with a warning that says what this means); in D = 3 also
   /// min_face_angle_deg, min_wedge_deg, small_angles and, of these, avoidable_angles, at sides that the rule
   /// had not refused; children "simplification", "partition", "migration" with their seconds.
   ///

@@ -52,10 +52,9 @@ inline void join_strays_within(const csr_graph& graph, const labelled_components
     part[v] = part_of_share[static_cast<std::size_t>(share[v])];
 }
 
-/// Partitions a graph into parts that are connected where the graph is, as even as wanted where that can be.
-inline std::vector<local_id> partition_connected(const csr_graph& graph, int parts,
-                                                 const any_partitioner& partitioner, double imbalance) {
-  std::vector<local_id> part = partitioner(graph, parts);
+/// Makes parts connected where the graph is, as even as wanted where that can be.
+inline std::vector<local_id> connected_parts(const csr_graph& graph, int parts, std::vector<local_id> part,
+                                             double imbalance) {
   const labelled_components components =
       components_within(graph, std::vector<local_id>(graph.node_weights.size(), 0));
   for (int round = 0;; ++round) {
@@ -140,9 +139,11 @@ private:
   /// New pieces are what is connected of a rank within a material, by ranks.
   void partition() {
     const stopwatch clock;
-    const byte_buffer known = given_.run_tasks.once([&] {
+    any_communicator network = given_.run_tasks.network();
+    std::vector<local_id> part = given_.partitioner.of_whole(network, joined_.graph, ranks_);
+    const byte_buffer known = network.once([&] {
       byte_writer to;
-      to.array(partition_connected(joined_.graph, ranks_, given_.partitioner, given_.imbalance));
+      to.array(connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance));
       return to.take();
     });
     rank_of_super_ = byte_reader(known).template array<local_id>();
@@ -322,6 +323,11 @@ private:
     described.set("seams_after", static_cast<double>(made_.seams));
     described.set("interface_sides", count_seams(result_->skeleton));
     described.set("cut_pieces", summary_.get("cut_pieces"));
+    described.set("depends_on_ranks", given_.partitioner.depends_on_ranks() ? 1 : 0);
+    if (given_.partitioner.depends_on_ranks())
+      described.warnings.push_back(named_policy("partitioner", given_.partitioner.name()) +
+                                   " gives other parts on another number of ranks: the mesh is the same up "
+                                   "to meshing, what each rank of the solver gets is not");
     if constexpr (D == 3)
       measure_angles(described);
     described.children = std::move(summary_.children);

@@ -5,6 +5,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/graph/contraction.hpp"
+#include "dovetail/graph/distributed_csr_graph.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -74,22 +75,14 @@ struct simplified_piece {
 };
 
 inline void encode(byte_writer& to, const simplified_piece& piece) {
-  to.array(piece.graph.offsets);
-  to.array(piece.graph.neighbours);
-  to.array(piece.graph.edge_weights);
-  to.array(piece.graph.node_weights);
-  to.array(piece.graph.positions);
+  encode(to, piece.graph);
   to.array(piece.super_at_side);
   to.array(piece.price_of_side);
 }
 
 inline simplified_piece decode_simplified_piece(byte_reader& from) {
   simplified_piece piece;
-  piece.graph.offsets = from.array<std::int64_t>();
-  piece.graph.neighbours = from.array<local_id>();
-  piece.graph.edge_weights = from.array<double>();
-  piece.graph.node_weights = from.array<double>();
-  piece.graph.positions = from.array<vec3>();
+  piece.graph = decode_csr_graph(from);
   piece.super_at_side = from.array<local_id>();
   piece.price_of_side = from.array<double>();
   return piece;

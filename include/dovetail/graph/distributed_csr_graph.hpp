@@ -1,0 +1,69 @@
+/// @file
+/// A graph whose rows are spread over the ranks of a run.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/graph/csr_graph.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dovetail {
+
+/// What one rank has of it: the rows of its nodes, which are [first(), end()) of the whole graph.
+struct distributed_csr_graph {
+  std::vector<local_id> first_of_rank{0}; ///< size ranks + 1; the last is the number of all nodes
+  int rank = 0;
+  csr_graph rows; ///< of this rank's nodes; neighbours by their numbers in the whole graph
+
+  local_id first() const { return first_of_rank[static_cast<std::size_t>(rank)]; }
+  local_id end() const { return first_of_rank[static_cast<std::size_t>(rank) + 1]; }
+  local_id node_count() const { return first_of_rank.back(); } ///< of the whole graph
+};
+
+/// A rank's share of a graph that all ranks have: blocks of about as many nodes. Linear in the share.
+inline distributed_csr_graph rows_of_rank(const csr_graph& whole, int rank, int ranks) {
+  distributed_csr_graph share;
+  share.rank = rank;
+  share.first_of_rank.clear();
+  for (std::int64_t r = 0; r <= ranks; ++r)
+    share.first_of_rank.push_back(static_cast<local_id>(r * whole.node_count() / ranks));
+  const auto copy = [](const auto& from, std::int64_t begin, std::int64_t end, auto& to) {
+    to.assign(from.begin() + begin, from.begin() + end);
+  };
+  const local_id first = share.first(), end = share.end();
+  const std::int64_t first_edge = whole.offsets[static_cast<std::size_t>(first)];
+  const std::int64_t end_edge = whole.offsets[static_cast<std::size_t>(end)];
+  csr_graph& rows = share.rows;
+  copy(whole.offsets, first, end + 1, rows.offsets);
+  for (std::int64_t& offset : rows.offsets)
+    offset -= first_edge;
+  copy(whole.neighbours, first_edge, end_edge, rows.neighbours);
+  copy(whole.edge_weights, first_edge, end_edge, rows.edge_weights);
+  copy(whole.node_weights, first, end, rows.node_weights);
+  if (!whole.positions.empty())
+    copy(whole.positions, first, end, rows.positions);
+  return share;
+}
+
+inline void encode(byte_writer& to, const csr_graph& graph) {
+  to.array(graph.offsets);
+  to.array(graph.neighbours);
+  to.array(graph.edge_weights);
+  to.array(graph.node_weights);
+  to.array(graph.positions);
+}
+
+inline csr_graph decode_csr_graph(byte_reader& from) {
+  csr_graph graph;
+  graph.offsets = from.array<std::int64_t>();
+  graph.neighbours = from.array<local_id>();
+  graph.edge_weights = from.array<double>();
+  graph.node_weights = from.array<double>();
+  graph.positions = from.array<vec3>();
+  return graph;
+}
+
+} // namespace dovetail
