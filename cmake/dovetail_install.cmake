@@ -35,6 +35,8 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindNetgen.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindScotch.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindPTScotch.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindParMETIS.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindSpectra.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindHDF5Serial.cmake"
   DESTINATION "${config_directory}")

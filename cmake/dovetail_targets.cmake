@@ -82,6 +82,12 @@ if(MPI_CXX_FOUND AND boost_mpi_FOUND)
 endif()
 dovetail_adapter(mpi FOUND "${dovetail_mpi_found}" LIBRARIES Boost::mpi MPI::MPI_CXX)
 
+find_package(PTScotch QUIET)
+dovetail_adapter(ptscotch FOUND "${PTScotch_FOUND}" LIBRARIES PTScotch::PTScotch)
+
+find_package(ParMETIS QUIET)
+dovetail_adapter(parmetis FOUND "${ParMETIS_FOUND}" LIBRARIES ParMETIS::ParMETIS)
+
 message(STATUS "dovetail adapters: ${dovetail_components}")
 if(dovetail_missing_components)
   message(STATUS "dovetail adapters without their library: ${dovetail_missing_components}")

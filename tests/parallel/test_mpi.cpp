@@ -1,24 +1,14 @@
 /// @file
-/// Runs on all ranks of an mpirun; its own main initialises MPI.
-#define DOCTEST_CONFIG_IMPLEMENT
-#include <doctest/doctest.h>
+/// Runs on all ranks of an mpirun.
+#include "support/mpi_main.hpp"
 
 #include "dovetail/parallel/mpi.hpp"
 #include "dovetail/parallel/ranks.hpp"
 #include "parallel/communicator_contract.hpp"
 #include "parallel/executor_contract.hpp"
 
-#include <boost/mpi/environment.hpp>
-
-#include <cstdlib>
-
 using namespace dovetail;
-
-namespace {
-
-any_communicator* world = nullptr; ///< of main
-
-}
+using dovetail::testing::world;
 
 TEST_CASE("mpi is a communicator") {
   contract::check_communicator(*world);
@@ -47,17 +37,4 @@ TEST_CASE("Another rank that abandons the run ends the waiting") {
     wait();
   else
     CHECK_THROWS_WITH_AS(wait(), "rank 1: no more", communication_error);
-}
-
-int main(int argc, char** argv) {
-  const boost::mpi::environment started(argc, argv);
-  const int expected = argc > 1 ? std::atoi(argv[1]) : 1;
-  const int size = boost::mpi::communicator().size();
-  if (size != expected) {
-    std::fprintf(stderr, "%d ranks were asked for, and there are %d\n", expected, size);
-    return 1;
-  }
-  any_communicator all = parallel::mpi{};
-  world = &all;
-  return doctest::Context().run();
 }

@@ -1,7 +1,6 @@
 /// @file
 /// Runs on all ranks of an mpirun, in a program that initialises MPI itself.
-#define DOCTEST_CONFIG_IMPLEMENT
-#include <doctest/doctest.h>
+#include "support/mpi_main.hpp"
 
 #include "dovetail/geometry/discrete_model.hpp"
 #include "dovetail/geometry/discrete_repair.hpp"
@@ -12,17 +11,12 @@
 #include "geometry/discrete_shapes.hpp"
 #include "ranked_meshes.hpp"
 
-#include <boost/mpi/environment.hpp>
-
-#include <cstdlib>
 #include <optional>
 
 using namespace dovetail;
 using namespace dovetail::testing;
 
 namespace {
-
-any_communicator* world = nullptr; ///< of main
 
 ranked_mesh mesh_ball(const any_executor& run, const std::filesystem::path& folder) {
   const discrete_model ball(repaired(sphere_soup({0, 0, 0}, 1, 8)));
@@ -45,13 +39,4 @@ TEST_CASE("a program with MPI makes the mesh and the files that one process make
   CHECK(alone.files.size() > 4);
   CHECK(mesh_ball(run, folder / "ranks") == alone);
   world->agree(); // or the folder would go too early
-}
-
-int main(int argc, char** argv) {
-  const boost::mpi::environment started(argc, argv);
-  any_communicator all = parallel::mpi{};
-  world = &all;
-  if (all.size() != (argc > 1 ? std::atoi(argv[1]) : 1))
-    return 1;
-  return doctest::Context().run();
 }

@@ -48,19 +48,22 @@ inline double edge_cut(const csr_graph& graph, std::span<const local_id> part) {
 
 namespace detail {
 
-/// The checks that every partitioner makes first.
-inline void require_partitionable(const csr_graph& graph, int parts) {
+/// The checks that every partitioner makes first. `weights` are those of `nodes` nodes, or of some of them
+/// from `first` on.
+inline void require_partitionable(local_id nodes, std::span<const double> weights, int parts,
+                                  local_id first = 0) {
   if (parts < 1)
     throw partition_error("cannot make " + std::to_string(parts) + " parts; ask for at least one");
-  if (graph.node_count() < parts)
+  if (nodes < parts)
     throw partition_error("cannot make " + std::to_string(parts) + " parts of a graph with " +
-                          std::to_string(graph.node_count()) +
-                          " nodes; ask for fewer parts or refine the coarse mesh");
-  for (std::size_t v = 0; v < graph.node_weights.size(); ++v)
-    if (!(graph.node_weights[v] >= 0) || graph.node_weights[v] > 1e300)
-      throw partition_error("node " + std::to_string(v) + " has weight " +
-                            std::to_string(graph.node_weights[v]) +
-                            "; weights must be finite and not negative");
+                          std::to_string(nodes) + " nodes; ask for fewer parts or refine the coarse mesh");
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    if (!(weights[v] >= 0) || weights[v] > 1e300)
+      throw partition_error("node " + std::to_string(static_cast<std::size_t>(first) + v) + " has weight " +
+                            std::to_string(weights[v]) + "; weights must be finite and not negative");
+}
+inline void require_partitionable(const csr_graph& graph, int parts) {
+  require_partitionable(graph.node_count(), graph.node_weights, parts);
 }
 
 /// Gives every empty part one node: the heaviest one (ties: the first) of the heaviest part with at least two
