@@ -1,23 +1,33 @@
 #!/usr/bin/python3
 """Measures the memory of `dovetail mesh` as the mesh grows: memory.py BUILD MODEL [options]
 
-Runs the driver at sizes that give the wanted numbers of elements, two workers, nothing written, and samples the peak
-of the parent process. It prints a markdown table: elements, background elements, sides of the fine skeleton, the peaks
-of the parent and of the largest worker, and the parent's peak beside the bound that it is held to,
+Runs the driver at sizes that give the wanted numbers of elements, nothing written, as one process with a worker and as so
+many ranks as --ranks says, each with a worker. A process that computes, and with ranks the largest of them, is sampled: its
+peak, and the most that it and its worker have together, where what they share counts once (a rank's memory). It prints a
+markdown table of these beside the bound that the first is held to,
 
-    150 MB + 150 bytes per background element + 60 bytes per side of the skeleton.
+    150 MB + 150 bytes per background element + 60 bytes per side of the skeleton,
 
-Memory hardly depends on what else the machine does.
+and then the constants, none negative, of
+
+    a + b x background elements + c x sides of the skeleton + d x elements of the largest piece
+
+that fit the memory of the ranks best, and the worst residual. --coarsening varies the background beside the skeleton. Memory
+hardly depends on what else the machine does.
 """
 
 import argparse
+import itertools
 import os
 import subprocess
 import sys
 import tempfile
 import time
 
+import numpy
+
 from pipeline import Failure, find_size, read_json
+from ranks_environment import ENVIRONMENT
 
 MB = 1e6
 
@@ -26,36 +36,72 @@ def bound_of_parent(background_elements, sides):
     return 150 * MB + 150 * background_elements + 60 * sides
 
 
-def peak_of(process):
-    """Bytes, of the process that meshes: the command itself, or its child where it watches one; 0 when it has ended."""
-    peak = 0
+def children_of(processes):
+    found = []
+    for process in processes:
+        try:
+            with open(f"/proc/{process}/task/{process}/children", encoding="ascii") as children:
+                found += map(int, children.read().split())
+        except (FileNotFoundError, ProcessLookupError):
+            pass
+    return found
+
+
+def status_of(process, file, field):
+    """Bytes; 0 when the process has ended."""
     try:
-        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as children:
-            family = [process.pid, *map(int, children.read().split())]
-        for member in family:
-            with open(f"/proc/{member}/status", encoding="ascii") as status:
-                peak = max(peak, *(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM")), 0)
+        with open(f"/proc/{process}/{file}", encoding="ascii") as lines:
+            return max((1024 * int(line.split()[1]) for line in lines if line.startswith(field)), default=0)
     except (FileNotFoundError, ProcessLookupError):
-        pass
-    return peak
+        return 0
 
 
-def measure(driver, model, size, folder, limit):
+def sample(process, ranks):
+    """Bytes, of the largest process that computes (the driver's child, or the child of a child of mpirun): its peak, and
+    what it has now together with its workers."""
+    computing = [process.pid]
+    for _ in range(1 if ranks == 1 else 2):
+        computing = children_of(computing)
+    peak = max((status_of(each, "status", "VmHWM:") for each in computing), default=0)
+    together = max((sum(status_of(each, "smaps_rollup", "Pss:") for each in [one, *children_of([one])])
+                    for one in computing), default=0)
+    return peak, together
+
+
+def measure(driver, model, size, ranks, options, folder, limit):
     report = os.path.join(folder, "report.json")
-    command = [driver, "mesh", model, "--size", repr(size), "--format", "none", "--workers", "2", "--quiet",
-               "--out", os.path.join(folder, "out"), "--report", report]
+    command = [driver, "mesh", model, "--size", repr(size), "--format", "none", "--workers", "1", "--quiet",
+               "--out", os.path.join(folder, "out"), "--report", report] + options
+    if ranks > 1:
+        command = ["mpirun", "-n", str(ranks)] + command
     end = time.monotonic() + limit
-    peak = 0
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as process:
+    peak = together = 0
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          env=os.environ | ENVIRONMENT) as process:
         while process.poll() is None:
-            peak = max(peak, peak_of(process))
+            now = sample(process, ranks)
+            peak, together = max(peak, now[0]), max(together, now[1])
             if time.monotonic() > end:
                 process.kill()
                 raise Failure(f"no mesh of size {size} within {limit} s")
             time.sleep(0.05)
     if process.returncode != 0:
         raise Failure(f"{' '.join(command)}: exit status {process.returncode}")
-    return peak, read_json(report)
+    return peak, together, read_json(report)
+
+
+def fit(rows, peaks):
+    """The constants of least relative error, none negative, and the largest relative residual."""
+    rows, peaks = numpy.array(rows, float), numpy.array(peaks, float)
+    used = list(range(rows.shape[1]))
+    while True:
+        found = numpy.linalg.lstsq(rows[:, used] / peaks[:, None], numpy.ones(len(peaks)), rcond=None)[0]
+        if found.min() >= 0:
+            break
+        used.pop(int(found.argmin()))
+    constants = numpy.zeros(rows.shape[1])
+    constants[used] = found
+    return constants, float(numpy.abs(rows @ constants / peaks - 1).max())
 
 
 def counters_of(report, stage):
@@ -69,20 +115,32 @@ def main():
     options.add_argument("build")
     options.add_argument("model")
     options.add_argument("--elements", default="5e6,20e6,50e6", help="wanted numbers, by commas (default %(default)s)")
+    options.add_argument("--ranks", default="1", help="by commas; 1 is without MPI (default %(default)s)")
+    options.add_argument("--coarsening", default="", help="by commas, an empty one is the driver's choice")
     options.add_argument("--limit", type=float, default=3600, help="seconds per run (default %(default)s)")
     given = options.parse_args()
     driver = os.path.join(given.build, "app", "dovetail")
-    print("| elements | background | sides | parent, MB | bound, MB | largest worker, MB |")
-    print("|---|---|---|---|---|---|")
+    print("| ranks | elements | background | sides | largest piece | computing process, MB | bound, MB | rank, MB |")
+    print("|---|---|---|---|---|---|---|---|")
+    rows, memory = [], []
     for elements in map(float, given.elements.split(",")):
         with tempfile.TemporaryDirectory() as folder:
             size = find_size(driver, given.model, elements, folder, given.limit)
-            peak, report = measure(driver, given.model, size, folder, given.limit)
-        sides = counters_of(report, "skeleton")["triangles"]
-        background = report["background_elements"]
-        worker = counters_of(report, "meshing")["peak_rss_bytes"]
-        print(f"| {report['elements']:,} | {background:,} | {sides:,.0f} | {peak / MB:.0f} | "
-              f"{bound_of_parent(background, sides) / MB:.0f} | {worker / MB:.0f} |", flush=True)
+        for ranks, coarsening in itertools.product(map(int, given.ranks.split(",")), given.coarsening.split(",")):
+            with tempfile.TemporaryDirectory() as folder:
+                peak, together, report = measure(driver, given.model, size, ranks,
+                                                 ["--coarsening", coarsening] if coarsening else [], folder, given.limit)
+            sides = counters_of(report, "skeleton")["triangles"]
+            background = report["background_elements"]
+            largest = round(report["imbalance"] * report["elements"] / report["subdomains"])
+            print(f"| {ranks} | {report['elements']:,} | {background:,} | {sides:,.0f} | {largest:,} | {peak / MB:.0f} | "
+                  f"{bound_of_parent(background, sides) / MB:.0f} | {together / MB:.0f} |", flush=True)
+            rows.append([1, background, sides, largest])
+            memory.append(together)
+    if len(memory) > 4:
+        (a, b, c, d), worst = fit(rows, memory)
+        print(f"\na rank: {a / MB:.0f} MB + {b:.0f} bytes per background element + {c:.0f} per side + {d:.0f} per element of "
+              f"the largest piece; worst residual {100 * worst:.1f} %")
 
 
 if __name__ == "__main__":
