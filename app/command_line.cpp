@@ -124,6 +124,9 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_option("--trace", options.trace,
                      "JSON file for what ran when and where: for ui.perfetto.dev and dovetail simulate");
+  command.add_option(
+      "--spool", options.spool,
+      "Folder for what a run keeps to go on from, on a disk of each rank's own (default: in --out)");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
   command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
@@ -178,7 +181,7 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      outputs = {.files = {mesh.report, mesh.trace}, .folder = mesh.out, .resumable = true};
+      outputs = {.files = {mesh.report, mesh.trace}, .folder = mesh.out, .spool = spool_folder(mesh)};
     });
   }
   void add_plan() {

@@ -15,6 +15,7 @@
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/second_order.hpp"
 #include "dovetail/io/write_trace.hpp"
+#include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
@@ -35,16 +36,17 @@ namespace {
 class run_spool {
 public:
   /// Where it is not `own`, another rank has started it and removes it.
-  run_spool(const std::filesystem::path& folder, const run_identity& identity, bool resume, bool own)
-      : folder_(folder), spool_(resume || !own ? spool::resume(folder / "spool", identity)
-                                               : spool::start(folder / "spool", identity)),
-        own_(own) {}
+  run_spool(const std::filesystem::path& folder, std::filesystem::path place, const run_identity& identity,
+            bool resume, bool own)
+      : folder_(folder), place_(std::move(place)),
+        spool_(resume || !own ? spool::resume(place_, identity) : spool::start(place_, identity)), own_(own) {
+  }
   run_spool(const run_spool&) = delete;
   run_spool& operator=(const run_spool&) = delete;
   ~run_spool() {
     if (!own_)
       return;
-    const kept_work kept = work_kept_in(folder_);
+    const kept_work kept = work_kept_in(folder_, place_);
     if (finished_ || !(interrupted_ ? kept.anything : kept.pieces))
       spool_.clear();
   }
@@ -57,6 +59,7 @@ public:
 
 private:
   std::filesystem::path folder_;
+  std::filesystem::path place_;
   spool spool_;
   bool own_;
   bool finished_ = false;
@@ -178,9 +181,15 @@ public:
                     options_.out.c_str(), options_.report.empty() ? "" : ", and no report is written");
       return exit_ok;
     }
-    if (!leads_)
-      store.emplace(folder, identity, true, false);
+    if (!leads_ && options_.spool.empty())
+      store.emplace(folder, spool_folder(options_), identity, true, false);
+    else if (!leads_)
+      start_own(folder, identity, store);
     parameters_.store = store->get();
+    if (has_own_spool()) {
+      parameters_.store = store->get().of_one_rank();
+      exchange_all_blobs(*parameters_.store, *options_.network); // those of an earlier run
+    }
     if (leads_)
       parameters_.failure_folder = folder / "failed";
     try {
@@ -212,18 +221,28 @@ private:
 
   beginning begin_in(const std::filesystem::path& folder, const run_identity& identity,
                      const finished_run& finished, std::optional<run_spool>& store) const {
-    const bool started = spool::is_started(folder / "spool");
+    const auto place = spool_folder(options_);
+    const bool started = spool::is_started(place);
     if (options_.resume && finished.is_there()) {
       if (started) // killed when all was done but this
-        run_spool(folder, identity, true, true).finish();
+        run_spool(folder, place, identity, true, true).finish();
       return beginning::is_finished;
     }
     const bool resumes = options_.resume && started;
     if (!resumes)
       io::unfinished_folder::remove(folder);
-    store.emplace(folder, identity, resumes, true);
+    store.emplace(folder, place, identity, resumes, true);
     finished.forget();
     return beginning::goes_on;
+  }
+
+  /// Whether the ranks do not see each other's spools.
+  bool has_own_spool() const { return options_.network && !options_.spool.empty(); }
+  /// On a rank that does not lead.
+  void start_own(const std::filesystem::path& folder, const run_identity& identity,
+                 std::optional<run_spool>& store) const {
+    const auto place = spool_folder(options_);
+    store.emplace(folder, place, identity, options_.resume && spool::is_started(place), true);
   }
 
   void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
@@ -414,7 +433,7 @@ int run_mesh(const mesh_options& options) {
   try {
     return options.dimension == 3 ? mesh_run<3>(options).run() : mesh_run<2>(options).run();
   } catch (const cancelled&) {
-    complain(stopped_line(work_kept_in(options.out).anything));
+    complain(stopped_line(work_kept_in(options.out, spool_folder(options)).anything));
     return exit_stopped;
   }
 }

@@ -50,6 +50,7 @@ struct mesh_options {
   bool improve_again = false; ///< also what ranks have, after redistribution by elements
   bool ghosts = false;        ///< of each rank, in formats that have them
   int order = 1;              ///< of the elements in the files: 1 or 2
+  std::string spool;          ///< folder on a disk of each rank's own; empty: in `out`
   bool resume = false;
   bool force = false;
   bool quiet = false;

@@ -97,9 +97,16 @@ void remove_spool_parts(const std::filesystem::path& spooled, bool kept) {
 
 } // namespace
 
-kept_work work_kept_in(const std::filesystem::path& folder) {
+std::filesystem::path spool_folder(const mesh_options& options) {
+  const std::filesystem::path folder = options.out;
+  return options.spool.empty()
+             ? folder / "spool"
+             : std::filesystem::path(options.spool) /
+                   ("rank_" + std::to_string(options.network ? options.network->rank() : 0));
+}
+
+kept_work work_kept_in(const std::filesystem::path& folder, const std::filesystem::path& spooled) {
   kept_work kept;
-  const auto spooled = folder / "spool";
   if (!spool::is_started(spooled))
     return kept;
   for (const auto& file : entries_of(spooled))
@@ -146,11 +153,11 @@ bool unfinished_output::remove() const {
   for (const char* name : written_names)
     remove_part_of(folder / name);
   bool kept = false;
-  if (outputs_.resumable) {
+  if (!outputs_.spool.empty()) {
     remove_parts_of_failed(folder);
     remove_unfinished_parts(folder);
-    kept = work_kept_in(folder).anything;
-    remove_spool_parts(folder / "spool", kept);
+    kept = work_kept_in(folder, outputs_.spool).anything;
+    remove_spool_parts(outputs_.spool, kept);
   }
   remove_empty(absent_);
   return kept;

@@ -3,6 +3,8 @@
 /// ended.
 #pragma once
 
+#include "options.hpp"
+
 #include <filesystem>
 #include <vector>
 
@@ -30,7 +32,7 @@ private:
 struct command_outputs {
   std::vector<std::filesystem::path> files = {}; ///< outside the folder; empty names are none
   std::filesystem::path folder = {};
-  bool resumable = false; ///< what it keeps in the folder is there for another run to go on from
+  std::filesystem::path spool = {}; ///< of what it keeps for another run to go on from; empty: nothing
 };
 
 /// What a command that is stopped or ended may leave of the files and folders that it writes to. Made before
@@ -53,7 +55,10 @@ struct kept_work {
   bool pieces = false;   ///< meshed subdomains, in the spool or as complete files
   bool anything = false; ///< these, or what was made before the first of them
 };
-kept_work work_kept_in(const std::filesystem::path& folder);
+kept_work work_kept_in(const std::filesystem::path& folder, const std::filesystem::path& spooled);
+
+/// The spool of a run, in the folder of its mesh or, of each rank its own, where the options say.
+std::filesystem::path spool_folder(const mesh_options& options);
 
 /// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
 void check_can_create(const std::filesystem::path& file);

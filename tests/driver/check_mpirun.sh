@@ -170,4 +170,24 @@ no_process_left # nobody waits for those of a relay that is gone: parts of files
 resume_on 1
 nothing_left several
 
+# 4. Spools on disks that the other ranks do not see, of which one is lost.
+disks=$sandbox/disks
+fresh several
+on_ranks 4 several "${mesh[@]}" --format vtu,msh --spool "$disks"
+((status == 0)) || fault "exit code is $status"
+[[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one spool"
+[[ -d $disks && -z $(find "$disks" -mindepth 1) && ! -e several/out/spool ]] || fault "the spools are not gone: $(find "$disks")"
+start_until 3 intersection "${long[@]}" --spool "$disks"
+kill -TERM $process
+ended_within 10
+((status != 0)) || fault "exit code is 0"
+grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
+for rank in 0 1 2; do
+  [[ $(find "$disks/rank_$rank" -name '*.blob') ]] || fault "rank $rank has kept nothing"
+done
+rm -r "$disks/rank_1"
+long+=(--spool "$disks")
+resume_on 2
+[[ -z $(find "$disks/rank_0" "$disks/rank_1" -type f 2>/dev/null) ]] || fault "the spools of the two ranks are not gone"
+
 finish

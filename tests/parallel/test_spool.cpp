@@ -1,5 +1,7 @@
 #include "dovetail/meshing/piece_codec.hpp"
+#include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/spool.hpp"
+#include "dovetail/parallel/spool_exchange.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -182,4 +184,34 @@ TEST_CASE("Pieces and reports survive encoding") {
   CHECK(back.children.at(0).warnings == r.warnings);
   CHECK(back.children.at(0).counters == r.counters);
   CHECK(back.seconds == 1.5);
+}
+
+TEST_CASE("ranks with spools of their own give each other what is missing") {
+  const testing::scratch_folder folder("spools");
+  const run_identity identity{{"test", "1"}};
+  const auto blob = [](int i) { return byte_buffer(static_cast<std::size_t>(10 + i), std::byte{7}); };
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    any_communicator network(mine);
+    const auto own = spool::start(folder / std::to_string(network.rank()), identity).of_one_rank();
+    CHECK_FALSE(own.is_common());
+    std::vector<std::string> names{"nobody"};
+    for (int i = 0; i < 40; ++i) {
+      names.push_back("b" + std::to_string(i));
+      if (i % 4 == network.rank() || (i % 4 == 3 && network.rank() > 0))
+        own.write(names.back(), blob(i));
+    }
+    if (network.rank() == 0)
+      testing::write_content(own.path_of("b4"), "damaged");
+    network.agree();
+    exchange_blobs(own, network, names);
+    for (int i = 0; i < 40; ++i)
+      if (i != 4)
+        CHECK(own.read("b" + std::to_string(i)) == blob(i));
+    CHECK_FALSE(own.read("b4"));
+    CHECK_FALSE(own.has("nobody"));
+    own.write("of_" + std::to_string(network.rank()), blob(0));
+    exchange_all_blobs(own, network);
+    CHECK(own.read("of_2") == blob(0));
+    CHECK(own.names().size() == (network.rank() == 0 ? 43 : 42));
+  });
 }

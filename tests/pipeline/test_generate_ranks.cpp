@@ -3,6 +3,7 @@
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/spool_exchange.hpp"
 #include "ranked_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -36,6 +37,37 @@ TEST_CASE("ranks make the mesh and the files that one process makes, whatever th
     parallel::run_ranks(
         count, [&](parallel::in_process& mine) { CHECK(mesh_square(parallel::ranks(mine), into) == alone); });
   }
+}
+
+TEST_CASE("ranks with spools that the others do not see make the same mesh, and go on with other ranks") {
+  const scratch_folder folder("ranks");
+  const run_identity identity{{"test", "1"}};
+  const ranked_mesh alone = mesh_square(parallel::serial{}, folder / "alone");
+  const auto mesh = [&](int count, bool again) {
+    CAPTURE(count);
+    const auto into = folder / ("of_" + std::to_string(count));
+    parallel::run_ranks(count, [&](parallel::in_process& mine) {
+      const auto disk = folder / ("disk_" + std::to_string(mine.rank()));
+      generate_options options;
+      options.store =
+          (again && spool::is_started(disk) ? spool::resume(disk, identity) : spool::start(disk, identity))
+              .of_one_rank();
+      any_communicator network(mine);
+      if (again)
+        exchange_all_blobs(*options.store, network);
+      const auto before = file_count(disk);
+      CHECK(mesh_square(parallel::ranks(network), into, options) == alone);
+      if (again)
+        CHECK(file_count(disk) == before); // nothing was made
+    });
+  };
+  mesh(3, false);
+  const auto lines = file_count(folder / "disk_1");
+  CHECK(lines > 4);
+  CHECK(file_count(folder / "disk_0") >= lines); // rank 0 has what is made once
+  mesh(2, true);
+  std::filesystem::remove_all(folder / "disk_0"); // a disk that is lost
+  mesh(4, true);
 }
 
 TEST_CASE("an error of one rank ends the run on all") {

@@ -193,6 +193,8 @@ TEST_CASE("the result is the same for every executor, any number of ranks, and w
     parallel::run_ranks(ranks, [&](parallel::in_process& mine) {
       CHECK(same(parallel::ranks(mine), {}));
       CHECK(same(parallel::ranks(mine), shared));
+      const auto own = folder / (std::to_string(ranks) + "_" + std::to_string(mine.rank()));
+      CHECK(same(parallel::ranks(mine), spool::start(own, {{"test", "1"}}).of_one_rank()));
     });
   }
 }

@@ -147,9 +147,10 @@ public:
     report_failures();
     summarize();
     result_.keys = shelf_->keys();
+    shelf_->store().exchange(run_tasks_.network(), result_.keys);
     result_.summary.seconds = clock.seconds();
     result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
-    if (shelf_->store().is_shared()) {
+    if (shelf_->store().is_common()) {
       result_.release = [shelf = shelf_](local_id s, const piece_note& note) { shelf->release(s, note); };
       result_.released = [shelf = shelf_](local_id s) { return shelf->released(s); };
     }
@@ -203,7 +204,7 @@ private:
     entity_store& store = shelf_->store();
     piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
     auto finished = store.find(receipt.key);
-    if (!finished)
+    if (!finished && store.is_common())
       finished = shelf_->find_released(receipt.key);
     receipt.reused = finished.has_value();
     if (!finished)

@@ -145,6 +145,7 @@ private:
           return detail::with_final_errors([&] { return make_batch(batches[b], make); });
         },
         options);
+    std::vector<content_key> kept;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       const std::vector<std::size_t>& members = batches[b].members;
       if (!outcomes[b].ok) {
@@ -152,9 +153,11 @@ private:
         continue;
       }
       accept(batches[b], detail::without_final_errors(std::move(outcomes[b].result)));
+      kept.push_back(batches[b].key);
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
     }
+    store_->exchange(run.network(), kept);
   }
 
   /// In a worker: the blob, unless the worker has put that into the store itself, and behind it whether it

@@ -5,12 +5,16 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
+#include "dovetail/parallel/spool_exchange.hpp"
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -26,6 +30,18 @@ public:
 
   /// Whether a worker can keep what it makes; otherwise it sends the bytes to the process that started it.
   bool is_shared() const { return disk_.has_value(); }
+
+  /// Whether all ranks have what one has kept. Otherwise each rank releases its own.
+  bool is_common() const { return disk_ && disk_->is_common(); }
+  /// Gives each rank those of the entities that others have and its spool has not. Collective.
+  void exchange(const any_communicator& network, std::span<const content_key> keys) const {
+    if (!disk_ || disk_->is_common() || network.size() == 1)
+      return;
+    std::vector<std::string> names;
+    for (const content_key key : keys)
+      names.push_back(name_of(key));
+    exchange_blobs(*disk_, network, names);
+  }
 
   /// Nothing when the entity is not there, or its file is damaged.
   std::optional<byte_buffer> find(content_key key) const {

@@ -70,6 +70,16 @@ public:
     return {folder, present};
   }
 
+  /// The same, of a rank whose disk the others may not see: what it misses they give it
+  /// (`spool_exchange.hpp`).
+  spool of_one_rank() const {
+    spool own = *this;
+    own.is_common_ = false;
+    return own;
+  }
+  /// Whether all ranks of a run have this spool.
+  bool is_common() const { return is_common_; }
+
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path path_of(std::string_view name) const {
     return folder_ / (std::string(name) + blob_suffix);
@@ -99,6 +109,20 @@ public:
         checksum(name, blob) != head.check)
       return std::nullopt;
     return blob;
+  }
+
+  /// Whether there is a blob of this name, whole or damaged.
+  bool has(std::string_view name) const {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path_of(name), ignored);
+  }
+  /// Of all blobs, in no order.
+  std::vector<std::string> names() const {
+    std::vector<std::string> found;
+    for (const auto& path : entries_of(folder_))
+      if (path.extension() == blob_suffix)
+        found.push_back(path.stem().string());
+    return found;
   }
 
   /// Forgets a blob.
@@ -189,6 +213,7 @@ private:
 
   std::filesystem::path folder_;
   std::uint64_t identity_;
+  bool is_common_ = true;
 };
 
 } // namespace dovetail

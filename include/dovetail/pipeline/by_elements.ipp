@@ -130,6 +130,7 @@ private:
           pieces[p] = decode_simplified_piece(from);
           keys_[p] = tasks_.take_kept(from);
         });
+    tasks_.exchange(keys_);
     joined_ = join_supers<D>(mesh_.skeleton, pieces, given_.seam_weight);
     report done{"simplification", clock.seconds(), {}, {}, {}};
     done.set("super_elements", joined_.graph.node_count());
@@ -278,7 +279,8 @@ private:
         });
     if (after.value() != hash_.value())
       throw mesh_error("elements were changed or lost on their way to other pieces");
-    if (given_.run_tasks.leads() || !store_->is_shared())
+    tasks_.exchange(*keys);
+    if (given_.run_tasks.leads() || !store_->is_common())
       for (const content_key key : keys_)
         store_->release(key);
     mesh->skeleton = std::move(made_.fine);

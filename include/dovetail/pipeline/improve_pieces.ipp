@@ -87,6 +87,7 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         result.mesh.quality[p] = from.value<quality_statistics>();
         (*keys)[p] = tasks.take_kept(from);
       });
+  tasks.exchange(*keys);
   global_id first_element = 0;
   for (std::size_t p = 0; p < keys->size(); ++p) {
     result.quality.merge(result.mesh.quality[p], first_element);

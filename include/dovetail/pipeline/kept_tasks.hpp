@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,8 @@ struct kept_tasks {
     else
       reply.array(bytes);
   }
+  /// After a run: gives each rank what others have kept, where their spools are not the same.
+  void exchange(std::span<const content_key> keys) const { store.exchange(run_tasks.network(), keys); }
   /// What `keep` has said.
   content_key take_kept(byte_reader& from) const {
     const auto key = from.value<content_key>();

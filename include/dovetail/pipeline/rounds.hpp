@@ -64,7 +64,7 @@ public:
   /// For a decomposition that is not gone on with: its finished pieces are removed from the store. Returns
   /// the account, with what was told as warnings.
   report give_up() {
-    if (given_.run_tasks.leads())
+    if (given_.run_tasks.leads() || !pieces_->is_common())
       for (const content_key key : finished_)
         pieces_->release(key);
     report account = intersection();
