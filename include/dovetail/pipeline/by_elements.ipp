@@ -8,14 +8,13 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/refinement.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/pipeline/element_migration.hpp"
 #include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/pipeline/piece_supers.hpp"
-#include "dovetail/redistribution/piece_cut.hpp"
 #include "dovetail/redistribution/piece_graph.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
 
@@ -89,11 +88,10 @@ public:
     const stopwatch clock;
     simplify_pieces();
     partition();
-    cut_pieces();
-    gather_pieces();
+    migrate();
     summarize();
     summary_.seconds = clock.seconds();
-    return {std::move(rank_of_piece_), std::move(summary_), std::move(result_)};
+    return {std::move(rank_of_piece_), std::move(summary_), migrated_.mesh};
   }
 
 private:
@@ -180,125 +178,43 @@ private:
     summary_.children.push_back({"partition", clock.seconds(), {}, {}, {}});
   }
 
-  /// In a task: the new piece of each element of an old one.
-  std::vector<local_id> new_piece_of_elements(local_id p, std::vector<local_id> super_of_element) const {
-    for (local_id& at : super_of_element)
+  /// In a task: where the elements of an old piece go.
+  moves_of_piece moves_of(local_id p) const {
+    auto supers = elements_of_supers::decoded(store_->get(keys_[index(p)]));
+    for (local_id& at : supers.super_of_element)
       at = piece_of_super_[index(joined_.first_of_piece[index(p)] + at)];
-    return super_of_element;
-  }
-  elements_of_supers supers_of(local_id p) const {
-    return elements_of_supers::decoded(store_->get(keys_[index(p)]));
+    return {std::move(supers.super_of_element), std::move(supers.refused)};
   }
 
-  void cut_pieces() {
-    const stopwatch clock;
-    std::vector<local_id> to_cut; // the others go to one new piece as they are
-    std::vector<global_id> sizes;
-    std::vector<int> targets(old_pieces(), 0);
-    for (const auto& from : sources_)
-      for (const local_id p : from)
-        ++targets[index(p)];
-    for (std::size_t p = 0; p < old_pieces(); ++p)
-      if (targets[p] > 1) {
-        to_cut.push_back(static_cast<local_id>(p));
-        sizes.push_back(mesh_.counts[p].elements);
-      }
-    std::vector<piece_cut<D>> cuts(old_pieces());
-    tasks_.run(
-        "cutting pieces", sizes,
-        [&](std::size_t k) {
-          const local_id p = to_cut[k];
-          const auto piece = io::load_checked(mesh_, p);
-          elements_of_supers supers = supers_of(p);
-          const auto goes_to = new_piece_of_elements(p, std::move(supers.super_of_element));
-          const auto table = build_sides(piece.mesh);
-          const auto on_skeleton = find_skeleton_sides<D>(piece, table, mesh_.skeleton, sides_[p]);
-          byte_writer reply;
-          encode(reply, cut_piece<D>(piece, table, on_skeleton, goes_to, supers.refused));
-          return reply.take();
-        },
-        [&](std::size_t k, byte_reader& from) { cuts[index(to_cut[k])] = decode_cut<D>(from); });
-
-    std::vector<std::array<local_id, 2>> beside = joined_.at_side;
-    for (auto& pair : beside)
+  void migrate() {
+    element_moves moves;
+    moves.materials = materials_;
+    moves.sources = sources_;
+    moves.sizes.assign(materials_.size(), 0);
+    for (std::size_t s = 0; s < piece_of_super_.size(); ++s)
+      moves.sizes[index(piece_of_super_[s])] += static_cast<global_id>(joined_.graph.node_weights[s]);
+    moves.beside = joined_.at_side;
+    for (auto& pair : moves.beside)
       for (local_id& at : pair)
         at = at == no_id ? no_id : piece_of_super_[index(at)];
-    made_ = join_cuts<D>(mesh_.skeleton, beside, joined_.price_of_side, cuts);
-    for (auto& cut : cuts)
-      own_points_.push_back(std::move(cut.points));
-    summary_.set("cut_pieces", static_cast<double>(to_cut.size()));
-    summary_.children.push_back({"cuts", clock.seconds(), {}, {}, {}});
-  }
-
-  byte_buffer gather(local_id n) const {
-    gathered_piece<D> gathered(n, materials_[index(n)]);
-    for (const local_id p : sources_[index(n)])
-      gathered.add(io::load_checked(mesh_, p), new_piece_of_elements(p, supers_of(p).super_of_element), made_,
-                   own_points_[index(p)]);
-    byte_writer bytes;
-    encode(bytes, gathered.finish(made_.fine));
-    return bytes.take();
-  }
-
-  void gather_pieces() {
-    const stopwatch clock;
+    moves.price_of_side = joined_.price_of_side;
+    moves.of_piece = [this](local_id p) { return moves_of(p); };
     key_maker all;
     all(piece_of_super_);
     for (const content_key key : keys_)
       all(static_cast<std::int64_t>(key.value));
-    const content_key from_all = all.key();
-    std::vector<global_id> sizes(materials_.size(), 0);
-    for (std::size_t s = 0; s < piece_of_super_.size(); ++s)
-      sizes[index(piece_of_super_[s])] += static_cast<global_id>(joined_.graph.node_weights[s]);
-    auto mesh = std::make_shared<distributed_simplicial_mesh<D>>();
-    mesh->counts.resize(materials_.size());
-    auto keys = std::make_shared<std::vector<content_key>>(materials_.size());
-    io::mesh_hasher after;
-    tasks_.run(
-        "moving elements", sizes,
-        [&](std::size_t n) {
-          const content_key key = key_maker(from_all)(static_cast<std::int64_t>(n)).key();
-          const auto found = store_->is_shared() ? store_->find(key) : std::nullopt;
-          const byte_buffer bytes = found ? *found : gather(static_cast<local_id>(n));
-          byte_reader written(bytes);
-          const auto piece = decode_piece<D>(written);
-          io::mesh_hasher hash;
-          io::hash_elements_by_place(hash, piece);
-          byte_writer reply;
-          reply.value(hash);
-          reply.value(piece_counts{
-              piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
-              static_cast<global_id>(piece.mesh.elements.size())});
-          tasks_.keep(key, bytes, reply);
-          return reply.take();
-        },
-        [&](std::size_t n, byte_reader& from) {
-          after.merge(from.value<io::mesh_hasher>());
-          mesh->counts[n] = from.value<piece_counts>();
-          (*keys)[n] = tasks_.take_kept(from);
-        });
-    if (after.value() != hash_.value())
-      throw mesh_error("elements were changed or lost on their way to other pieces");
-    tasks_.exchange(*keys);
+    moves.key = all.key();
+    moves.hash = hash_;
+    migrated_ = migrate_elements<D>(mesh_, sides_, moves, store_, tasks_);
     if (given_.run_tasks.leads() || !store_->is_common())
       for (const content_key key : keys_)
         store_->release(key);
-    mesh->skeleton = std::move(made_.fine);
-    mesh->load = [store = store_, keys](local_id n) {
-      const byte_buffer bytes = store->get(keys->at(static_cast<std::size_t>(n)));
-      byte_reader from(bytes);
-      return decode_piece<D>(from);
-    };
-    mesh->material_names = mesh_.material_names;
-    mesh->face_names = mesh_.face_names;
-    mesh->group_names = mesh_.group_names;
-    result_ = std::move(mesh);
-    summary_.children.push_back({"migration", clock.seconds(), {}, {}, {}});
+    append(summary_.children, migrated_.parts);
   }
 
   /// Ranks are connected if their super-elements are, in each component of the mesh.
   void summarize() {
-    report described = describe_redistribution(piece_graph(*result_), rank_of_piece_, ranks_);
+    report described = describe_redistribution(piece_graph(*migrated_.mesh), rank_of_piece_, ranks_);
     const labelled_components of_ranks = components_within(joined_.graph, rank_of_super_);
     const labelled_components of_all =
         components_within(joined_.graph, std::vector<local_id>(rank_of_super_.size(), 0));
@@ -322,9 +238,9 @@ private:
     };
     described.set("super_elements", joined_.graph.node_count());
     described.set("seams_before", count_seams(mesh_.skeleton));
-    described.set("seams_after", static_cast<double>(made_.seams));
-    described.set("interface_sides", count_seams(result_->skeleton));
-    described.set("cut_pieces", summary_.get("cut_pieces"));
+    described.set("seams_after", static_cast<double>(migrated_.seams));
+    described.set("interface_sides", count_seams(migrated_.mesh->skeleton));
+    described.set("cut_pieces", static_cast<double>(migrated_.cut_pieces));
     described.set("depends_on_ranks", given_.partitioner.depends_on_ranks() ? 1 : 0);
     if (given_.partitioner.depends_on_ranks())
       described.warnings.push_back(named_policy("partitioner", given_.partitioner.name()) +
@@ -337,12 +253,12 @@ private:
   }
 
   void measure_angles(report& to) const requires(D == 3) {
-    const auto& fine = result_->skeleton;
+    const auto& fine = migrated_.mesh->skeleton;
     std::vector<triangle_origin> origins;
     for (std::size_t s = 0; s < fine.sides.size(); ++s)
       origins.push_back(fine.side_hosts[s] != no_id || fine.subdomains[s][1] == no_id ? triangle_origin::cad
-                        : made_.avoided[s] != 0 ? triangle_origin::refused
-                                                : triangle_origin::kept);
+                        : migrated_.avoided[s] != 0 ? triangle_origin::refused
+                                                    : triangle_origin::kept);
     const interface_angles angles = measure_interface_angles(
         {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)},
         given_.interface_angle_deg);
@@ -365,9 +281,7 @@ private:
   std::vector<local_id> piece_of_super_; ///< the new piece
   std::vector<local_id> rank_of_piece_, materials_;
   std::vector<std::vector<local_id>> sources_; ///< per new piece: the old ones that give it elements, growing
-  std::vector<std::vector<local_id>> own_points_; ///< per old piece: of its own, those on the new skeleton
-  new_skeleton<D> made_;
-  std::shared_ptr<const distributed_simplicial_mesh<D>> result_;
+  migrated_elements<D> migrated_;
   report summary_;
 };
 

@@ -21,6 +21,15 @@
 
 namespace dovetail {
 
+/// Whether a subdomain is behind the i-th of the sides that are listed as its own. It is behind a sheet
+/// inside it, which is listed twice, the first time.
+template <int D>
+bool is_behind(const simplicial_skeleton<D>& skeleton, std::span<const local_id> listed, std::size_t i,
+               local_id subdomain) {
+  const bool second_of_sheet = i > 0 && listed[i - 1] == listed[i];
+  return skeleton.subdomains[static_cast<std::size_t>(listed[i])][0] == subdomain && !second_of_sheet;
+}
+
 /// The sides of the skeleton that bound a piece, in the order of `sides_of_subdomains`, as the piece has
 /// them.
 struct sides_of_piece {
@@ -124,8 +133,7 @@ joined_supers join_supers(const simplicial_skeleton<D>& skeleton, const std::vec
     const auto listed = sides[p];
     for (std::size_t i = 0; i < listed.size(); ++i) {
       const auto s = static_cast<std::size_t>(listed[i]);
-      const bool second_of_sheet = i > 0 && listed[i - 1] == listed[i];
-      const bool behind = skeleton.subdomains[s][0] == static_cast<local_id>(p) && !second_of_sheet;
+      const bool behind = is_behind(skeleton, listed, i, static_cast<local_id>(p));
       joined.at_side[s][behind ? 0 : 1] = first + pieces[p].super_at_side[i];
       joined.price_of_side[s] = std::max(joined.price_of_side[s], pieces[p].price_of_side[i]);
     }
