@@ -1,7 +1,8 @@
 #!/bin/bash
 # The folders of include/dovetail are layers. A file includes its own folder, lower layers, and of the folders of its own
 # layer what says what a role is: its concepts, and the models of them behind one type (any_*). Data (layer 1) and tools
-# (layer 2) may build on each other within their layer; stages (3) do not include each other, the pipeline (4) joins them.
+# (layer 2) may build on each other within their layer; stages (3) do not include each other, the pipeline (4) joins them;
+# baselines (5) are what it is compared with.
 # Third parties are included by adapters only.
 set -euo pipefail
 cd include/dovetail
@@ -11,6 +12,7 @@ declare -A layer=(
   [partition]=2 [remesh]=2 [mesher]=2 [improver]=2 [parallel]=2 [meshing]=2 [io]=2 [redistribution]=2 [simulation]=2
   [background]=3 [simplification]=3 [decomposition]=3 [skeleton]=3 [intersection]=3
   [pipeline]=4
+  [baselines]=5
 )
 
 problems=0

@@ -12,7 +12,9 @@
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace dovetail {
 
@@ -20,12 +22,18 @@ namespace dovetail {
 struct improved_pieces {
   distributed_mesh mesh;
   quality_statistics quality; ///< of all of it
-  report summary;             ///< "pieces", "elements" before, "improver_seconds" over all workers
+  /// "pieces", "elements" of those that were improved, before, "improver_seconds" over all workers
+  report summary;
+  std::vector<local_id> piece_before; ///< per piece: which it was; there may be fewer now
 };
+
+/// The pieces' qualities together; each of them has been measured.
+quality_statistics quality_of_whole(const distributed_mesh& mesh);
 
 struct improving_options {
   std::optional<spool> store = {}; ///< where improved pieces are kept; none: in memory
   progress on_progress = {};
+  std::vector<local_id> only = {}; ///< the pieces to improve, growing; none: all
 };
 
 /// A task per piece, without any communication between them: points and sides of the skeleton stay, so the
@@ -38,6 +46,11 @@ struct improving_options {
 improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
                                const any_sizing& size, const any_executor& run_tasks,
                                const improving_options& options = {});
+
+/// What `improve_pieces` does, with these parameters, or something in its place.
+using improving_strategy =
+    std::function<improved_pieces(const distributed_mesh&, const any_improver<3>&, const any_sizing&,
+                                  const any_executor&, const improving_options&)>;
 
 } // namespace dovetail
 

@@ -12,9 +12,11 @@
 #include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -38,6 +40,13 @@ inline void improve_inside(mesh_piece& piece, const fine_skeleton& skeleton, std
 
 } // namespace detail
 
+DOVETAIL_INLINE quality_statistics quality_of_whole(const distributed_mesh& mesh) {
+  quality_statistics whole;
+  for (const quality_statistics& piece : mesh.quality)
+    whole.merge(piece, whole.elements);
+  return whole;
+}
+
 DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
                                                const any_sizing& size, const any_executor& run_tasks,
                                                const improving_options& options) {
@@ -51,22 +60,31 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
   const auto store = std::make_shared<entity_store>(options.store, "improved");
   const kept_tasks tasks{run_tasks, *store, options.on_progress};
   const auto keys = std::make_shared<std::vector<content_key>>(mesh.counts.size());
-  improved_pieces result{mesh, {}, {}};
+  improved_pieces result{mesh, {}, {}, std::vector<local_id>(mesh.counts.size())};
+  std::iota(result.piece_before.begin(), result.piece_before.end(), 0);
   result.mesh.release = {};
   result.mesh.released = {};
   result.mesh.quality.resize(mesh.counts.size());
   result.summary.name = "improvement";
+  const auto chosen = [&](std::size_t p) {
+    return options.only.empty() ||
+           std::binary_search(options.only.begin(), options.only.end(), static_cast<local_id>(p));
+  };
   std::vector<global_id> sizes;
-  for (const piece_counts& counts : mesh.counts) {
-    sizes.push_back(counts.elements);
-    result.summary.add("elements", static_cast<double>(counts.elements));
+  for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+    sizes.push_back(mesh.counts[p].elements);
+    if (chosen(p)) {
+      result.summary.add("pieces", 1);
+      result.summary.add("elements", static_cast<double>(sizes.back()));
+    }
   }
   tasks.run(
       "improving pieces", sizes,
       [&](std::size_t p) {
         auto piece = io::load_checked(mesh, static_cast<local_id>(p));
         const stopwatch time;
-        detail::improve_inside(piece, mesh.skeleton, sides[static_cast<local_id>(p)], improve, size);
+        if (chosen(p))
+          detail::improve_inside(piece, mesh.skeleton, sides[static_cast<local_id>(p)], improve, size);
         const double seconds = time.seconds();
         piece_counts counts = mesh.counts[p];
         counts.elements = static_cast<global_id>(piece.mesh.elements.size());
@@ -88,17 +106,12 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         (*keys)[p] = tasks.take_kept(from);
       });
   tasks.exchange(*keys);
-  global_id first_element = 0;
-  for (std::size_t p = 0; p < keys->size(); ++p) {
-    result.quality.merge(result.mesh.quality[p], first_element);
-    first_element += result.mesh.counts[p].elements;
-  }
+  result.quality = quality_of_whole(result.mesh);
   result.mesh.load = [store, keys](local_id p) {
     const byte_buffer bytes = store->get(keys->at(static_cast<std::size_t>(p)));
     byte_reader from(bytes);
     return decode_piece<3>(from);
   };
-  result.summary.set("pieces", static_cast<double>(keys->size()));
   result.summary.seconds = clock.seconds();
   return result;
 }
