@@ -4,6 +4,7 @@
 #include "model_source.hpp"
 #include "output.hpp"
 #include "output_formats.hpp"
+#include "policies.hpp"
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
@@ -18,7 +19,6 @@
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
-#include "dovetail/pipeline/improve_pieces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -324,16 +324,21 @@ private:
                                     .store = parameters_.store,
                                     .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
+    std::vector<local_id> ranks = given.rank_of_piece;
     if constexpr (D == 3)
-      if (options_.improve_again) {
-        auto improved = improve_pieces(mesh, policies_.improver, size, policies_.executor,
-                                       {.store = parameters_.store, .on_progress = parameters_.on_progress});
+      if (!options_.improve_again.empty()) {
+        auto improved = make_improving_strategy(options_.improve_again)(
+            mesh, policies_.improver, size, policies_.executor,
+            {.store = parameters_.store, .on_progress = parameters_.on_progress});
         mesh = std::move(improved.mesh);
+        ranks.clear();
+        for (const local_id p : improved.piece_before)
+          ranks.push_back(given.rank_of_piece[static_cast<std::size_t>(p)]);
         figures_.details.children.push_back(std::move(improved.summary));
         add_mesh_figures(mesh, figures_);
       }
-    const auto known = [given](const distributed_simplicial_mesh<D>&, int) {
-      return redistribution<D>{given.rank_of_piece, given.summary, {}};
+    const auto known = [ranks, given](const distributed_simplicial_mesh<D>&, int) {
+      return redistribution<D>{ranks, given.summary, {}};
     };
     formats_ = make_formats<D>(options_, {known, by_elements});
     figures_.seconds.output += clock.seconds();

@@ -47,10 +47,11 @@ struct mesh_options {
   int files = 0;            ///< number of VTU files; 0: one per subdomain
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
-  bool improve_again = false; ///< also what ranks have, after redistribution by elements
-  bool ghosts = false;        ///< of each rank, in formats that have them
-  int order = 1;              ///< of the elements in the files: 1 or 2
-  std::string spool;          ///< folder on a disk of each rank's own; empty: in `out`
+  std::string
+      improve_again;   ///< also what ranks have, after redistribution by elements: the strategy, or empty
+  bool ghosts = false; ///< of each rank, in formats that have them
+  int order = 1;       ///< of the elements in the files: 1 or 2
+  std::string spool;   ///< folder on a disk of each rank's own; empty: in `out`
   bool resume = false;
   bool force = false;
   bool quiet = false;

@@ -2,6 +2,7 @@
 
 #include "failure.hpp"
 #include "named_policies.hpp"
+#include "policies.hpp"
 
 #include "dovetail/io/mfem_format.hpp"
 #include "dovetail/io/msh_writer.hpp"
@@ -82,8 +83,9 @@ template <int D>
 void check_ranks(const mesh_options& options, const std::vector<output_format<D>>& formats) {
   const bool by_ranks =
       std::any_of(formats.begin(), formats.end(), [](const auto& format) { return format.by_ranks; });
-  if (options.improve_again && (D == 2 || options.redistribute != by_elements))
+  if (!options.improve_again.empty() && (D == 2 || options.redistribute != by_elements))
     throw command_line_error("--improve-again goes with tetrahedra and --redistribute by-elements");
+  make_improving_strategy(options.improve_again);
   if (!options.ranks) {
     if (by_ranks || options.ghosts || !options.redistribute.empty())
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");

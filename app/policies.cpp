@@ -3,6 +3,8 @@
 #include "named_improver.hpp"
 #include "named_policies.hpp"
 
+#include "dovetail/baselines/ito_improvement.hpp"
+#include "dovetail/baselines/loehner_improvement.hpp"
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/tetgen.hpp"
@@ -114,6 +116,20 @@ std::vector<any_line_keeping_mesher> background_meshers() {
   return known;
 }
 
+/// A strategy with its name.
+struct named_strategy {
+  std::string known_as;
+  improving_strategy improve;
+
+  const std::string& name() const { return known_as; }
+};
+
+std::vector<named_strategy> improving_strategies() {
+  return {{"pieces", improve_pieces},
+          {"ito", baselines::ito_improvement{}},
+          {"loehner", baselines::loehner_improvement{}}};
+}
+
 } // namespace
 
 std::vector<std::string> partitioner_names() {
@@ -128,6 +144,9 @@ std::vector<std::string> mesher_names<3>() {
 }
 std::vector<std::string> improver_names() {
   return names_of(improvers());
+}
+std::vector<std::string> improving_strategy_names() {
+  return names_of(improving_strategies());
 }
 std::vector<std::string> background_mesher_names() {
   return names_of(background_meshers());
@@ -163,6 +182,9 @@ any_improver<2> make_improver<2>(const std::string& name, const std::string& opt
     throw command_line_error(option + ": " + improver.name() +
                              " does not take meshes of triangles; use fine");
   return improver.of_triangles();
+}
+improving_strategy make_improving_strategy(const std::string& name) {
+  return chosen(improving_strategies(), name, "--improve-again").improve;
 }
 any_line_keeping_mesher make_background_mesher(const std::string& name) {
   return chosen(background_meshers(), name, "--background-mesher");

@@ -8,6 +8,7 @@
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/pipeline/improve_pieces.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 
@@ -24,6 +25,8 @@ template <int D>
 std::vector<std::string> mesher_names();
 std::vector<std::string> surface_mesher_names();
 std::vector<std::string> improver_names();
+/// What is done to the pieces of ranks after redistribution by elements.
+std::vector<std::string> improving_strategy_names();
 std::vector<std::string> background_mesher_names();
 std::vector<std::string> executor_names();
 std::vector<std::string> builtin_model_names();
@@ -38,6 +41,7 @@ template <int D>
 any_mesher<D> make_mesher(const std::string& name);
 template <int D>
 any_improver<D> make_improver(const std::string& name, const std::string& option = "--improver");
+improving_strategy make_improving_strategy(const std::string& name);
 any_surface_mesher make_surface_mesher(const std::string& name);
 any_line_keeping_mesher make_background_mesher(const std::string& name);
 

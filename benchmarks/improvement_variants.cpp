@@ -1,12 +1,15 @@
-// When to improve: the pieces as they were meshed, what the ranks have after redistribution by elements, or
-// both; beside all of it at once. Interfaces stay in each. Low-quality elements have a dihedral angle under
-// 24 degrees, bad ones under 12. Prints a Markdown table; seconds are those of the improver, of one core.
+// When to improve, and what to do about interfaces: the pieces as they were meshed, what the ranks have after
+// redistribution by elements, both, or that with the elements at the ranks' interfaces once more, as the
+// paper's two baselines do (docs/baselines.md); beside all of it at once. Low-quality elements have a
+// dihedral angle under 24 degrees, bad ones under 12. Prints Markdown tables; seconds are of one core.
 //
 //   improvement_variants [MODEL] [ELEMENTS] [SUBDOMAINS] [RANKS]
 //
 // as in `redistribution`.
 #include "many_pieces.hpp"
 
+#include "dovetail/baselines/ito_improvement.hpp"
+#include "dovetail/baselines/loehner_improvement.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
@@ -25,6 +28,15 @@ void print_row(const char* name, double improved, double seconds, const quality_
   std::fflush(stdout);
 }
 
+/// The rows of the paper's table 10; 0 where an improver has no such step.
+void print_steps(const char* name, double redistribution, const report& made) {
+  const auto seconds = [&](const char* step) { return made.find(step).seconds; };
+  const report& moved = made.find(std::string(name) == "Ito" ? "collection" : "redistribution");
+  std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.2f | %.0f | %.2f |\n", name, redistribution,
+              seconds("first pass"), moved.seconds, seconds("second pass"), seconds("writing back"),
+              moved.get("elements"), moved.get("largest_over_mean"));
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -33,9 +45,9 @@ int main(int argc, char** argv) {
   const int ranks = argc > 4 ? std::atoi(argv[4]) : 4;
   const improvement::native improver;
   const redistribution_by::elements by_elements{.partitioner = partition::metis{}};
-  const auto improve = [&](const many_pieces& from, int of_ranks) {
-    return improve_pieces(*by_elements(from.made.mesh, of_ranks).mesh, improver, from.size,
-                          parallel::serial{});
+  const auto improve = [&](const distributed_mesh& mesh, const any_sizing& size,
+                           const improving_strategy& strategy) {
+    return strategy(mesh, improver, size, parallel::serial{}, {});
   };
   std::printf("| improved | elements improved | seconds | low per million | bad per million | least angle |\n"
               "|---|--:|--:|--:|--:|--:|\n");
@@ -43,13 +55,24 @@ int main(int argc, char** argv) {
   const report& meshing = in_pieces.made.summary.find("meshing");
   const double elements = meshing.get("elements"), seconds = meshing.get("improver_seconds");
   print_row("in pieces", elements, seconds, in_pieces.made.quality);
-  const auto both = improve(in_pieces, ranks);
+  const auto both = improve(*by_elements(in_pieces.made.mesh, ranks).mesh, in_pieces.size, improve_pieces);
   print_row("in pieces, then what ranks have", elements + both.summary.get("elements"),
             seconds + both.summary.get("improver_seconds"), both.quality);
   const auto raw = mesh_in_pieces(wanted, any_improver<3>{});
-  for (const int of_ranks : {ranks, 1}) {
-    const auto after = improve(raw, of_ranks);
-    print_row(of_ranks == 1 ? "all at once" : "what ranks have", after.summary.get("elements"),
-              after.summary.get("improver_seconds"), after.quality);
-  }
+  const auto of_ranks = by_elements(raw.made.mesh, ranks);
+  const auto print = [&](const char* name, const improved_pieces& after) {
+    print_row(name, after.summary.get("elements"), after.summary.get("improver_seconds"), after.quality);
+  };
+  print("what ranks have", improve(*of_ranks.mesh, raw.size, improve_pieces));
+  const auto ito = improve(*of_ranks.mesh, raw.size, baselines::ito_improvement{});
+  print("what ranks have, then layers at interfaces in one mesh (Ito)", ito);
+  const auto loehner = improve(*of_ranks.mesh, raw.size, baselines::loehner_improvement{});
+  print("what ranks have, then with layers of the next ranks (Loehner)", loehner);
+  print("all at once", improve(*by_elements(raw.made.mesh, 1).mesh, raw.size, improve_pieces));
+
+  std::printf("\n| improver | repartitioning | first pass | collection or redistribution | second pass | "
+              "writing back | elements moved | largest piece over mean |\n"
+              "|---|--:|--:|--:|--:|--:|--:|--:|\n");
+  print_steps("Ito", of_ranks.summary.seconds, ito.summary);
+  print_steps("Loehner", of_ranks.summary.seconds, loehner.summary);
 }

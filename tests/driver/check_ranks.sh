@@ -70,9 +70,15 @@ hash=$(counter mesh_hash)
 [[ $hash != "$once" && $(counter improver_seconds) ]] || fault "not improved again"
 expect_success "${again[@]}" --workers 1 --improve-again
 [[ $(counter mesh_hash) == "$hash" ]] || fault "improved otherwise by one worker"
+for strategy in ito loehner; do
+  expect_success "${again[@]}" --workers 2 --improve-again=$strategy
+  [[ $(counter mesh_hash) != "$hash" && $(counter mesh_hash) != "$once" ]] || fault "not improved by $strategy"
+done
 
 # What does not fit is refused before anything is read.
 expect_usage_error "--improve-again goes with" mesh nothing.off --ranks 2 --improve-again
+expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner" mesh nothing.off --ranks 2 \
+  --redistribute by-elements --improve-again=nobody
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
 expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
