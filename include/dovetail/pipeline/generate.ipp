@@ -8,6 +8,7 @@
 #include "dovetail/core/report_codec.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/pipeline/assemble_mesh.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
@@ -23,27 +24,6 @@
 namespace dovetail {
 
 namespace detail {
-
-template <int D>
-distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplicial_skeleton<D> skeleton,
-                                             const meshed_pieces<D>& meshed) {
-  distributed_simplicial_mesh<D> mesh;
-  mesh.skeleton = std::move(skeleton);
-  for (const piece_summary& piece : meshed.pieces) {
-    mesh.counts.push_back(piece.counts);
-    mesh.quality.push_back(piece.quality);
-  }
-  mesh.load = meshed.load;
-  mesh.release = meshed.release;
-  mesh.released = meshed.released;
-  for (const auto& solid : model.topology().solids)
-    mesh.material_names.push_back(solid.name);
-  for (const auto& face : model.topology().faces) {
-    mesh.face_names.push_back(face.name);
-    mesh.group_names.push_back(face.group);
-  }
-  return mesh;
-}
 
 template <int D>
 auto mesh_or_give_up(decomposition_rounds<D>& rounds, report& account) {

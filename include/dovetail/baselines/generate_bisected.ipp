@@ -1,0 +1,76 @@
+/// @file
+/// What `generate_bisected.hpp` declares.
+#pragma once
+
+#include "dovetail/background/coarse_volume.hpp"
+#include "dovetail/baselines/element_layers.hpp"
+#include "dovetail/baselines/generate_bisected.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/decomposition/forced_angles.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/pipeline/assemble_mesh.hpp"
+#include "dovetail/pipeline/divide.hpp"
+#include "dovetail/pipeline/piece_meshing.hpp"
+#include "dovetail/pipeline/rounds.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace dovetail::baselines {
+
+namespace detail {
+
+/// The angles of interfaces and beside them; what the CAD forces is marked.
+inline interface_angles angles_of_interfaces(const fine_skeleton& fine, const any_sizing& size,
+                                             double threshold_deg) {
+  std::vector<triangle_origin> origins;
+  for (std::size_t s = 0; s < fine.sides.size(); ++s)
+    origins.push_back(is_interface(fine, s) ? triangle_origin::kept : triangle_origin::cad);
+  auto angles = measure_interface_angles(
+      {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)}, threshold_deg);
+  find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
+              size, threshold_deg);
+  return angles;
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const erased_sizing& size,
+                                               const any_parameters<3>& given,
+                                               const recursive_bisection& bisect) {
+  const stopwatch clock;
+  any_parameters<3> undivided = given;
+  undivided.options.subdomains = 1;
+  auto background = make_background<3>(model, size, undivided);
+  const simplicial_background<3> cones{
+      background.mesh.surface, background::cones_of_solids(background.mesh.surface, model.topology())};
+  const auto solids = leave_undivided(cones, model.topology().solids.size());
+  decomposition_rounds<3> rounds(model, cones, solids, background.size, undivided);
+  realized<3> made = rounds.realize_boundaries();
+  bisected_surface divided =
+      bisect(std::move(made.fine), std::move(made.material_of_subdomain), rounds.size());
+  made.fine = std::move(divided.fine);
+  made.material_of_subdomain = std::move(divided.material_of_subdomain);
+  auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),
+                                   std::make_shared<entity_store>(given.options.store), given);
+  generated<3> result;
+  result.plan = background.plan;
+  result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());
+  result.fine_angles =
+      detail::angles_of_interfaces(made.fine, rounds.size(), given.options.interface_angle_deg);
+  result.quality = meshed.quality;
+  result.mesh = dovetail::detail::assemble_mesh<3>(model, std::move(made.fine), meshed);
+  result.failures = std::move(meshed.failures);
+  result.summary.name = "generate";
+  result.summary.children = {std::move(background.summary), std::move(made.summary), rounds.intersection(),
+                             std::move(divided.summary), std::move(meshed.summary)};
+  result.background = std::move(background.mesh);
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+} // namespace dovetail::baselines
