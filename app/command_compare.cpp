@@ -90,7 +90,8 @@ private:
     model_source source = load_model(options_.model, D);
     if (options_.elements) {
       parameters_.enlarged_above = 0;
-      source.size = size_for_elements(source, *options_.elements, policies_.front(), parameters_);
+      source.size = scaled_sizes(
+          source, scale_for_elements(source, *options_.elements, policies_.front(), parameters_));
     }
     return source;
   }

@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include "command_text.hpp"
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
@@ -15,7 +16,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -146,6 +146,7 @@ struct parser {
   adapt_options adapt;
   compare_options compare;
   simulate_options simulate;
+  experiment_options experiment;
   std::function<int()> chosen;
   command_outputs outputs;
 
@@ -169,6 +170,7 @@ struct parser {
     add_adapt();
     add_compare();
     add_simulate();
+    add_experiment();
     for (CLI::App* command : app.get_subcommands({}))
       refuse_empty_values(*command);
   }
@@ -228,6 +230,27 @@ struct parser {
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command.callback([this] { chosen = [this] { return run_simulate(simulate); }; });
+  }
+  void add_experiment() {
+    auto& command = *app.add_subcommand(
+        "experiment", "Run the experiments of the method's paper, and show its figures beside ours");
+    add_examples(command,
+                 {"dovetail experiment table2", "dovetail experiment table3 fig16 --scale 1000 -o small",
+                  "dovetail experiment table4 --input wing.step"});
+    command.add_option("NAME", experiment.names, "Experiments: " + joined(experiment_names()))->required();
+    command.add_option("--input", experiment.input,
+                       "CAD file or triangles to mesh in place of the built-in models, by sizes of its own");
+    command.add_option("--scale", experiment.scale, "The paper's numbers of elements over those wanted")
+        ->capture_default_str();
+    command.add_option("-j,--workers", experiment.workers,
+                       "Worker processes (default: the number of processors)");
+    command.add_option("-o,--out", experiment.out, "Folder for tables, plots and what is kept of the runs")
+        ->capture_default_str();
+    command.add_flag("--quiet", experiment.quiet, "Nothing of the runs under way");
+    command.callback([this] {
+      chosen = [this] { return run_experiment(experiment); };
+      outputs.folder = experiment.out;
+    });
   }
   void add_models() {
     auto& command = *app.add_subcommand("models", "List the built-in models");
@@ -310,28 +333,6 @@ struct parser {
   }
 };
 
-/// The command line as a shell takes it.
-std::string text_of_command_line(int argc, char** argv) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("-_./,=:+@").find(c) != std::string_view::npos;
-  };
-  std::string text = "dovetail";
-  for (int k = 1; k < argc; ++k) {
-    const std::string_view word = argv[k];
-    text += ' ';
-    if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) {
-      text += word;
-      continue;
-    }
-    text += '\'';
-    for (const char c : word)
-      text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    text += '\'';
-  }
-  return text;
-}
-
 /// Where the options of the command that was given are told.
 std::string help_for(const CLI::App& app, int argc, char** argv) {
   std::string command;
@@ -374,7 +375,9 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     return refuse(problem.what());
   }
-  line.compare.command_line = line.mesh.command_line = text_of_command_line(argc, argv);
+  std::vector<std::string> words(argv, argv + argc);
+  words.front() = "dovetail";
+  line.compare.command_line = line.experiment.command_line = line.mesh.command_line = command_text(words);
   const unfinished_output unfinished(line.outputs);
   const auto clean_up = [&] { return unfinished.remove(); };
   const auto chosen = [&] { return run_guarded(line.chosen, help); };

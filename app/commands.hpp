@@ -3,8 +3,12 @@
 #pragma once
 
 #include "compare_options.hpp"
+#include "experiment_options.hpp"
 #include "options.hpp"
 #include "simulate_options.hpp"
+
+#include <string>
+#include <vector>
 
 namespace dovetail::app {
 
@@ -17,5 +21,8 @@ int run_stats(const stats_options& options);
 int run_improve(const improve_options& options);
 int run_adapt(const adapt_options& options);
 int run_simulate(const simulate_options& options);
+int run_experiment(const experiment_options& options);
+/// What that may be asked for.
+std::vector<std::string> experiment_names();
 
 } // namespace dovetail::app

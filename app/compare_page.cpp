@@ -113,7 +113,7 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
   std::string text = data.dump(-1, ' ', true, json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
     text.replace(at, 1, "\\u003c");
-  std::string page = page_template;
+  std::string page = compare_page_template;
   const std::string place = "DATA_OF_THE_COMPARISON";
   return page.replace(page.find(place), place.size(), text);
 }

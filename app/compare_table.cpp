@@ -1,5 +1,7 @@
 #include "compare_table.hpp"
 
+#include "csv.hpp"
+
 #include "dovetail/core/sequence.hpp"
 
 #include <algorithm>
@@ -8,27 +10,6 @@
 
 namespace dovetail::app {
 namespace {
-
-using text_row = std::vector<std::string>;
-
-/// A field of a CSV file: in quotes when it has to be.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted.append(c == '"' ? 2 : 1, c);
-  return quoted + '"';
-}
-
-std::string csv_line(const text_row& fields) {
-  std::string line;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    line += k == 0 ? "" : ",";
-    line += csv_field(fields[k]);
-  }
-  return line + '\n';
-}
 
 /// The first four columns to the left, numbers to the right.
 std::string aligned(const std::vector<text_row>& lines) {

@@ -107,6 +107,7 @@ model_source builtin_source(const std::string& name, const given_sizes& sizes) {
   }
   model_source source{name, std::move(geometry), std::move(size), std::move(built.report)};
   source.sizing_meshes = std::move(meshes);
+  source.own_size = built.size;
   return source;
 }
 

@@ -44,10 +44,11 @@ struct model_source {
   std::string name; ///< for the summary
   any_geometry geometry;
   any_sizing size;
-  report summary;              ///< of reading and healing
-  std::string file{};          ///< checksum of what was read of the model; empty for a built-in one
-  std::string sizing{};        ///< of the text of the sizing file; empty without one
-  std::string sizing_meshes{}; ///< of the meshes that it names; empty when it names none
+  report summary;                   ///< of reading and healing
+  std::string file{};               ///< checksum of what was read of the model; empty for a built-in one
+  std::string sizing{};             ///< of the text of the sizing file; empty without one
+  std::string sizing_meshes{};      ///< of the meshes that it names; empty when it names none
+  std::optional<double> own_size{}; ///< the ambient size of a built-in model, which a given size scales
 };
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict

@@ -232,10 +232,10 @@ TEST_CASE("the background mesh is made once for each mesher, also when that fail
 }
 
 TEST_CASE("sizes are scaled to the number of elements asked for") {
-  const auto size =
-      size_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
-  CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
-  CHECK_THROWS_AS(size_for_elements(model(), 0, policies_named({"first", "only", "good", "paper"}), {}),
+  const double scale =
+      scale_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
+  CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
+  CHECK_THROWS_AS(scale_for_elements(model(), 0, policies_named({"first", "only", "good", "paper"}), {}),
                   command_line_error);
 }
 
@@ -251,8 +251,8 @@ TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements 
   CHECK(row.coarse.faces == 7);
   CHECK(row.coarse.min_wedge == 51);
   CHECK(std::isnan(row.coarse.min_face_angle));
-  const auto size = size_for_elements(model(), 8000, surface_policies(), {});
-  CHECK(size({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000
+  const double scale = scale_for_elements(model(), 8000, surface_policies(), {});
+  CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000
 }
 
 } // namespace

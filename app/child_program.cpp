@@ -1,0 +1,50 @@
+#include "child_program.hpp"
+
+#include "failure.hpp"
+#include "stop_request.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace dovetail::app {
+
+int run_program(const std::vector<std::string>& words, bool silent) {
+  std::vector<std::string> kept = words;
+  std::vector<char*> arguments;
+  for (std::string& word : kept)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (silent)
+      ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+    ::execvp(arguments.front(), arguments.data());
+    ::_exit(exit_failure);
+  }
+  int status = 0;
+  bool told = false;
+  for (pid_t found = 0; child > 0; found = ::waitpid(child, &status, WNOHANG)) {
+    if (found == child)
+      return WIFEXITED(status) ? WEXITSTATUS(status) : exit_failure;
+    if (found < 0 && errno != EINTR)
+      break;
+    if (stop_was_requested() && !told) {
+      told = true;
+      ::kill(child, SIGTERM);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return exit_failure;
+}
+
+} // namespace dovetail::app

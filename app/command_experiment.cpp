@@ -1,0 +1,116 @@
+#include "child_program.hpp"
+#include "command_text.hpp"
+#include "commands.hpp"
+#include "experiment_plot_script.hpp" // experiment_plot.py as a string
+#include "experiment_results.hpp"
+#include "experiment_runs.hpp"
+#include "failure.hpp"
+#include "named_policies.hpp"
+#include "output.hpp"
+
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/core/version.hpp"
+#include "dovetail/partition/metis.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+namespace {
+
+constexpr const char* every_experiment = "all";
+
+std::vector<const experiment*> chosen_experiments(const std::vector<std::string>& names) {
+  std::vector<const experiment*> chosen;
+  for (const std::string& name : names)
+    if (name != every_experiment && std::none_of(all_experiments().begin(), all_experiments().end(),
+                                                 [&](const experiment& each) { return each.name == name; }))
+      throw command_line_error("there is no experiment '" + name +
+                               "'; there are: " + joined(experiment_names()));
+  for (const experiment& each : all_experiments())
+    if (std::any_of(names.begin(), names.end(),
+                    [&](const std::string& name) { return name == each.name || name == every_experiment; }))
+      chosen.push_back(&each);
+  return chosen;
+}
+
+/// A command of this same program, which supervises itself.
+int call_driver(const std::vector<std::string>& words) {
+  std::vector<std::string> line{"/proc/self/exe"};
+  line.insert(line.end(), words.begin(), words.end());
+  return run_program(line);
+}
+
+nlohmann::ordered_json origin_of(const experiment_options& options) {
+  char date[32];
+  const std::time_t now = std::time(nullptr);
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return {{"command", options.command_line},
+          {"dovetail", version},
+          {"date", date},
+          {"scale", options.scale},
+          {"seeds", {{"metis", partition::metis{}.seed}}}};
+}
+
+/// The files of one experiment, and its Markdown.
+std::string write_results(const experiment_result& result, const std::filesystem::path& folder) {
+  const std::string& name = result.what->name;
+  std::string text = markdown_text(result);
+  output_batch files;
+  files.open(folder / (name + ".md")).text(text);
+  files.open(folder / (name + ".csv")).text(csv_text(result));
+  files.open(folder / (name + ".json")).text(json_text(result));
+  if (!result.what->plots.empty())
+    files.open(folder / "experiment_plot.py").text(experiment_plot_script);
+  files.commit();
+  if (result.what->plots.empty())
+    return text;
+  const auto picture = folder / (name + ".png");
+  const std::vector<std::string> plot{"python3", folder / "experiment_plot.py", folder / (name + ".json"),
+                                      picture};
+  if (run_program(plot, true) != exit_ok)
+    std::fprintf(stderr, "%s is not made for want of python3 with matplotlib; where these are: %s\n",
+                 picture.c_str(), command_text(plot).c_str());
+  return text;
+}
+
+} // namespace
+
+std::vector<std::string> experiment_names() {
+  std::vector<std::string> names;
+  for (const experiment& each : all_experiments())
+    names.push_back(each.name);
+  names.emplace_back(every_experiment);
+  return names;
+}
+
+int run_experiment(const experiment_options& options) {
+  const auto chosen = chosen_experiments(options.names);
+  run_maker maker(options, call_driver);
+  const output_folder folder(options.out);
+  std::size_t failed = 0, made = 0;
+  try {
+    for (const experiment* each : chosen) {
+      experiment_result result{each, origin_of(options), {}};
+      for (const experiment_run& run : each->runs) {
+        result.runs.push_back(maker.make(run));
+        ++made;
+        failed += result.runs.back().measured.is_null() ? 1 : 0;
+      }
+      std::fputs((write_results(result, folder.path()) + '\n').c_str(), stdout);
+    }
+  } catch (const cancelled&) {
+    complain("stopped; the same command goes on after the runs that are finished");
+    return exit_stopped;
+  }
+  if (failed < made)
+    return exit_ok;
+  complain("all runs failed");
+  return exit_failure;
+}
+
+} // namespace dovetail::app

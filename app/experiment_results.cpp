@@ -1,0 +1,225 @@
+#include "experiment_results.hpp"
+
+#include "csv.hpp"
+#include "paper_figures.hpp"
+#include "terminal_progress.hpp"
+
+#include "dovetail/core/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+double sum_of(const summed& pointers, const json& document) {
+  double sum = 0;
+  for (const std::string& text : pointers) {
+    const json::json_pointer pointer(text);
+    if (!document.contains(pointer))
+      return nothing;
+    sum += document.at(pointer).get<double>();
+  }
+  return sum;
+}
+
+std::vector<double> over_first(std::vector<double> values) {
+  const double first = values.empty() ? nothing : values.front();
+  for (double& value : values)
+    value = first / value;
+  return values;
+}
+
+std::string cell(double value, const experiment_row& row) {
+  if (!std::isfinite(value))
+    return "-";
+  if (row.digits == as_count)
+    return count_text(value);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*f", row.digits, value);
+  return text;
+}
+
+/// A column of the table: one run by one source.
+struct result_column {
+  std::size_t run;
+  std::vector<double> row_values::*source;
+  std::string heading;
+};
+
+std::vector<result_column> columns_of(const experiment_result& result) {
+  std::vector<result_column> columns;
+  for (std::size_t k = 0; k < result.runs.size(); ++k) {
+    const run_result& run = result.runs[k];
+    columns.push_back({k, &row_values::paper, run.run->label + ": paper"});
+    columns.push_back({k, &row_values::measured, run.measured.is_null() ? "failed" : "measured"});
+    if (!run.simulated.is_null())
+      columns.push_back({k, &row_values::simulated, "simulated"});
+  }
+  return columns;
+}
+
+std::string label_of(const experiment_row& row) {
+  return row.unit.empty() ? row.label : row.label + " (" + row.unit + ")";
+}
+
+std::vector<text_row> transposed(const std::vector<text_row>& lines) {
+  std::vector<text_row> turned(lines.front().size());
+  for (const text_row& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k)
+      turned[k].push_back(line[k]);
+  return turned;
+}
+
+std::string markdown_table(const experiment_result& result) {
+  const auto columns = columns_of(result);
+  std::vector<text_row> lines{{""}};
+  for (const result_column& column : columns)
+    lines.front().push_back(column.heading);
+  for (const experiment_row& row : result.what->rows) {
+    const row_values values = values_of(row, result);
+    text_row& line = lines.emplace_back(text_row{label_of(row)});
+    for (const result_column& column : columns)
+      line.push_back(cell((values.*column.source)[column.run], row));
+  }
+  if (result.what->run_per_line)
+    lines = transposed(lines);
+  std::string text;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    text += '|';
+    for (const std::string& field : lines[k])
+      text += (field.empty() ? "" : " " + field) + " |";
+    text += '\n';
+    if (k > 0)
+      continue;
+    text += "|---|";
+    for (std::size_t column = 1; column < lines[k].size(); ++column)
+      text += "--:|";
+    text += '\n';
+  }
+  return text;
+}
+
+std::vector<std::string> places_in_paper(const experiment& what) {
+  std::vector<std::string> places;
+  for (const experiment_run& run : what.runs) {
+    const auto place = paper_table(run.table).at("place").get<std::string>();
+    if (std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(place);
+  }
+  return places;
+}
+
+/// What JSON has no number for is null.
+json json_of(const std::vector<double>& values) {
+  json list = json::array();
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? json(value) : json());
+  return list;
+}
+
+} // namespace
+
+double value_of(const figure& wanted, const json& document) {
+  if (wanted.sum.empty() || document.is_null())
+    return nothing;
+  double value = sum_of(wanted.sum, document);
+  for (const summed& factor : wanted.over)
+    value /= sum_of(factor, document);
+  return value;
+}
+
+row_values values_of(const experiment_row& row, const experiment_result& result) {
+  row_values values;
+  for (const run_result& run : result.runs) {
+    values.paper.push_back(
+        value_of(row.paper, paper_table(run.run->table).at("columns").at(run.run->column)));
+    values.measured.push_back(value_of(row.ours, run.measured));
+    values.simulated.push_back(value_of(row.ours, run.simulated));
+  }
+  if (!row.over_first)
+    return values;
+  return {over_first(std::move(values.paper)), over_first(std::move(values.measured)),
+          over_first(std::move(values.simulated))};
+}
+
+std::string markdown_text(const experiment_result& result) {
+  std::string text = "## " + result.what->title + "\n\n`" + result.origin.at("command").get<std::string>() +
+                     "`: the paper's ";
+  const auto places = places_in_paper(*result.what);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    text += (k == 0 ? "" : "; ") + places[k];
+  text += ". Elements are the paper's over " + number_text(result.origin.at("scale").get<double>()) +
+          ".\n\n" + markdown_table(result) + '\n';
+  for (const std::string& note : result.what->notes)
+    text += "- " + note + '\n';
+  text += "\nThe runs, one by one:\n\n";
+  for (const run_result& run : result.runs) {
+    text += "- " + run.run->label + ": `" + run.record.at("command").get<std::string>() + '`';
+    if (run.record.contains("failure"))
+      text += ", failed: " + run.record.at("failure").get<std::string>();
+    else
+      text += ", mesh " + run.measured.at("mesh_hash").get<std::string>();
+    text += '\n';
+  }
+  return text;
+}
+
+std::string csv_text(const experiment_result& result) {
+  constexpr std::pair<const char*, std::vector<double> row_values::*> sources[] = {
+      {"paper", &row_values::paper},
+      {"measured", &row_values::measured},
+      {"simulated", &row_values::simulated}};
+  std::string text = csv_line({"experiment", "row", "unit", "run", "source", "value"});
+  for (const experiment_row& row : result.what->rows) {
+    const row_values values = values_of(row, result);
+    for (std::size_t k = 0; k < result.runs.size(); ++k)
+      for (const auto& [source, member] : sources)
+        if (const double value = (values.*member)[k]; std::isfinite(value))
+          text += csv_line({result.what->name, row.label, row.unit, result.runs[k].run->label, source,
+                            number_text(value, 12)});
+  }
+  return text;
+}
+
+std::string json_text(const experiment_result& result) {
+  json document{{"experiment", result.what->name}, {"title", result.what->title}};
+  document.update(result.origin);
+  document["paper"] = paper_figures().at("paper");
+  document["places"] = places_in_paper(*result.what);
+  document["runs"] = json::array();
+  for (const run_result& run : result.runs) {
+    json entry{{"label", run.run->label}};
+    entry.update(run.record);
+    if (!run.measured.is_null())
+      entry["mesh_hash"] = run.measured.at("mesh_hash");
+    document["runs"].push_back(std::move(entry));
+  }
+  document["rows"] = json::array();
+  for (const experiment_row& row : result.what->rows) {
+    const row_values values = values_of(row, result);
+    document["rows"].push_back({{"label", row.label},
+                                {"unit", row.unit},
+                                {"paper", json_of(values.paper)},
+                                {"measured", json_of(values.measured)},
+                                {"simulated", json_of(values.simulated)}});
+  }
+  document["plots"] = json::array();
+  for (const experiment_plot& plot : result.what->plots)
+    document["plots"].push_back({{"title", plot.title},
+                                 {"horizontal", plot.horizontal},
+                                 {"vertical", plot.vertical},
+                                 {"runs", plot.runs},
+                                 {"logarithmic", plot.logarithmic}});
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+} // namespace dovetail::app

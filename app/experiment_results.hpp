@@ -1,0 +1,48 @@
+/// @file
+/// What the runs of an experiment gave, and its forms for people and programs.
+#pragma once
+
+#include "experiment.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// A run that was made, now or before.
+struct run_result {
+  const experiment_run* run = nullptr;
+  nlohmann::ordered_json measured = {}; ///< its report; null where it failed
+  /// The report with the workers of the paper's column and the times that a simulation finds for them; null
+  /// where so many have made the run.
+  nlohmann::ordered_json simulated = {};
+  nlohmann::ordered_json record = {}; ///< what it was asked for, its command line and sizes
+};
+
+struct experiment_result {
+  const experiment* what = nullptr;
+  nlohmann::ordered_json origin = {}; ///< command, version, date, scale, seeds
+  std::vector<run_result> runs = {};  ///< as the experiment lists them
+};
+
+/// A figure of a document, the sum and all factors below taken as they are; NaN where one of its numbers is
+/// missing.
+double value_of(const figure& wanted, const nlohmann::ordered_json& document);
+
+/// The numbers of a row: of each run the paper's, the measured and the simulated one; NaN where there is
+/// none.
+struct row_values {
+  std::vector<double> paper, measured, simulated;
+};
+row_values values_of(const experiment_row& row, const experiment_result& result);
+
+/// Heading, table, notes, and the command lines of the runs.
+std::string markdown_text(const experiment_result& result);
+/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value.
+std::string csv_text(const experiment_result& result);
+/// All of it, with what the plots are of.
+std::string json_text(const experiment_result& result);
+
+} // namespace dovetail::app

@@ -1,0 +1,178 @@
+#include "experiment_runs.hpp"
+
+#include "command_text.hpp"
+#include "compare_runs.hpp"
+#include "failure.hpp"
+#include "file_checksums.hpp"
+#include "model_source.hpp"
+#include "paper_figures.hpp"
+#include "run_setup.hpp"
+#include "stop_request.hpp"
+
+#include "dovetail/core/number_text.hpp"
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/core/version.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace dovetail::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// Null where there is no such file, discarded where it is no JSON.
+json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return stream ? json::parse(stream, nullptr, false) : json();
+}
+
+void write_text(const std::string& text, const std::filesystem::path& path) {
+  output_file file(path);
+  file.text(text);
+  file.commit();
+}
+
+/// Sizes by curvature and walls, times a factor: what `--sizing` reads.
+std::string automatic_sizes(double factor) {
+  return json{{"automatic", true}, {"scale", factor}}.dump() + '\n';
+}
+
+} // namespace
+
+run_maker::run_maker(const experiment_options& options, driver_call driver)
+    : options_(options), driver_(std::move(driver)) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale))
+    throw command_line_error("--scale: " + number_text(options.scale) + " is not a positive number");
+  mesh_options any;
+  any.workers = options.workers;
+  workers_ = make_policies_of<3>(any).executor.workers();
+  if (!options.input.empty())
+    input_checksum_ = checksum_of_file(options.input);
+}
+
+/// Sizes for so many elements are looked for once.
+std::vector<std::string> run_maker::words_for_sizes(const experiment_run& run, double elements,
+                                                    const std::filesystem::path& file, json& record) {
+  const bool automatic = !options_.input.empty();
+  const auto key = std::make_pair(run.model, elements);
+  if (!sizes_.contains(key)) {
+    mesh_options options;
+    options.workers = options_.workers;
+    options.model.input = options_.input;
+    options.model.model = options_.input.empty() ? run.model : "";
+    if (automatic) {
+      write_text(automatic_sizes(1), file);
+      options.model.sizing = file;
+    }
+    const model_source source = load_model(options.model);
+    generate_options parameters = make_generate_options(options);
+    parameters.enlarged_above = 0;
+    parameters.on_progress.stop_requested = stop_was_requested;
+    const double factor = scale_for_elements<3>(source, elements, make_policies_of<3>(options), parameters);
+    sizes_[key] = {factor, source.own_size.value_or(0)};
+  }
+  const auto [factor, own_size] = sizes_.at(key);
+  if (automatic) {
+    record["automatic_sizes_times"] = factor;
+    write_text(automatic_sizes(factor), file);
+    return {"--sizing", file};
+  }
+  record["size"] = factor * own_size;
+  return {"--size", number_text(factor * own_size)};
+}
+
+struct run_maker::place_of_run {
+  std::string name;
+  std::filesystem::path folder;
+  std::vector<std::string> what; ///< words of the command line that name the model
+  std::vector<std::string> how;  ///< the others, but for sizes and files
+  json asked;                    ///< what makes it the same run
+
+  std::string file(const char* file_name) const { return (folder / file_name).string(); }
+};
+
+run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wanted_run& wanted) const {
+  const bool own = !options_.input.empty();
+  place_of_run place;
+  place.name = (own ? std::filesystem::path(options_.input).stem().string() : run.model) + "_" +
+               number_text(std::round(wanted.elements), 12) + "_" +
+               number_text(std::round(wanted.background), 12) + "_" + std::to_string(wanted.workers);
+  for (const std::string& option : run.options)
+    place.name += "_" + option.substr(std::min(option.size(), option.find_first_not_of('-')));
+  place.folder = std::filesystem::path(options_.out) / "runs" / place.name;
+  place.what =
+      own ? std::vector<std::string>{options_.input} : std::vector<std::string>{"--model", run.model};
+  place.how = {"--subdomains", std::to_string(wanted.subdomains), "--workers",
+               std::to_string(std::min<std::int64_t>(wanted.workers, workers_))};
+  if (wanted.coarsening > 1)
+    place.how.insert(place.how.end(), {"--coarsening", number_text(wanted.coarsening)});
+  place.how.insert(place.how.end(), run.options.begin(), run.options.end());
+  place.asked = {{"model", place.what.back()},
+                 {"input", input_checksum_},
+                 {"elements", wanted.elements},
+                 {"options", place.how},
+                 {"version", version}};
+  return place;
+}
+
+void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, run_result& result) {
+  std::filesystem::remove_all(place.folder);
+  std::filesystem::create_directories(place.folder);
+  result.record = {{"asked", place.asked}};
+  result.measured = json();
+  std::vector<std::string> words{"mesh"};
+  const auto add = [&](const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    std::vector<std::string> line{"dovetail"};
+    line.insert(line.end(), words.begin(), words.end());
+    result.record["command"] = command_text(line);
+  };
+  add(place.what);
+  try {
+    add(words_for_sizes(*result.run, wanted.elements, place.file("sizes.json"), result.record));
+  } catch (const cancelled&) {
+    throw;
+  } catch (const error& problem) {
+    result.record["failure"] = problem.what();
+    return;
+  }
+  add(place.how);
+  add({"--format", "none"});
+  // Files are nothing to whoever makes the mesh again.
+  words.insert(words.end(), {"--out", place.file("mesh"), "--report", place.file("report.json"), "--trace",
+                             place.file("trace.json"), "--quiet"});
+  const int code = driver_(words);
+  if (code == exit_stopped || stop_was_requested())
+    throw cancelled();
+  if (code != exit_ok) {
+    result.record["failure"] = "exit code " + std::to_string(code);
+    return;
+  }
+  result.measured = read_json(place.file("report.json"));
+  write_text(result.record.dump(2) + '\n', place.file("run.json"));
+}
+
+run_result run_maker::make(const experiment_run& run) {
+  const wanted_run wanted = run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
+  const place_of_run place = place_of(run, wanted);
+  run_result result{.run = &run, .measured = read_json(place.file("report.json"))};
+  result.record = read_json(place.file("run.json"));
+  const bool is_there = result.record.is_object() && result.record.value("asked", json()) == place.asked &&
+                        result.measured.is_object() && std::filesystem::exists(place.file("trace.json"));
+  if (!is_there)
+    carry_out(place, wanted, result);
+  const bool failed = result.measured.is_null();
+  if (!options_.quiet)
+    std::fprintf(stderr, "%s: %s\n", place.name.c_str(),
+                 failed     ? "failed"
+                 : is_there ? "is there from before, by the same command line"
+                            : "made");
+  if (!failed && wanted.workers > workers_)
+    result.simulated = simulated_report(result.measured, place.file("trace.json"), wanted.workers);
+  return result;
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,93 @@
+/// @file
+/// Figures that several experiments show.
+#pragma once
+
+#include "../experiment.hpp"
+
+#include <string>
+#include <vector>
+
+namespace dovetail::app::experiments {
+
+/// The times of stages in a report.
+inline summed seconds_of(const std::vector<std::string>& stages) {
+  summed pointers;
+  for (const std::string& stage : stages)
+    pointers.push_back("/seconds/" + stage);
+  return pointers;
+}
+
+/// As the paper groups the stages; its sum of all has neither the reading of the model nor files.
+inline summed decomposition_seconds() {
+  return seconds_of({"background", "simplification", "partition", "skeleton", "intersection"});
+}
+inline summed other_seconds() {
+  return seconds_of({"meshing", "improvement"});
+}
+inline summed all_seconds() {
+  summed all = decomposition_seconds();
+  const summed others = other_seconds();
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+inline experiment_row workers_row() {
+  return {"Workers", "", 0, {{"/cores"}}, {{"/workers"}}};
+}
+inline experiment_row background_row() {
+  return {"Background tetrahedra", "", as_count, {{"/background"}}, {{"/background_elements"}}};
+}
+inline experiment_row elements_row() {
+  return {"Tetrahedra", "", as_count, {{"/elements"}}, {{"/elements"}}};
+}
+inline experiment_row surface_row() {
+  return {"Surface triangles", "", as_count, {{"/surface"}}, {{"/boundary_triangles"}}};
+}
+/// Which the paper has in Table 4 only.
+inline experiment_row subdomains_row() {
+  return {"Subdomains", "", 0, {}, {{"/subdomains"}}};
+}
+inline experiment_row scheme_row() {
+  return {"Entire scheme", "s", 2, {{"/scheme"}}, {all_seconds()}};
+}
+inline experiment_row decomposition_row() {
+  return {"Domain decomposition", "s", 2, {{"/decomposition"}}, {decomposition_seconds()}};
+}
+inline experiment_row generation_row() {
+  return {"Mesh generation", "s", 2, {{"/generation"}}, {seconds_of({"meshing"})}};
+}
+inline experiment_row improvement_row() {
+  return {"Mesh improvement", "s", 2, {{"/improvement"}}, {seconds_of({"improvement"})}};
+}
+
+/// Elements per second and worker, by some of the time: the paper's index of performance.
+inline experiment_row speed_row(const std::string& label, const std::string& paper, const summed& ours) {
+  return {label,
+          "per s and worker",
+          as_count,
+          {{"/elements"}, {{"/" + paper}, {"/cores"}}},
+          {{"/elements"}, {ours, {"/workers"}}}};
+}
+/// By all of it, as the paper prints it.
+inline experiment_row relative_speed_row() {
+  experiment_row row = speed_row("Relative speed", "scheme", all_seconds());
+  row.paper = {{"/speed"}};
+  return row;
+}
+
+/// What every table with times has to say.
+inline const std::string no_repartitioning =
+    "There is no repartitioning between mesh generation and improvement here: each piece is improved where "
+    "it "
+    "was meshed, in the same task, and the two share the time of a task as the workers spent it.";
+
+/// Runs for columns of one of the paper's tables, on a model.
+inline std::vector<experiment_run> runs_of(const std::string& table, const std::string& model,
+                                           const std::vector<std::string>& columns) {
+  std::vector<experiment_run> runs;
+  for (const std::string& column : columns)
+    runs.push_back({column, model, table, column, {}});
+  return runs;
+}
+
+} // namespace dovetail::app::experiments

@@ -1,0 +1,90 @@
+#!/bin/bash
+# Experiments of the paper on a small model: tables, what is kept, what fails.
+#   check_experiment_command.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+
+write_cube >"$inputs/cube.off"
+kept=$sandbox/kept
+experiment() { expect_success experiment "$@" --input "$inputs/cube.off" --workers 1 --out "$kept"; }
+
+# The table is on the terminal and in three files, and the runs are as mesh makes them.
+experiment table2 --scale 20000
+[[ $(ls "$kept") == $'runs\ntable2.csv\ntable2.json\ntable2.md' ]] || fault "other files than expected"
+diff <(sed '$d' "$sandbox/stdout") "$kept/table2.md" >"$sandbox/stderr" || fault "another table on the terminal than in the file"
+grep -qE '^\| Entire scheme \(s\) \| 102\.50 \| [0-9.]+ \| [0-9.]+ \| 341\.00 ' "$kept/table2.md" || fault "no times beside the paper's"
+(($(grep -c ',paper,' "$kept/table2.csv") == 40 && $(grep -c ',measured,' "$kept/table2.csv") == 40 && \
+  $(grep -c ',simulated,' "$kept/table2.csv") == 40)) || fault "other numbers than expected"
+for run in "F16-I,1400" "F16-II,6050" "F16-III,20600" "F16-IV,50000"; do
+  made=$(awk -F, -v run="${run%,*}" '$2 == "Tetrahedra" && $4 == run && $5 == "measured" { print $6 }' "$kept/table2.csv")
+  ((made > ${run#*,} * 85 / 100 && made < ${run#*,} * 115 / 100)) || fault "$made tetrahedra for $run"
+done
+line=$(sed -n 's/^- F16-III: `dovetail \(.*\)`, mesh \([0-9a-f]*\)$/\1 \2/p' "$kept/table2.md")
+read -ra words <<<"$line"
+cp "$kept/runs/cube_20600_75_32/report.json" "$inputs/report.json"
+expect_success "${words[@]:0:${#words[@]}-1}" --report report.json
+grep -q "\"mesh_hash\": \"${words[-1]}\"" "$sandbox/work/report.json" || fault "mesh makes another mesh"
+grep -q "\"mesh_hash\": \"${words[-1]}\"" "$inputs/report.json" || fault "the hash is of another run"
+
+# What is there is not made again; what is not there, or was asked for otherwise, is.
+cp "$kept/table2.csv" "$inputs/before.csv"
+experiment table2 --scale 20000
+(($(grep -c 'is there from before' "$sandbox/stderr") == 4)) || fault "runs are made again"
+cmp -s "$kept/table2.csv" "$inputs/before.csv" || fault "other figures of the same runs"
+rm "$kept/runs/cube_6050_75_32/run.json"
+experiment table2 --scale 20000
+(($(grep -c 'is there from before' "$sandbox/stderr") == 3)) || fault "an unfinished run is taken for a finished one"
+sed -i 's/"--workers",/"--workers", "7",/' "$kept/runs/cube_1400_75_32/run.json"
+experiment table2 --scale 20000
+(($(grep -c 'is there from before' "$sandbox/stderr") == 3)) || fault "a run of another command line is taken"
+
+# All of them, and runs that several share are made once. A plot is made, or a line says how.
+experiment all --scale 50000
+for name in table2 table3 table4 table5 table6 table9 fig10 fig16; do
+  for ending in md csv json; do
+    [[ -s $kept/$name.$ending ]] || fault "no $name.$ending"
+  done
+done
+(($(grep -c ': made$' "$sandbox/stderr") == $(ls "$kept/runs" | wc -l) - 4)) || fault "shared runs are made again"
+for name in fig10 fig16; do
+  [[ -s $kept/$name.png ]] || grep -q "$name.png is not made for want of python3 with matplotlib" "$sandbox/stderr" ||
+    fault "neither a plot nor a word on $name"
+done
+! grep -q failed "$sandbox/stderr" || fault "runs fail"
+experiment fig16 --scale 50000 --quiet
+! grep -q 'is there' "$sandbox/stderr" || fault "not quiet"
+
+# A run that fails is a result.
+run_driver experiment table5 --input "$inputs/cube.off" --scale 1e9 --workers 1 --out "$sandbox/failing"
+((status == 1)) || fault "exit code is $status where all runs fail"
+grep -q "all runs failed" "$sandbox/stderr" || fault "no word on runs that all failed"
+grep -q ': failed$' "$sandbox/stderr" || fault "failed runs are not named"
+grep -q '`, failed: ' "$sandbox/failing/table5.md" || fault "the table does not say why runs failed"
+
+# A stop leaves what is finished.
+(
+  cd "$sandbox/work" || exit
+  exec "$driver" experiment table2 --scale 500 --input "$inputs/cube.off" --workers 1 --out "$sandbox/stopped" \
+    >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null
+) &
+job=$!
+for ((k = 0; k < 300; ++k)); do
+  grep -q 'cube_56000_3000_32: made' "$sandbox/stderr" && break
+  sleep 0.1
+done
+sleep 0.3
+kill -TERM "$job"
+wait "$job"
+status=$?
+what="a stopped experiment"
+((status == 130)) || fault "exit code is $status"
+grep -q "the same command goes on" "$sandbox/stderr" || fault "no word on going on"
+[[ -s $sandbox/stopped/runs/cube_56000_3000_32/run.json ]] || fault "the finished run is lost"
+[[ -z $(find "$sandbox/stopped" -name '*.md') ]] || fault "a table of a part"
+
+expect_usage_error "there is no experiment 'table1'; there are: table2, .*all" experiment table1
+expect_usage_error "NAME is required" experiment
+expect_usage_error "--scale" experiment table2 --scale 0
+expect_error "nowhere.step" experiment table2 --input nowhere.step
+
+finish

@@ -1,0 +1,251 @@
+#include "experiment_column.hpp"
+#include "experiment_results.hpp"
+#include "paper_figures.hpp"
+#include "run_figures.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/write_trace.hpp"
+#include "io/scratch_folder.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// A report as `mesh` writes it, of which no time is zero.
+json example_report() {
+  run_figures figures;
+  figures.workers = 2;
+  figures.elements = 280'000;
+  figures.boundary_triangles = 3620;
+  figures.background_elements = 15'000;
+  figures.subdomains = 32;
+  figures.merges = 3;
+  figures.seconds = {.geometry = 1,
+                     .background = 2,
+                     .simplification = 3,
+                     .partition = 4,
+                     .skeleton = 5,
+                     .intersection = 6,
+                     .meshing = 30,
+                     .improvement = 10,
+                     .output = 7,
+                     .total = 68};
+  figures.quality.min_wedges.bins[5] = 1;
+  figures.quality.min_wedges.bins[11] = 20;
+  figures.quality.min_wedges.bins[23] = 300;
+  const testing::scratch_folder folder("report");
+  write_report(figures, folder / "report.json");
+  std::ifstream file(folder / "report.json");
+  return json::parse(file);
+}
+
+/// An experiment of which all runs have given the same.
+experiment_result result_of(const experiment& what) {
+  const json measured = example_report();
+  json simulated = measured;
+  simulated["workers"] = 32;
+  experiment_result result{&what, {{"command", "dovetail experiment"}, {"scale", 100}}, {}};
+  for (const experiment_run& run : what.runs)
+    result.runs.push_back({&run, measured, simulated, {{"command", "dovetail mesh"}}});
+  return result;
+}
+
+const experiment& named(const std::string& name) {
+  return *std::find_if(all_experiments().begin(), all_experiments().end(),
+                       [&](const experiment& each) { return each.name == name; });
+}
+
+double value_in(const experiment_result& result, const std::string& row, std::size_t run,
+                std::vector<double> row_values::*source) {
+  const auto& rows = result.what->rows;
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.label == row; });
+  REQUIRE(found != rows.end());
+  return (values_of(*found, result).*source)[run];
+}
+
+template <class Items, class Label>
+bool all_differ(const Items& items, Label label) {
+  std::set<std::string> labels;
+  for (const auto& item : items)
+    labels.insert(label(item));
+  return labels.size() == items.size() && !labels.contains("");
+}
+
+TEST_CASE("every experiment names figures that the paper's columns and reports have") {
+  CHECK(all_differ(all_experiments(), [](const experiment& each) { return each.name; }));
+  for (const experiment& each : all_experiments()) {
+    INFO(each.name);
+    CHECK_FALSE(each.title.empty());
+    CHECK(all_differ(each.runs, [](const experiment_run& run) { return run.label; }));
+    CHECK(all_differ(each.rows, [](const experiment_row& row) { return row.label; }));
+    for (const experiment_run& run : each.runs) {
+      INFO(run.label);
+      REQUIRE(paper_table(run.table).at("columns").contains(run.column));
+      CHECK_NOTHROW(run_for(paper_table(run.table).at("columns").at(run.column), 100));
+      CHECK(std::set<std::string>{"aircraft", "combustor", "orbiter"}.contains(run.model));
+    }
+    const experiment_result result = result_of(each);
+    for (const experiment_row& row : each.rows) {
+      INFO(row.label);
+      CHECK_FALSE((row.paper.sum.empty() && row.ours.sum.empty()));
+      const row_values values = values_of(row, result);
+      const auto is_there = [](double value) { return std::isfinite(value); };
+      if (!row.paper.sum.empty())
+        CHECK(std::all_of(values.paper.begin(), values.paper.end(), is_there));
+      if (!row.ours.sum.empty()) {
+        CHECK(std::all_of(values.measured.begin(), values.measured.end(), is_there));
+        CHECK(std::all_of(values.simulated.begin(), values.simulated.end(), is_there));
+      }
+    }
+    const auto has_row = [&](const std::string& label) {
+      return std::any_of(each.rows.begin(), each.rows.end(),
+                         [&](const auto& row) { return row.label == label; });
+    };
+    for (const experiment_plot& plot : each.plots) {
+      CHECK(has_row(plot.horizontal));
+      CHECK(std::all_of(plot.vertical.begin(), plot.vertical.end(), has_row));
+      for (const std::string& label : plot.runs)
+        CHECK(std::any_of(each.runs.begin(), each.runs.end(),
+                          [&](const auto& run) { return run.label == label; }));
+    }
+  }
+}
+
+TEST_CASE("the paper's figures agree with one another") {
+  CHECK_THROWS_AS(paper_table("table1"), usage_error);
+  for (const auto& [name, table] : paper_figures().at("tables").items()) {
+    CHECK_FALSE(table.at("place").get<std::string>().empty());
+    for (const auto& [label, column] : table.at("columns").items()) {
+      INFO(name << ", " << label);
+      if (column.contains("speed"))
+        CHECK(column.at("elements").get<double>() / column.at("scheme").get<double>() /
+                  column.at("cores").get<double>() / column.at("speed").get<double>() ==
+              doctest::Approx(1).epsilon(0.25)); // elements are rounded: "1B"
+      double steps = 0;
+      for (const char* step : {"surface_meshing", "decomposition", "generation", "repartitioning",
+                               "improvement", "other", "first_pass", "collection", "second_pass"})
+        steps += column.value(step, 0.0);
+      if (column.contains("scheme") && name != "table6") // which prints one of the steps
+        CHECK(steps == doctest::Approx(column.at("scheme").get<double>()).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("rows are sums, over products of sums, of what the paper and reports say") {
+  const experiment_result two = result_of(named("table2"));
+  CHECK(value_in(two, "Entire scheme", 0, &row_values::paper) == 102.5);
+  CHECK(value_in(two, "Entire scheme", 0, &row_values::measured) == 60);
+  CHECK(value_in(two, "Domain decomposition", 0, &row_values::measured) == 20);
+  CHECK(value_in(two, "Relative speed", 0, &row_values::measured) == doctest::Approx(280'000 / 60. / 2));
+  CHECK(value_in(two, "Relative speed", 0, &row_values::simulated) == doctest::Approx(280'000 / 60. / 32));
+  const experiment_result four = result_of(named("table4"));
+  CHECK(value_in(four, "Subdomains before any is merged", 1, &row_values::paper) == 320);
+  CHECK(value_in(four, "Subdomains before any is merged", 1, &row_values::measured) == 35);
+  const experiment_result five = result_of(named("table5"));
+  CHECK(value_in(five, "Tetrahedra from 6 to 12 degrees", 1, &row_values::measured) == 20);
+  CHECK(value_in(five, "Tetrahedra under 24 degrees (low quality)", 1, &row_values::measured) == 321);
+  const experiment_result ten = result_of(named("fig10"));
+  CHECK(value_in(ten, "Mesh generation", 0, &row_values::paper) == doctest::Approx(28e6 / 6.8 / 32));
+  const experiment_result sixteen = result_of(named("fig16"));
+  CHECK(value_in(sixteen, "Speedup of mesh improvement", 3, &row_values::paper) ==
+        doctest::Approx(1753.1 / 211.1));
+  CHECK(std::isnan(value_of({{"/nowhere"}}, {{"here", 1}})));
+  CHECK(std::isnan(value_of({{"/here"}}, json())));
+}
+
+TEST_CASE("a run has the paper's elements and background over the scale, and its ten subdomains per worker") {
+  const auto column = [](const std::string& table, const std::string& label) {
+    return paper_table(table).at("columns").at(label);
+  };
+  const wanted_run full = run_for(column("table4", "16"), 1);
+  CHECK(full.elements == 412e6);
+  CHECK(full.subdomains == 160);
+  CHECK(full.workers == 16);
+  CHECK(std::pow(full.coarsening, 3) == doctest::Approx(412. / 1.5));
+  const wanted_run small = run_for(column("table4", "128"), 100);
+  CHECK(small.elements == 4.12e6);
+  CHECK(small.background == 29'000);
+  CHECK(small.subdomains == 768); // of 824 with 5000 elements, six for each worker
+  CHECK(run_for(column("table2", "F16-I"), 1e6).subdomains == 1);
+  const wanted_run whole = run_for(column("table5", "F16-I, 1"), 100);
+  CHECK(whole.subdomains == 1);
+  CHECK(whole.coarsening == 1);
+  CHECK_THROWS_AS(run_for(json{{"elements", 5}}, 100), usage_error);
+}
+
+TEST_CASE("a simulation takes the place of a report's times and workers") {
+  execution_trace trace{.workers = 2, .elements = 280'000, .seconds = 30, .stages = {}, .batches = {}};
+  trace.stages = {{"geometry", 0, 1},  {"planning", 1, 2},   {"background volume", 2, 4},
+                  {"partition", 4, 7}, {"matching", 7, 8},   {"skeleton", 8, 10},
+                  {"meshing", 10, 26}, {"finishing", 26, 30}};
+  batch_span meshing{"meshing", 10, 26};
+  for (std::size_t task = 0; task < 4; ++task)
+    meshing.tasks.push_back({task, static_cast<int>(task % 2), task < 2 ? 0. : 8., 8, 0});
+  trace.batches = {meshing};
+  const testing::scratch_folder folder("trace");
+  io::write_trace(trace, folder / "trace.json");
+  const json report = example_report();
+  const json simulated = simulated_report(report, folder / "trace.json", 4);
+  CHECK(simulated.at("workers") == 4);
+  CHECK(simulated.at("elements") == report.at("elements"));
+  const auto seconds = [&](const char* part) { return simulated.at("seconds").at(part).get<double>(); };
+  CHECK(seconds("geometry") == doctest::Approx(1));
+  CHECK(seconds("background") == doctest::Approx(3));
+  CHECK(seconds("partition") == doctest::Approx(3));
+  CHECK(seconds("skeleton") == doctest::Approx(3));
+  CHECK(seconds("simplification") == 0);
+  CHECK(seconds("meshing") ==
+        doctest::Approx(6).epsilon(1e-3)); // four tasks by four workers: 8, a quarter improving
+  CHECK(seconds("improvement") == doctest::Approx(2).epsilon(1e-3));
+  CHECK(seconds("output") == doctest::Approx(4));
+  CHECK(seconds("total") == doctest::Approx(22).epsilon(1e-3));
+}
+
+std::vector<std::string> lines_of_table(const std::string& markdown) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < markdown.size();) {
+    const std::size_t end = markdown.find('\n', at);
+    if (markdown[at] == '|')
+      lines.push_back(markdown.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+TEST_CASE("tables have the paper's columns, ours beside them, and say what failed") {
+  for (const experiment& each : all_experiments()) {
+    const experiment_result result = result_of(each);
+    const auto lines = lines_of_table(markdown_text(result));
+    const std::size_t columns = 3 * each.runs.size(), rows = each.rows.size();
+    CHECK(lines.size() == 2 + (each.run_per_line ? columns : rows));
+    for (const std::string& line : lines)
+      CHECK(static_cast<std::size_t>(std::count(line.begin(), line.end(), '|')) ==
+            2 + (each.run_per_line ? rows : columns));
+    CHECK(json::parse(json_text(result)).at("rows").size() == rows);
+  }
+  experiment_result result = result_of(named("table2"));
+  CHECK(markdown_text(result).find("| Entire scheme (s) | 102.50 | 60.00 | 60.00 |") != std::string::npos);
+  CHECK(markdown_text(result).find("| Mesh repartitioning (s) | 2.40 | - | - |") != std::string::npos);
+  CHECK(csv_text(result).find("\ntable2,Entire scheme,s,F16-II,paper,341\n") != std::string::npos);
+  CHECK(csv_text(result).find("repartitioning,s,F16-II,measured") == std::string::npos);
+  result.runs[1].measured = result.runs[1].simulated = json();
+  result.runs[1].record["failure"] = "exit code 1";
+  const std::string text = markdown_text(result);
+  CHECK(text.find("| F16-II: paper | failed | F16-III: paper |") != std::string::npos);
+  CHECK(text.find("`dovetail mesh`, failed: exit code 1") != std::string::npos);
+  CHECK(json::parse(json_text(result)).at("rows").at(0).at("measured").at(1).is_null());
+}
+
+} // namespace
+} // namespace dovetail::app
