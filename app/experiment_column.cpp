@@ -70,7 +70,7 @@ json simulated_report(const json& report, const std::filesystem::path& trace, st
   const double share = meshing + improvement > 0 ? improvement / (meshing + improvement) : 0;
   for (const simulation::simulated_times& stage : run.stages) {
     const std::string part = part_of(stage.stage);
-    const double time = stage.alone + stage.tasks;
+    const double time = whole(stage);
     add(part, part == "meshing" ? time * (1 - share) : time);
     if (part == "meshing")
       add("improvement", time * share);
