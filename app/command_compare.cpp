@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
+#include "sizes_for_elements.hpp"
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
@@ -63,9 +64,6 @@ public:
     for (const auto& each : combinations_)
       policies_.push_back(make_policies_of<D>(options_of_run(options, each)));
     parameters_ = make_generate_options(options_of_run(options, combinations_.front()));
-    if (options.elements && !(*options.elements > 0))
-      throw command_line_error("--elements: " + std::to_string(*options.elements) +
-                               " is not a number of elements");
   }
 
   int run() {
@@ -88,11 +86,7 @@ private:
   model_source load() {
     show("geometry");
     model_source source = load_model(options_.model, D);
-    if (options_.elements) {
-      parameters_.enlarged_above = 0;
-      source.size = scaled_sizes(
-          source, scale_for_elements(source, *options_.elements, policies_.front(), parameters_));
-    }
+    scale_to_elements(source, options_.model, policies_.front(), parameters_);
     return source;
   }
 
@@ -117,8 +111,9 @@ private:
                               : model.has_automatic_sizes() ? "automatic"
                               : model.size                  ? number_text(*model.size)
                                                             : "the model's own";
-    return options_.elements ? given + ", scaled for " + number_text(*options_.elements) + " elements"
-                             : given;
+    return options_.model.elements
+               ? given + ", scaled for " + number_text(*options_.model.elements) + " elements"
+               : given;
   }
 
   void run_all(const model_source& source) {

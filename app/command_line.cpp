@@ -64,6 +64,10 @@ void add_model_options(CLI::App& command, model_options& options) {
       command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
           ->excludes(size);
   command
+      .add_option("--elements", options.elements,
+                  "About how many elements: the sizes are scaled until so many are predicted")
+      ->excludes(size);
+  command
       .add_option("--curvature", options.curvature,
                   "Elements per turn of a curved face; 0: any (default: 24)")
       ->excludes(sizing);

@@ -8,6 +8,7 @@
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
+#include "sizes_for_elements.hpp"
 #include "stage_figures.hpp"
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
@@ -161,8 +162,9 @@ public:
       lines_.emplace(stderr);
     parameters_.on_progress = callbacks();
     parameters_.on_progress("geometry", 0, 0);
-    const model_source source = load_model(options_.model, D);
+    model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
+    scale_to_elements(source, options_.model, policies_, parameters_);
     const run_identity identity = identity_of_run(options_, source);
     for (const auto& [what, value] : identity)
       require_same(what + " " + value);

@@ -5,6 +5,7 @@
 #include "output_formats.hpp"
 #include "run_figures.hpp"
 #include "run_setup.hpp"
+#include "sizes_for_elements.hpp"
 #include "terminal_progress.hpp"
 
 #include <algorithm>
@@ -41,8 +42,9 @@ int plan_run(const plan_options& options) {
     check_can_create(options.report);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
-  const model_source source = load_model(options.mesh.model, D);
+  model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
+  scale_to_elements(source, options.mesh.model, policies, parameters);
   const mesh_plan plan = plan_generation<D>(source.geometry, source.size, policies, parameters);
   lines.finish();
 

@@ -35,10 +35,6 @@ void add_compare_options(CLI::App& command, compare_options& options) {
   add_names(command, "--improvers", options.improvers, "Mesh improvers", choice_of(improver_names()));
   add_names(command, "--simplifiers", options.simplifiers, "Rules of simplification",
             "(default: paper,none). There are: " + listed(simplifier_names()));
-  command
-      .add_option("--elements", options.elements,
-                  "About how many elements: scales the sizes to predict so many")
-      ->excludes(command.get_option("--size"));
   command.add_option("--executor", options.executor, "Where pieces are meshed: " + listed(executor_names()));
   command.add_option("-o,--out", options.out, "Folder for compare.csv and compare.html")
       ->capture_default_str();

@@ -23,7 +23,6 @@ struct compare_options {
   std::vector<std::string> meshers;
   std::vector<std::string> improvers;
   std::vector<std::string> simplifiers;
-  std::optional<double> elements; ///< scales the sizes until the prediction is this number
   std::optional<int> subdomains;
   std::optional<double> coarsening;
   int workers = 0;

@@ -162,25 +162,6 @@ comparison_row run_combination(const model_source& source, const combination& po
   return row;
 }
 
-template <int D>
-double scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
-                          const generate_options& options) {
-  if (!(elements > 0) || !std::isfinite(elements))
-    throw command_line_error("--elements: " + std::to_string(elements) + " is not a number of elements");
-  double factor = 1;
-  // The number goes with a power of the size but for gradation and walls, so a second step is close.
-  for (int step = 0; step < 2; ++step) {
-    const any_sizing size = scaled_sizes(source, factor);
-    factor *= std::pow(
-        plan_generation<D>(source.geometry, size, policies, options).predicted_elements / elements, 1.0 / D);
-  }
-  return factor;
-}
-
-any_sizing scaled_sizes(const model_source& source, double factor) {
-  return keep_bounds(scaled<any_sizing>(source.size, factor));
-}
-
 template class background_store<2>;
 template class background_store<3>;
 template comparison_row run_combination<2>(const model_source&, const combination&, const policies_of<2>&,
@@ -189,9 +170,5 @@ template comparison_row run_combination<2>(const model_source&, const combinatio
 template comparison_row run_combination<3>(const model_source&, const combination&, const policies_of<3>&,
                                            const generate_options&, background_store<3>&,
                                            const result_observer<3>&);
-template double scale_for_elements(const model_source&, double, const policies_of<3>&,
-                                   const generate_options&);
-template double scale_for_elements(const model_source&, double, const policies_of<2>&,
-                                   const generate_options&);
 
 } // namespace dovetail::app

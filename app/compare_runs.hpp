@@ -52,13 +52,4 @@ comparison_row run_combination(const model_source& source, const combination& po
                                background_store<D>& backgrounds,
                                const std::type_identity_t<result_observer<D>>& observe);
 
-/// By what to scale the sizes of the model so that about `elements` elements are predicted. Throws
-/// `command_line_error` for a number that is not positive, and what planning throws.
-template <int D>
-double scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
-                          const generate_options& options);
-
-/// The sizes of the model times a factor.
-any_sizing scaled_sizes(const model_source& source, double factor);
-
 } // namespace dovetail::app

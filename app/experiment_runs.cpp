@@ -7,6 +7,7 @@
 #include "model_source.hpp"
 #include "paper_figures.hpp"
 #include "run_setup.hpp"
+#include "sizes_for_elements.hpp"
 #include "stop_request.hpp"
 
 #include "dovetail/core/number_text.hpp"

@@ -13,11 +13,12 @@ namespace dovetail::app {
 
 /// The model and its sizes: shared by `mesh` and `plan`.
 struct model_options {
-  std::string input;          ///< a CAD or triangle file; empty: a built-in model
-  std::string model;          ///< name of a built-in model; empty: the default one, or the input
-  std::string unit = "mm";    ///< unit that a STEP or IGES file is converted to
-  std::optional<double> size; ///< uniform, or the scale of the built-in model's sizes, or the largest
-  std::string sizing;         ///< JSON file with a sizing field
+  std::string input;              ///< a CAD or triangle file; empty: a built-in model
+  std::string model;              ///< name of a built-in model; empty: the default one, or the input
+  std::string unit = "mm";        ///< unit that a STEP or IGES file is converted to
+  std::optional<double> size;     ///< uniform, or the scale of the built-in model's sizes, or the largest
+  std::string sizing;             ///< JSON file with a sizing field
+  std::optional<double> elements; ///< the sizes are scaled until the prediction is this number
   /// Of automatic sizes: elements per turn, elements across walls, growth per length.
   std::optional<double> curvature, proximity, growth;
 

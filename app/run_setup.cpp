@@ -3,6 +3,8 @@
 #include "failure.hpp"
 #include "policies.hpp"
 
+#include "dovetail/core/number_text.hpp"
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -33,8 +35,10 @@ template policies_of<3> make_policies_of<3>(const mesh_options&);
 generate_options make_generate_options(const mesh_options& options) {
   constexpr double most_by_default = 2e6; // elements, where nothing says how large they are
   generate_options result;
-  if (options.model.has_automatic_sizes() && !options.model.size)
+  if (options.model.has_automatic_sizes() && !options.model.size && !options.model.elements)
     result.enlarged_above = most_by_default;
+  if (const auto& elements = options.model.elements; elements && !(*elements > 0 && std::isfinite(*elements)))
+    throw command_line_error("--elements: " + number_text(*elements) + " is not a number of elements");
   if (options.subdomains) {
     if (*options.subdomains < 1)
       throw command_line_error("--subdomains: " + std::to_string(*options.subdomains) +

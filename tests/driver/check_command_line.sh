@@ -26,6 +26,8 @@ expect_usage_error "--workers" mesh --model combustor --workers -1
 expect_usage_error "--workers" mesh --model combustor --workers two
 expect_usage_error "--subdomains" mesh --model combustor --subdomains 0
 expect_usage_error "--subdomains" mesh --model combustor --subdomains -4
+expect_usage_error "--elements: -5 is not a number of elements" mesh --model combustor --elements -5
+expect_usage_error "excludes|--size" plan --model combustor --elements 5 --size 1
 expect_usage_error "--files" mesh --model combustor --files -1
 expect_usage_error "--coarsening" mesh --model combustor --coarsening 0
 expect_usage_error "not both" mesh part.step --model combustor
