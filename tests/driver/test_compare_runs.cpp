@@ -1,6 +1,7 @@
 #include "compare_runs.hpp"
 #include "failure.hpp"
 #include "policies.hpp"
+#include "sizes_for_elements.hpp"
 
 #include "concepts/archetypes.hpp"
 
@@ -235,8 +236,13 @@ TEST_CASE("sizes are scaled to the number of elements asked for") {
   const double scale =
       scale_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
-  CHECK_THROWS_AS(scale_for_elements(model(), 0, policies_named({"first", "only", "good", "paper"}), {}),
-                  command_line_error);
+  model_source scaled_source = model();
+  scale_to_elements(scaled_source, {.elements = 32'000}, policies_named({"first", "only", "good", "paper"}),
+                    {});
+  CHECK(scaled_source.size({}) == doctest::Approx(0.25));
+  model_source same = model();
+  scale_to_elements(same, {}, policies_named({"first", "only", "good", "paper"}), {});
+  CHECK(same.size({}) == model().size({}));
 }
 
 policies_of<2> surface_policies() {
