@@ -1,5 +1,4 @@
 #include "compare_runs.hpp"
-#include "failure.hpp"
 #include "policies.hpp"
 #include "sizes_for_elements.hpp"
 
