@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
