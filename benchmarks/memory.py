@@ -3,8 +3,8 @@
 
 Runs the driver at sizes that give the wanted numbers of elements, nothing written, as one process with a worker and as so
 many ranks as --ranks says, each with a worker. A process that computes, and with ranks the largest of them, is sampled: its
-peak, and the most that it and its worker have together, where what they share counts once (a rank's memory). It prints a
-markdown table of these beside the bound that the first is held to,
+peak, and the most that it and its worker are seen to have together, where what they share counts once; the larger is a
+rank's memory. It prints a markdown table of these beside the bound that the first is held to,
 
     150 MB + 150 bytes per background element + 60 bytes per side of the skeleton,
 
@@ -12,13 +12,14 @@ and then the constants, none negative, of
 
     a + b x background elements + c x sides of the skeleton + d x elements of the largest piece
 
-that fit the memory of the ranks best, and the worst residual. --coarsening varies the background beside the skeleton. Memory
-hardly depends on what else the machine does.
+that fit the memory of the ranks best, and the worst residual. Options of the driver that --vary adds, --vary='--coarsening 1'
+or --vary='--subdomains 8', vary one of them without the others. Memory hardly depends on what else the machine does.
 """
 
 import argparse
 import itertools
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -87,7 +88,7 @@ def measure(driver, model, size, ranks, options, folder, limit):
             time.sleep(0.05)
     if process.returncode != 0:
         raise Failure(f"{' '.join(command)}: exit status {process.returncode}")
-    return peak, together, read_json(report)
+    return peak, max(peak, together), read_json(report)  # a peak may be between two samples
 
 
 def fit(rows, peaks):
@@ -116,7 +117,7 @@ def main():
     options.add_argument("model")
     options.add_argument("--elements", default="5e6,20e6,50e6", help="wanted numbers, by commas (default %(default)s)")
     options.add_argument("--ranks", default="1", help="by commas; 1 is without MPI (default %(default)s)")
-    options.add_argument("--coarsening", default="", help="by commas, an empty one is the driver's choice")
+    options.add_argument("--vary", action="append", default=[""], help="options of the driver, for more runs")
     options.add_argument("--limit", type=float, default=3600, help="seconds per run (default %(default)s)")
     given = options.parse_args()
     driver = os.path.join(given.build, "app", "dovetail")
@@ -126,10 +127,10 @@ def main():
     for elements in map(float, given.elements.split(",")):
         with tempfile.TemporaryDirectory() as folder:
             size = find_size(driver, given.model, elements, folder, given.limit)
-        for ranks, coarsening in itertools.product(map(int, given.ranks.split(",")), given.coarsening.split(",")):
+        for ranks, extra in itertools.product(map(int, given.ranks.split(",")), given.vary):
             with tempfile.TemporaryDirectory() as folder:
-                peak, together, report = measure(driver, given.model, size, ranks,
-                                                 ["--coarsening", coarsening] if coarsening else [], folder, given.limit)
+                peak, together, report = measure(driver, given.model, size, ranks, shlex.split(extra), folder,
+                                                 given.limit)
             sides = counters_of(report, "skeleton")["triangles"]
             background = report["background_elements"]
             largest = round(report["imbalance"] * report["elements"] / report["subdomains"])
