@@ -166,27 +166,25 @@ public:
   byte_buffer once(const std::function<byte_buffer()>& work) {
     if (size() == 1)
       return work();
-    byte_writer reply;
+    byte_buffer made; // and behind it whether it is an error
     std::exception_ptr failure;
     if (leads()) {
-      byte_buffer made;
       try {
         made = work();
       } catch (...) {
         failure = std::current_exception();
+        made = encode_error(failure);
       }
-      reply.value<std::uint8_t>(failure != nullptr);
-      reply.array(failure ? encode_error(failure) : made);
+      made.push_back(std::byte{failure != nullptr});
     }
-    const byte_buffer known = broadcast(reply.take());
+    made = broadcast(std::move(made));
     if (failure) // with its own type
       std::rethrow_exception(failure);
-    byte_reader from(known);
-    const bool failed = from.value<std::uint8_t>() != 0;
-    byte_buffer bytes = from.array<std::byte>();
+    const bool failed = made.back() != std::byte{0};
+    made.pop_back();
     if (failed)
-      throw_error(bytes);
-    return bytes;
+      throw_error(made);
+    return made;
   }
 
   /// Returns when all ranks have come here. Where one comes with an error, all throw it: that of the lowest

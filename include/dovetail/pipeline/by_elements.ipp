@@ -140,7 +140,7 @@ private:
     const stopwatch clock;
     any_communicator network = given_.run_tasks.network();
     std::vector<local_id> part = given_.partitioner.of_whole(network, joined_.graph, ranks_);
-    const byte_buffer known = network.once([&] {
+    const byte_buffer known = given_.run_tasks.once([&] {
       byte_writer to;
       to.array(connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance));
       return to.take();
