@@ -40,8 +40,7 @@ public:
   run_spool(const std::filesystem::path& folder, std::filesystem::path place, const run_identity& identity,
             bool resume, bool own)
       : folder_(folder), place_(std::move(place)),
-        spool_(resume || !own ? spool::resume(place_, identity) : spool::start(place_, identity)), own_(own) {
-  }
+        spool_(resume ? spool::resume(place_, identity) : spool::start(place_, identity)), own_(own) {}
   run_spool(const run_spool&) = delete;
   run_spool& operator=(const run_spool&) = delete;
   ~run_spool() {
@@ -176,6 +175,8 @@ public:
       made.emplace(options_.out);
       return begin_in(folder, identity, finished, store);
     });
+    if (!leads_)
+      join(folder, identity, begin, store);
     if (begin == beginning::is_finished) {
       lines_.reset();
       if (leads_ && !options_.quiet)
@@ -183,18 +184,12 @@ public:
                     options_.out.c_str(), options_.report.empty() ? "" : ", and no report is written");
       return exit_ok;
     }
-    if (!leads_ && options_.spool.empty())
-      store.emplace(folder, spool_folder(options_), identity, true, false);
-    else if (!leads_)
-      start_own(folder, identity, store);
-    parameters_.store = store->get();
-    if (has_own_spool()) {
-      parameters_.store = store->get().of_one_rank();
-      exchange_all_blobs(*parameters_.store, *options_.network); // those of an earlier run
-    }
+    parameters_.store = has_own_spool() ? store->get().of_one_rank() : store->get();
     if (leads_)
       parameters_.failure_folder = folder / "failed";
     try {
+      if (has_own_spool())
+        exchange_all_blobs(*parameters_.store, *options_.network); // those of an earlier run
       make(source, folder, finished);
     } catch (const cancelled&) {
       store->interrupt();
@@ -241,10 +236,15 @@ private:
   /// Whether the ranks do not see each other's spools.
   bool has_own_spool() const { return options_.network && !options_.spool.empty(); }
   /// On a rank that does not lead.
-  void start_own(const std::filesystem::path& folder, const run_identity& identity,
-                 std::optional<run_spool>& store) const {
+  void join(const std::filesystem::path& folder, const run_identity& identity, beginning begin,
+            std::optional<run_spool>& store) const {
     const auto place = spool_folder(options_);
-    store.emplace(folder, place, identity, options_.resume && spool::is_started(place), true);
+    const bool own = has_own_spool();
+    const bool resumes = !own || (options_.resume && spool::is_started(place));
+    if (begin == beginning::goes_on)
+      store.emplace(folder, place, identity, resumes, own);
+    else if (own && resumes)
+      run_spool(folder, place, identity, true, true).finish();
   }
 
   void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
