@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
+#include "paper_figures.hpp"
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/error.hpp"
@@ -7,7 +8,6 @@
 #include "dovetail/simulation/workload.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -60,30 +60,20 @@ std::string fixed(double value, int digits) {
   return text;
 }
 
-/// Table 9 of the paper (DOI 10.1016/j.advengsoft.2018.02.004), F16-IV, Algorithm 1.
-struct paper_column {
-  std::int64_t cores;
-  double seconds, decomposition, speed;
-};
-constexpr std::array<paper_column, 5> paper_table_9 = {{{32, 2648.7, 93.6, 12300},
-                                                        {64, 1365.5, 86.5, 11900},
-                                                        {128, 717.0, 75.3, 11300},
-                                                        {256, 388.4, 68.0, 10500},
-                                                        {512, 219.8, 60.2, 9200}}};
-
+/// What the paper measured of its Algorithm 1 with as many cores.
 void print_paper(const std::vector<std::int64_t>& workers) {
+  const auto& measured = paper_table("table9").at("columns");
   columns table(workers.size());
-  const auto row = [&](const char* label, double paper_column::*value, int digits) {
+  const auto row = [&](const char* label, const char* figure, int digits) {
     table.row(label, [&](std::size_t k) {
-      const auto* column = std::find_if(paper_table_9.begin(), paper_table_9.end(),
-                                        [&](const paper_column& c) { return c.cores == workers[k]; });
-      return column == paper_table_9.end() ? "-" : fixed(column->*value, digits);
+      const auto column = measured.find(std::to_string(workers[k]));
+      return column == measured.end() ? "-" : fixed(column->at(figure).get<double>(), digits);
     });
   };
   std::printf("Measured by the paper, Table 9, about 1 billion tetrahedra of an aircraft\n");
-  row("Entire scheme (s)", &paper_column::seconds, 1);
-  row("  Domain decomposition", &paper_column::decomposition, 1);
-  row("Relative speed (elements/s/core)", &paper_column::speed, 0);
+  row("Entire scheme (s)", "scheme", 1);
+  row("  Domain decomposition", "decomposition", 1);
+  row("Relative speed (elements/s/core)", "speed", 0);
 }
 
 void print(const simulate_options& options, double elements,
