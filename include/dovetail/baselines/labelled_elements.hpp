@@ -96,6 +96,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
         }
         keys[p] = tasks.take_kept(from);
       });
+  tasks.exchange(keys);
   moves.sizes.clear();
   for (const auto& [l, from] : elements_of) {
     result.labels.push_back(l);
@@ -125,7 +126,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
     all(static_cast<std::int64_t>(key.value));
   moves.key = all.key();
   result.mesh = migrate_elements<3>(mesh, sides, moves, store, tasks).mesh;
-  if (run_tasks.leads() || !store->is_shared())
+  if (run_tasks.leads() || !store->is_common())
     for (const content_key key : keys)
       store->release(key);
   return result;
