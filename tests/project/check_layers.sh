@@ -38,7 +38,7 @@ while IFS=: read -r file include; do
 done < <(find . -mindepth 2 \( -name '*.hpp' -o -name '*.ipp' \) -printf '%P\n' | sort | xargs grep -H '#include "dovetail/')
 
 # Headers of the standard library have no slash and no dot; POSIX ones are listed.
-posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
+posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|sched\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
 adapters='^(partition/(metis|scotch|ptscotch|parmetis|mpi_world|spectral)|mesher/(tetgen|gmsh|netgen|cgal)|improver/(gmsh|netgen|cgal)|geometry/(occt|discrete|builtin_models)|io/(zlib|hdf5)|sizing/json|graph/boost_graph|mesh/eigen|parallel/mpi)'
 while IFS=: read -r file include; do
   header=${include#*<}
