@@ -236,8 +236,9 @@ TEST_CASE("sizes are scaled to the number of elements asked for") {
       scale_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
   model_source scaled_source = model();
-  scale_to_elements(scaled_source, {.elements = 32'000}, policies_named({"first", "only", "good", "paper"}),
-                    {});
+  model_options wanted;
+  wanted.elements = 32'000;
+  scale_to_elements(scaled_source, wanted, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(scaled_source.size({}) == doctest::Approx(0.25));
   model_source same = model();
   scale_to_elements(same, {}, policies_named({"first", "only", "good", "paper"}), {});
