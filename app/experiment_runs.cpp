@@ -72,7 +72,8 @@ std::vector<std::string> run_maker::words_for_sizes(const experiment_run& run, d
     generate_options parameters = make_generate_options(options);
     parameters.enlarged_above = 0;
     parameters.on_progress.stop_requested = stop_was_requested;
-    const double factor = scale_for_elements<3>(source, elements, make_policies_of<3>(options), parameters);
+    const double factor =
+        scale_for_elements<3>(source, elements, make_policies_of<3>(options), parameters).factor;
     sizes_[key] = {factor, source.own_size.value_or(0)};
   }
   const auto [factor, own_size] = sizes_.at(key);

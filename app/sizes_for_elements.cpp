@@ -1,22 +1,39 @@
 #include "sizes_for_elements.hpp"
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/compose.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace dovetail::app {
 
 template <int D>
-double scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
-                          const generate_options& options) {
-  double factor = 1;
-  // The number goes with a power of the size but for gradation and walls, so a second step is close.
-  for (int step = 0; step < 2; ++step) {
-    const any_sizing size = scaled_sizes(source, factor);
-    factor *= std::pow(
-        plan_generation<D>(source.geometry, size, policies, options).predicted_elements / elements, 1.0 / D);
+size_scale scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
+                              const generate_options& options) {
+  constexpr double close = 0.03;
+  size_scale best;
+  double factor = 1, least_off = std::numeric_limits<double>::infinity();
+  // The number goes with a power of the size but for gradation and walls; what small features need it does
+  // not get below, and larger sizes may only give it worse triangles.
+  for (int step = 0; step < 4 && least_off > close; ++step) {
+    double predicted = 0;
+    try {
+      predicted = plan_generation<D>(source.geometry, scaled_sizes(source, factor), policies, options)
+                      .predicted_elements;
+    } catch (const sizing_error&) { // larger than the model, or smaller than any machine can hold
+      if (step == 0 || factor < best.factor)
+        throw;
+      break;
+    }
+    if (const double off = std::abs(std::log(predicted / elements)); off < least_off) {
+      least_off = off;
+      best = {factor, predicted};
+    }
+    factor *= std::pow(predicted / elements, 1.0 / D);
   }
-  return factor;
+  return best;
 }
 
 any_sizing scaled_sizes(const model_source& source, double factor) {
@@ -30,13 +47,19 @@ void scale_to_elements(model_source& source, const model_options& wanted, const 
     return;
   generate_options unbounded = options;
   unbounded.enlarged_above = 0;
-  source.size = scaled_sizes(source, scale_for_elements<D>(source, *wanted.elements, policies, unbounded));
+  const size_scale found = scale_for_elements<D>(source, *wanted.elements, policies, unbounded);
+  source.size = scaled_sizes(source, found.factor);
+  if (const double off = found.predicted_elements / *wanted.elements; off > 1.2 || off < 1 / 1.2)
+    source.summary.warnings.push_back("about " + number_text(*wanted.elements, 3) +
+                                      " elements were asked for, and about " +
+                                      number_text(found.predicted_elements, 3) +
+                                      " are predicted at best, since the model has small features");
 }
 
-template double scale_for_elements(const model_source&, double, const policies_of<3>&,
-                                   const generate_options&);
-template double scale_for_elements(const model_source&, double, const policies_of<2>&,
-                                   const generate_options&);
+template size_scale scale_for_elements(const model_source&, double, const policies_of<3>&,
+                                       const generate_options&);
+template size_scale scale_for_elements(const model_source&, double, const policies_of<2>&,
+                                       const generate_options&);
 template void scale_to_elements(model_source&, const model_options&, const policies_of<3>&,
                                 const generate_options&);
 template void scale_to_elements(model_source&, const model_options&, const policies_of<2>&,

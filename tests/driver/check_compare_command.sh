@@ -86,6 +86,9 @@ elements=$(column elements | head -n 1)
 ((elements > 1500 && elements < 6000)) || fault "$elements elements"
 expect_success mesh "$inputs/cube.off" --workers 1 --elements 3000 --subdomains 2 --format none --report report.json
 grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh --elements makes other than $elements elements"
+! grep -q "were asked for" "$sandbox/stdout" || fault "a warning about a number that can be had"
+expect_success mesh "$inputs/cube.off" --workers 1 --elements 2 --format none
+grep -q "about 2 elements were asked for, and about .* are predicted at best" "$sandbox/stdout" || fault "no warning"
 
 # Triangles: a plane domain and the cube's surface, the same table with columns that make sense for them.
 cat >"$inputs/square.svg" <<<'<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H10 V10 H0 Z M3 3 V6 H6 V3 Z"/></svg>'

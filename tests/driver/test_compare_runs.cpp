@@ -232,14 +232,16 @@ TEST_CASE("the background mesh is made once for each mesher, also when that fail
 }
 
 TEST_CASE("sizes are scaled to the number of elements asked for") {
-  const double scale =
+  const size_scale scale =
       scale_for_elements(model(), 32'000, policies_named({"first", "only", "good", "paper"}), {});
-  CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
+  CHECK(scale.predicted_elements == doctest::Approx(32'000));
+  CHECK(scaled_sizes(model(), scale.factor)({}) == doctest::Approx(0.25)); // 500 / 0.25^3 = 32000
   model_source scaled_source = model();
   model_options wanted;
   wanted.elements = 32'000;
   scale_to_elements(scaled_source, wanted, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(scaled_source.size({}) == doctest::Approx(0.25));
+  CHECK(scaled_source.summary.warnings.empty());
   model_source same = model();
   scale_to_elements(same, {}, policies_named({"first", "only", "good", "paper"}), {});
   CHECK(same.size({}) == model().size({}));
@@ -257,8 +259,8 @@ TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements 
   CHECK(row.coarse.faces == 7);
   CHECK(row.coarse.min_wedge == 51);
   CHECK(std::isnan(row.coarse.min_face_angle));
-  const double scale = scale_for_elements(model(), 8000, surface_policies(), {});
-  CHECK(scaled_sizes(model(), scale)({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000
+  const size_scale scale = scale_for_elements(model(), 8000, surface_policies(), {});
+  CHECK(scaled_sizes(model(), scale.factor)({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000
 }
 
 } // namespace
