@@ -103,7 +103,7 @@ run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wan
                number_text(std::round(wanted.elements), 12) + "_" +
                number_text(std::round(wanted.background), 12) + "_" + std::to_string(wanted.workers);
   for (const std::string& option : run.options)
-    place.name += "_" + option.substr(std::min(option.size(), option.find_first_not_of('-')));
+    place.name.append("_").append(option, std::min(option.size(), option.find_first_not_of('-')));
   place.folder = std::filesystem::path(options_.out) / "runs" / place.name;
   place.what =
       own ? std::vector<std::string>{options_.input} : std::vector<std::string>{"--model", run.model};
