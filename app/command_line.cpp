@@ -89,6 +89,10 @@ void add_policy_options(CLI::App& command, mesh_options& options) {
                      "Graph partitioner: " + joined(partitioner_names()));
   command.add_option("--simplifier", options.simplifier,
                      "Rule for sides that may not become interfaces: " + joined(simplifier_names()));
+  command.add_option(
+      "--wedge-angle", options.wedge_angle,
+      "Least angle that the rules paper and wedges let interfaces include, in degrees (default: 30; "
+      "with --dimension 2 between lines, 50)");
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
   command.add_option("--executor", options.executor, "Where pieces are meshed: " + joined(executor_names()));
 }
@@ -98,6 +102,9 @@ void add_run_options(CLI::App& command, mesh_options& options) {
   add_policy_options(command, options);
   command.add_option("--background-mesher", options.background_mesher,
                      "Mesher of the coarse mesh that is decomposed: " + joined(background_mesher_names()));
+  command.add_option("--background-improver", options.background_improver,
+                     "Improver of the coarse mesh: " + joined(improver_names()) +
+                         " (default: a sweep of native towards 28 degrees)");
 }
 
 void add_order_option(CLI::App& command, mesh_options& options) {

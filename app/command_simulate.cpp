@@ -76,6 +76,33 @@ void print_paper(const std::vector<std::int64_t>& workers) {
   row("Relative speed (elements/s/core)", "speed", 0);
 }
 
+/// Every stage that takes a hundredth of a second, how much of it no worker shares, and which takes longest.
+void print_stages(const std::vector<simulation::simulated_run>& runs,
+                  const std::vector<std::int64_t>& workers) {
+  constexpr double shortest = 0.01;
+  columns table(runs.size());
+  std::printf("Stages (s), and what of them is not spread over workers\n");
+  for (std::size_t s = 0; s < runs.front().stages.size(); ++s) {
+    const auto stage = [&](std::size_t k) -> const simulation::simulated_times& { return runs[k].stages[s]; };
+    const auto not_spread = [&](std::size_t k) { return stage(k).alike + stage(k).once; };
+    const auto in_any = [&](const auto& seconds) {
+      for (std::size_t k = 0; k < runs.size(); ++k)
+        if (seconds(k) >= shortest)
+          return true;
+      return false;
+    };
+    if (in_any([&](std::size_t k) { return whole(stage(k)); }))
+      table.row(stage(0).stage, [&](std::size_t k) { return fixed(whole(stage(k)), 2); });
+    if (in_any(not_spread))
+      table.row("  not spread", [&](std::size_t k) { return fixed(not_spread(k), 2); });
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const auto& most = simulation::bottleneck(runs[k]);
+    std::printf("With %lld workers %s takes longest\n", static_cast<long long>(workers[k]),
+                most.stage.c_str());
+  }
+}
+
 void print(const simulate_options& options, double elements,
            const std::vector<simulation::simulated_run>& runs) {
   const auto share = [&](std::size_t k, bool decomposition) {
@@ -103,13 +130,7 @@ void print(const simulate_options& options, double elements,
       managing += stage.managing;
     return fixed(100 * managing / runs[k].seconds, 2);
   });
-  std::printf("What takes longest\n");
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto& most = simulation::bottleneck(runs[k]);
-    std::printf("  %-38s %s: %.1f s, of which %.1f not spread over workers\n",
-                (std::to_string(options.workers[k]) + " workers").c_str(), most.stage.c_str(), whole(most),
-                most.alike + most.once);
-  }
+  print_stages(runs, options.workers);
   if (std::abs(elements / 1e9 - 1) < 0.1)
     print_paper(options.workers);
 }

@@ -17,14 +17,16 @@ struct figure {
   std::vector<summed> over = {};
 };
 
-/// A run of `dovetail mesh`, for the paper's column that is named. Of that column it has the elements and
-/// those of the background mesh, both over the scale, and the workers.
+/// A run of `dovetail mesh`. For the paper's column that is named it has that column's elements and those of
+/// the background mesh, both over the scale, and its workers; one of ours, without a table, has `elements`
+/// over the scale.
 struct experiment_run {
   std::string label; ///< in the head of the table
   std::string model; ///< built-in, with its own ambient size and grid sources, scaled
   std::string table; ///< of the paper
   std::string column;
   std::vector<std::string> options = {}; ///< more of `dovetail mesh`
+  double elements = 0;                   ///< of a run that is not for a column of the paper
 };
 
 constexpr int as_count = -1; ///< in place of digits: "12.3 k"

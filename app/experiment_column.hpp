@@ -14,7 +14,7 @@ struct wanted_run {
   double elements = 0, background = 0;
   double coarsening = 1;    ///< edge length of the background mesh over the size; 1: there is none
   std::int64_t workers = 1; ///< of the paper's column, of which the machine may have fewer
-  int subdomains = 1;
+  int subdomains = 1;       ///< 0: as many as the driver chooses
 };
 
 /// Elements and those of the background mesh in the paper's proportion. Ten subdomains per worker as in the

@@ -59,8 +59,13 @@ std::vector<result_column> columns_of(const experiment_result& result) {
   std::vector<result_column> columns;
   for (std::size_t k = 0; k < result.runs.size(); ++k) {
     const run_result& run = result.runs[k];
+    const bool failed = run.measured.is_null();
+    if (run.run->table.empty()) {
+      columns.push_back({k, &row_values::measured, run.run->label + (failed ? ": failed" : "")});
+      continue;
+    }
     columns.push_back({k, &row_values::paper, run.run->label + ": paper"});
-    columns.push_back({k, &row_values::measured, run.measured.is_null() ? "failed" : "measured"});
+    columns.push_back({k, &row_values::measured, failed ? "failed" : "measured"});
     if (!run.simulated.is_null())
       columns.push_back({k, &row_values::simulated, "simulated"});
   }
@@ -111,6 +116,8 @@ std::string markdown_table(const experiment_result& result) {
 std::vector<std::string> places_in_paper(const experiment& what) {
   std::vector<std::string> places;
   for (const experiment_run& run : what.runs) {
+    if (run.table.empty())
+      continue;
     const auto place = paper_table(run.table).at("place").get<std::string>();
     if (std::find(places.begin(), places.end(), place) == places.end())
       places.push_back(place);
@@ -140,8 +147,10 @@ double value_of(const figure& wanted, const json& document) {
 row_values values_of(const experiment_row& row, const experiment_result& result) {
   row_values values;
   for (const run_result& run : result.runs) {
+    const bool of_paper = !run.run->table.empty();
     values.paper.push_back(
-        value_of(row.paper, paper_table(run.run->table).at("columns").at(run.run->column)));
+        of_paper ? value_of(row.paper, paper_table(run.run->table).at("columns").at(run.run->column))
+                 : nothing);
     values.measured.push_back(value_of(row.ours, run.measured));
     values.simulated.push_back(value_of(row.ours, run.simulated));
   }
@@ -152,13 +161,15 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
 }
 
 std::string markdown_text(const experiment_result& result) {
-  std::string text = "## " + result.what->title + "\n\n`" + result.origin.at("command").get<std::string>() +
-                     "`: the paper's ";
+  std::string text =
+      "## " + result.what->title + "\n\n`" + result.origin.at("command").get<std::string>() + '`';
   const auto places = places_in_paper(*result.what);
   for (std::size_t k = 0; k < places.size(); ++k)
-    text += (k == 0 ? "" : "; ") + places[k];
-  text += ". Elements are the paper's over " + number_text(result.origin.at("scale").get<double>()) +
-          ".\n\n" + markdown_table(result) + '\n';
+    text += (k == 0 ? ": the paper's " : "; ") + places[k];
+  text += ". Elements are ";
+  text += places.empty() ? "those of the experiment" : "the paper's";
+  text += " over " + number_text(result.origin.at("scale").get<double>()) + ".\n\n" + markdown_table(result) +
+          '\n';
   for (const std::string& note : result.what->notes)
     text += "- " + note + '\n';
   text += "\nThe runs, one by one:\n\n";

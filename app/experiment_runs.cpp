@@ -107,8 +107,10 @@ run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wan
   place.folder = std::filesystem::path(options_.out) / "runs" / place.name;
   place.what =
       own ? std::vector<std::string>{options_.input} : std::vector<std::string>{"--model", run.model};
-  place.how = {"--subdomains", std::to_string(wanted.subdomains), "--workers",
-               std::to_string(std::min<std::int64_t>(wanted.workers, workers_))};
+  if (wanted.subdomains > 0)
+    place.how = {"--subdomains", std::to_string(wanted.subdomains)};
+  place.how.insert(place.how.end(),
+                   {"--workers", std::to_string(std::min<std::int64_t>(wanted.workers, workers_))});
   if (wanted.coarsening > 1)
     place.how.insert(place.how.end(), {"--coarsening", number_text(wanted.coarsening)});
   place.how.insert(place.how.end(), run.options.begin(), run.options.end());
@@ -158,7 +160,10 @@ void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, r
 }
 
 run_result run_maker::make(const experiment_run& run) {
-  const wanted_run wanted = run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
+  const wanted_run wanted =
+      run.table.empty()
+          ? wanted_run{.elements = run.elements / options_.scale, .workers = workers_, .subdomains = 0}
+          : run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
   const place_of_run place = place_of(run, wanted);
   run_result result{.run = &run, .measured = read_json(place.file("report.json"))};
   result.record = read_json(place.file("run.json"));

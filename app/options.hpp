@@ -37,9 +37,11 @@ struct mesh_options {
   std::string mesher;
   std::string partitioner;
   std::string simplifier;
+  std::optional<double> wedge_angle; ///< of the simplifier, degrees; none: its own
   std::string improver;
   std::string executor;
   std::string background_mesher;
+  std::string background_improver; ///< empty: the library's own
   std::string surface_mesher;
   std::string out = "out";
   std::vector<std::string> formats;

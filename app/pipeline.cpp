@@ -9,6 +9,8 @@ any_parameters<D> composed(const policies_of<D>& policies, const generate_option
   any_parameters<D> given(policies.mesher, policies.partitioner, policies.improver, policies.executor,
                           options, policies.simplifier);
   given.mesh_surface = policies.surface_mesher;
+  if (policies.background_improver)
+    given.improve_background = policies.background_improver;
   return given;
 }
 

@@ -17,6 +17,7 @@ struct policies_of {
   any_line_keeping_mesher background_mesher = {}; ///< of D = 3
   any_simplification_rule simplifier = simplifier::paper{};
   any_surface_mesher surface_mesher = {};
+  any_improver<3> background_improver = {}; ///< the library's own where there is none
 };
 
 /// The library's parameters with these policies; a background mesher is not among them.

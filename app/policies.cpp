@@ -5,6 +5,7 @@
 
 #include "dovetail/baselines/ito_improvement.hpp"
 #include "dovetail/baselines/loehner_improvement.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/tetgen.hpp"
@@ -164,8 +165,25 @@ std::vector<std::string> builtin_model_names() {
 any_partitioner make_partitioner(const std::string& name) {
   return chosen(partitioners(), name, "--partitioner");
 }
-any_simplification_rule make_simplifier(const std::string& name) {
-  return chosen(simplifiers(), name, "--simplifier");
+any_simplification_rule make_simplifier(const std::string& name, std::optional<double> wedge_angle,
+                                        int dimension) {
+  const any_simplification_rule known = chosen(simplifiers(), name, "--simplifier");
+  if (!wedge_angle)
+    return known;
+  const double angle = *wedge_angle;
+  if (!(angle >= 0 && angle <= 90))
+    throw command_line_error("--wedge-angle: " + number_text(angle) + " is not between 0 and 90 degrees");
+  const std::string called = known.name() + " at " + number_text(angle) + " degrees";
+  if (known.name() == "paper")
+    return {dimension == 2 ? simplifier::paper{.surface_wedge_deg = angle}
+                           : simplifier::paper{.volume_wedge_deg = angle},
+            called};
+  if (known.name() == "wedges")
+    return {dimension == 2 ? simplifier::wedges_only{.surface_deg = angle}
+                           : simplifier::wedges_only{.volume_deg = angle},
+            called};
+  throw command_line_error("--wedge-angle: it is for the simplifiers paper and wedges, not for " +
+                           known.name());
 }
 template <>
 any_mesher<3> make_mesher<3>(const std::string& name) {
@@ -185,6 +203,9 @@ any_improver<2> make_improver<2>(const std::string& name, const std::string& opt
 }
 improving_strategy make_improving_strategy(const std::string& name) {
   return chosen(improving_strategies(), name, "--improve-again").improve;
+}
+any_improver<3> make_background_improver(const std::string& name) {
+  return name.empty() ? any_improver<3>{} : make_improver<3>(name, "--background-improver");
 }
 any_line_keeping_mesher make_background_mesher(const std::string& name) {
   return chosen(background_meshers(), name, "--background-mesher");

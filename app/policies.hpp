@@ -34,7 +34,10 @@ std::vector<std::string> builtin_model_names();
 /// Each throws `command_line_error` listing the names when there is none such. An empty name means the
 /// default.
 any_partitioner make_partitioner(const std::string& name);
-any_simplification_rule make_simplifier(const std::string& name);
+/// Another angle than the rule's own: the least between interfaces, for D = 2 between lines. Also thrown
+/// where the rule has none.
+any_simplification_rule make_simplifier(const std::string& name, std::optional<double> wedge_angle = {},
+                                        int dimension = 3);
 /// These two are named alike in both dimensions; also thrown for an improver that does not take elements of
 /// D.
 template <int D>
@@ -44,6 +47,8 @@ any_improver<D> make_improver(const std::string& name, const std::string& option
 improving_strategy make_improving_strategy(const std::string& name);
 any_surface_mesher make_surface_mesher(const std::string& name);
 any_line_keeping_mesher make_background_mesher(const std::string& name);
+/// Holds nothing for an empty name.
+any_improver<3> make_background_improver(const std::string& name);
 
 /// `workers`: 0 for as many as the machine has processors. Throws `command_line_error` also when a mesher of
 /// these traits cannot run in this executor.

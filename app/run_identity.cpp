@@ -97,9 +97,12 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("mesher", options.dimension == 3 ? make_mesher<3>(options.mesher).name()
                                                          : make_mesher<2>(options.mesher).name());
   identity.emplace_back("background mesher", make_background_mesher(options.background_mesher).name());
+  identity.emplace_back("background improver",
+                        options.background_improver.empty() ? "default" : options.background_improver);
   identity.emplace_back("surface mesher", make_surface_mesher(options.surface_mesher).name());
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
-  identity.emplace_back("simplifier", make_simplifier(options.simplifier).name());
+  identity.emplace_back("simplifier",
+                        make_simplifier(options.simplifier, options.wedge_angle, options.dimension).name());
   identity.emplace_back("improver", make_improver<3>(options.improver).name());
   return identity;
 }

@@ -17,16 +17,22 @@ policies_of<D> make_policies_of(const mesh_options& options) {
   if (D == 2 && background_mesher)
     throw command_line_error(
         "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
+  if (D == 2 && !options.background_improver.empty())
+    throw command_line_error("--background-improver: with --dimension 2 there is no volume to improve");
   auto mesher = make_mesher<D>(options.mesher);
   auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits(),
                                 options.network);
   auto surface_mesher = make_surface_mesher(options.surface_mesher);
   if (D == 2 && !options.surface_mesher.empty())
     throw command_line_error("--surface-mesher: with --dimension 2 the mesher of triangles is --mesher");
-  return {
-      std::move(mesher),        make_partitioner(options.partitioner), make_improver<D>(options.improver),
-      std::move(executor),      std::move(background_mesher),          make_simplifier(options.simplifier),
-      std::move(surface_mesher)};
+  return {std::move(mesher),
+          make_partitioner(options.partitioner),
+          make_improver<D>(options.improver),
+          std::move(executor),
+          std::move(background_mesher),
+          make_simplifier(options.simplifier, options.wedge_angle, D),
+          std::move(surface_mesher),
+          make_background_improver(options.background_improver)};
 }
 
 template policies_of<2> make_policies_of<2>(const mesh_options&);

@@ -81,6 +81,22 @@ inline const std::string no_repartitioning =
     "it "
     "was meshed, in the same task, and the two share the time of a task as the workers spent it.";
 
+/// What the simplification is for, before and after remeshing, and what is left of it in the elements.
+inline std::vector<experiment_row> interface_rows() {
+  const auto small = [](const std::string& of) {
+    return summed{of + "/forced", of + "/refused", of + "/remeshing"};
+  };
+  return {subdomains_row(),
+          {"Least angle between coarse interfaces", "degrees", 1, {}, {{"/interfaces/coarse/min_wedge_deg"}}},
+          {"Coarse angles under 30 degrees", "", 0, {}, {small("/interfaces/coarse")}},
+          {"Least angle between interfaces", "degrees", 1, {}, {{"/interfaces/min_wedge_deg"}}},
+          {"Angles under 30 degrees", "", 0, {}, {small("/interfaces")}},
+          {"Smallest dihedral angle", "degrees", 1, {}, {{"/quality/min_dihedral_deg"}}},
+          {"Bad, per million", "", 1, {}, {{"/quality/bad_per_million"}}},
+          {"Low quality, per million", "", 1, {}, {{"/quality/low_per_million"}}},
+          scheme_row()};
+}
+
 /// Runs for columns of one of the paper's tables, on a model.
 inline std::vector<experiment_run> runs_of(const std::string& table, const std::string& model,
                                            const std::vector<std::string>& columns) {
