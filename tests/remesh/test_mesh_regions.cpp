@@ -70,7 +70,7 @@ struct meshed_set {
   std::vector<patch_mesh> meshes;
 
   meshed_set(listed_regions given, const any_surface_mesher& mesher, const any_executor& run, int chords,
-             batched_entities& store)
+             region_store& store)
       : list(std::move(given)), set(list.set()),
         result(mesh_regions(model, set, mesher, coarse, run, store, {.attempts = {.chords = chords}})),
         meshes(set.count) {
@@ -87,8 +87,8 @@ struct meshed_set {
   }
 };
 
-batched_entities empty_store() {
-  return batched_entities(std::make_shared<entity_store>());
+region_store empty_store() {
+  return region_store(std::make_shared<entity_store>());
 }
 
 meshed_set mesh_all(listed_regions set, const any_surface_mesher& mesher = {},
@@ -233,9 +233,9 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
 TEST_CASE("a mesh is made once for the same region, and again for another") {
   auto store = empty_store();
   const auto made_with = [&](listed_regions set) {
-    const std::size_t before = store.made();
+    const std::size_t before = store.meshes.made();
     meshed_set(std::move(set), any_surface_mesher(), parallel::serial{}, 0, store);
-    return store.made() - before;
+    return store.meshes.made() - before;
   };
   listed_regions set = cushion(); // two alike
   CHECK(made_with(set) == 2);

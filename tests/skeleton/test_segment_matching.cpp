@@ -28,7 +28,8 @@ struct two_faces {
 
   remeshed_skeleton remesh(double least_angle_deg) {
     const auto store = std::make_shared<entity_store>();
-    batched_entities made_lines(store), made_patches(store);
+    batched_entities made_lines(store);
+    region_store made_patches(store);
     const refined_sizing size(unit_size);
     numbered_lines lines;
     const auto fill = [&] {

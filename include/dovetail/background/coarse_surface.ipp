@@ -276,7 +276,7 @@ private:
   curve_points curves_;
   std::vector<surface_region> regions_; ///< the faces
   region_set faces_{.count = 0, .build = [this](std::size_t f) { return regions_[f]; }, .surface_of = {}};
-  batched_entities store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
+  region_store store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces
   std::vector<intervals> origins_; ///< of the segments of each face

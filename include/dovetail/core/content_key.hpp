@@ -22,6 +22,11 @@ struct content_key {
   friend auto operator<=>(const content_key&, const content_key&) = default;
 };
 
+/// For containers: a key is a hash already.
+struct content_key_hash {
+  std::size_t operator()(content_key key) const { return static_cast<std::size_t>(key.value); }
+};
+
 /// As 16 hexadecimal digits.
 inline std::string to_string(content_key key) {
   constexpr const char* digits = "0123456789abcdef";

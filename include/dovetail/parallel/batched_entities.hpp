@@ -13,11 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -72,7 +72,7 @@ public:
       std::size_t uses = 0;
       std::vector<byte_buffer> members;
     };
-    std::map<content_key, open_batch> open;
+    std::unordered_map<content_key, open_batch, content_key_hash> open;
     for (const content_key key : keys)
       ++open[places_.at(key).batch].uses;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -190,7 +190,7 @@ private:
   }
 
   std::shared_ptr<entity_store> store_;
-  std::map<content_key, place> places_;
+  std::unordered_map<content_key, place, content_key_hash> places_;
   std::size_t made_ = 0;
 };
 

@@ -9,10 +9,10 @@
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -76,7 +76,7 @@ private:
 
   std::optional<spool> disk_;
   std::string kind_ = "piece";
-  std::map<content_key, byte_buffer> memory_;
+  std::unordered_map<content_key, byte_buffer, content_key_hash> memory_;
 };
 
 } // namespace dovetail

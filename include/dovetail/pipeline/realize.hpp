@@ -32,7 +32,7 @@ struct skeleton_store {
       : lines(store), patches(store), segments(store) {}
 
   batched_entities lines;
-  batched_entities patches;
+  region_store patches;
   batched_entities segments;              ///< of lines, per interface face
   std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
 };

@@ -68,7 +68,7 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
                                       const std::vector<local_id>& subdomain_of_element,
                                       const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<3>& given) {
-  const std::size_t lines_before = made.lines.made(), patches_before = made.patches.made();
+  const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
   auto result = realize_lines<3>(model, mesh.surface, mesh.volume.points,
                                  induced_subdomains(mesh, sides, subdomain_of_element),
                                  interface_faces(mesh, sides, subdomain_of_element), size, made, given);
@@ -106,7 +106,7 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   append(result.summary.warnings, remeshed.summary.warnings);
   append(result.summary.children, remeshed.summary.children);
   result.summary.set("lines_made", static_cast<double>(made.lines.made() - lines_before));
-  result.summary.set("patches_made", static_cast<double>(made.patches.made() - patches_before));
+  result.summary.set("patches_made", static_cast<double>(made.patches.meshes.made() - patches_before));
   return result;
 }
 

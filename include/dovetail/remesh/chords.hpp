@@ -23,6 +23,12 @@ public:
   using label_pair = std::array<local_id, 2>; ///< the smaller first
 
   explicit chord_finder(const patch_boundary& boundary) : chord_finder(boundary.labels, boundary.segments) {}
+  chord_finder(std::vector<local_id> labels, std::span<const simplex<1>> segments)
+      : labels_(std::move(labels)) {
+    for (const auto& [a, b] : segments)
+      segments_.push_back(labels_of(a, b));
+    sort_all(segments_);
+  }
   /// Points that are their own labels.
   chord_finder(std::size_t boundary_points, std::span<const simplex<1>> segments)
       : chord_finder(counted(boundary_points), segments) {}
@@ -48,13 +54,18 @@ public:
           visit(t, *chord);
   }
 
-private:
-  chord_finder(std::vector<local_id> labels, std::span<const simplex<1>> segments)
-      : labels_(std::move(labels)) {
-    for (const auto& [a, b] : segments)
-      segments_.push_back(labels_of(a, b));
-    sort_all(segments_);
+  /// The chords by their points, sorted, each once.
+  std::vector<simplex<1>> all(std::span<const simplex<2>> triangles) const {
+    std::vector<simplex<1>> chords;
+    for (const simplex<2>& triangle : triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        if ((*this)(triangle[k], triangle[(k + 1) % 3]))
+          chords.push_back(sorted_vertices(simplex<1>{triangle[k], triangle[(k + 1) % 3]}));
+    sort_unique(chords);
+    return chords;
   }
+
+private:
   static std::vector<local_id> counted(std::size_t points) {
     std::vector<local_id> labels(points);
     std::iota(labels.begin(), labels.end(), 0);

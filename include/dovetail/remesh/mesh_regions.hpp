@@ -7,6 +7,7 @@
 /// edges is split, and the result is checked. What is wrong after that is handed back as data.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
@@ -21,7 +22,10 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -68,22 +72,42 @@ struct region_set {
   }
 };
 
+/// Meshes of regions by their keys, and what is asked of them so often that it is not read from them again.
+struct region_store {
+  struct known_mesh {
+    std::size_t inner_points = 0, triangles = 0;
+    std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
+  };
+
+  batched_entities meshes;
+  std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
+
+  explicit region_store(std::shared_ptr<entity_store> store) : meshes(std::move(store)) {}
+};
+
 /// Meshes of a `region_set`, in a store.
 struct meshed_regions {
   std::vector<content_key> keys = {};               ///< of the meshes
   std::map<std::size_t, std::string> failures = {}; ///< the regions without a mesh, and why
+  compressed_rows<local_id> labels = {};            ///< of each region's boundary points
 
   /// Calls `use(region, mesh)` for each mesh in turn; only a few are in memory.
   template <class Use>
-  void for_each(const batched_entities& store, const Use& use) const {
+  void for_each(const region_store& store, const Use& use) const {
+    for_each(
+        store, [](std::size_t) { return true; }, use);
+  }
+  /// The same for the regions that are `wanted(region)`.
+  template <class Wanted, class Use>
+  void for_each(const region_store& store, const Wanted& wanted, const Use& use) const {
     std::vector<std::size_t> regions;
     std::vector<content_key> there;
     for (std::size_t r = 0; r < keys.size(); ++r)
-      if (!failures.contains(r)) {
+      if (!failures.contains(r) && wanted(r)) {
         regions.push_back(r);
         there.push_back(keys[r]);
       }
-    store.for_each(
+    store.meshes.for_each(
         there, [&](std::size_t i, const byte_buffer& bytes) { use(regions[i], decode_patch_mesh(bytes)); });
   }
 };
@@ -105,33 +129,45 @@ struct mesh_regions_options {
 /// region that fails keeps none of the others from being made. Throws `usage_error` when the mesher may not
 /// run in the threads of `run`.
 meshed_regions mesh_regions(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
-                            const refined_sizing& size, const any_executor& run, batched_entities& store,
+                            const refined_sizing& size, const any_executor& run, region_store& store,
                             const mesh_regions_options& options);
 
-/// Appends a region's own points to `points`, and calls `visit(triangle, uv)` for its triangles: oriented
-/// along the face, named by labels and by the places in `points`, with the parameters of their corners where
-/// the mesh has them.
+/// Appends a region's own points to `points`, and calls `visit(triangle, own)` for its triangles: oriented
+/// along the face, named by labels and by the places in `points`, and as they are named within the region.
+template <class Visit>
+void append_triangles(std::span<const local_id> labels, bool reversed, const patch_mesh& made,
+                      std::vector<vec3>& points, const Visit& visit) {
+  const std::size_t frozen = labels.size();
+  const std::size_t first_inner = points.size();
+  append(points, made.inner_points);
+  for (simplex<2> own : made.triangles) {
+    if (reversed)
+      std::swap(own[1], own[2]);
+    simplex<2> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(own[k]);
+      triangle[k] = v < frozen ? labels[v] : static_cast<local_id>(first_inner + v - frozen);
+    }
+    visit(triangle, own);
+  }
+}
+
+/// The same for `visit(triangle, uv)`, with the parameters of the corners where the mesh has them.
 template <class Visit>
 void append_region(const surface_region& region, const patch_mesh& made, std::vector<vec3>& points,
                    const Visit& visit) {
   const patch_boundary& boundary = region.boundary;
   const std::size_t frozen = boundary.labels.size();
-  const std::size_t first_inner = points.size();
-  append(points, made.inner_points);
-  for (simplex<2> triangle : made.triangles) {
-    if (region.reversed)
-      std::swap(triangle[1], triangle[2]);
-    std::array<vec2, 3> uv{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(triangle[k]);
-      if (v < frozen)
-        uv[k] = boundary.uv[v];
-      else if (!made.inner_uv.empty())
-        uv[k] = made.inner_uv[v - frozen];
-      triangle[k] = v < frozen ? boundary.labels[v] : static_cast<local_id>(first_inner + v - frozen);
-    }
-    visit(triangle, uv);
-  }
+  append_triangles(boundary.labels, region.reversed, made, points,
+                   [&](const simplex<2>& triangle, const simplex<2>& own) {
+                     std::array<vec2, 3> uv{};
+                     for (std::size_t k = 0; k < 3; ++k)
+                       if (const auto v = static_cast<std::size_t>(own[k]); v < frozen)
+                         uv[k] = boundary.uv[v];
+                       else if (!made.inner_uv.empty())
+                         uv[k] = made.inner_uv[v - frozen];
+                     visit(triangle, uv);
+                   });
 }
 
 } // namespace dovetail

@@ -7,6 +7,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
 #include "dovetail/parallel/task_model.hpp"
+#include "dovetail/remesh/chords.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/unwanted_chords.hpp"
@@ -115,13 +116,15 @@ inline void check_region(const any_surface_mesher& mesher, const patch_boundary&
 class region_making {
 public:
   region_making(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
-                const refined_sizing& size, const any_executor& run, batched_entities& store,
+                const refined_sizing& size, const any_executor& run, region_store& store,
                 const mesh_regions_options& options)
       : model_(model), set_(set), mesher_(mesher), size_(size), run_(run), store_(store), options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = set.region(r);
       const auto segments = static_cast<double>(region.boundary.segments.size());
       result_.keys.push_back(key_of(r, region));
+      append_row(result_.labels, region.boundary.labels);
+      append_row(segments_, region.boundary.segments);
       costs_.push_back(segments +
                        segments * segments / 5.4); // the triangles in a disk with so many around it
     }
@@ -135,6 +138,12 @@ public:
   }
 
 private:
+  template <class Item>
+  static void append_row(compressed_rows<Item>& rows, const std::vector<Item>& row) {
+    append(rows.items, row);
+    rows.begins.push_back(rows.items.size());
+  }
+
   box3 place(const any_geometry& model, std::size_t r, const patch_boundary& boundary) const {
     return size_.is_refined() ? place_of(boundary, set_.surface_of(model, r)) : box3{};
   }
@@ -173,7 +182,7 @@ private:
     std::vector<content_key> keys;
     for (const std::size_t r : regions)
       keys.push_back(result_.keys[r]);
-    const auto failures = store_.make_missing(
+    const auto failures = store_.meshes.make_missing(
         keys, costs, options_.triangles_per_task,
         [&](const std::vector<std::size_t>& wanted) {
           const task_model own(model_, run_);
@@ -185,6 +194,19 @@ private:
         run_, run_options{.on_progress = options_.on_progress, .stage = options_.stage});
     for (const entity_failure& failure : failures)
       result_.failures[regions[failure.entity]] = failure.reason;
+    note_meshes();
+  }
+
+  /// Reads the meshes that were not read before.
+  void note_meshes() {
+    result_.for_each(
+        store_, [&](std::size_t r) { return !store_.known.contains(result_.keys[r]); },
+        [&](std::size_t r, const patch_mesh& mesh) {
+          const auto labels = std::as_const(result_.labels)[r];
+          store_.known[result_.keys[r]] = {
+              mesh.inner_points.size(), mesh.triangles.size(),
+              chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
+        });
   }
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
@@ -206,22 +228,22 @@ private:
   /// Forbids each chord to all regions that have it but the first, and to all of them where a segment joins
   /// the same labels; false when there is nothing to do.
   bool forbid_shared_chords() {
-    std::vector<simplex<1>> lines;
-    std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region
-    const auto add_lines = [&](const patch_boundary& boundary) {
-      for (const auto& [a, b] : boundary.segments)
-        lines.push_back(sorted_vertices(simplex<1>{boundary.labels[static_cast<std::size_t>(a)],
-                                                   boundary.labels[static_cast<std::size_t>(b)]}));
+    const auto labelled = [this](std::size_t r, const simplex<1>& edge) {
+      const auto labels = std::as_const(result_.labels)[r];
+      return sorted_vertices(
+          simplex<1>{labels[static_cast<std::size_t>(edge[0])], labels[static_cast<std::size_t>(edge[1])]});
     };
-    for (const auto& [r, reason] : result_.failures)
-      add_lines(set_.build(r).boundary);
-    result_.for_each(store_, [&](std::size_t r, const patch_mesh& mesh) {
-      const surface_region region = set_.build(r);
-      add_lines(region.boundary);
-      chord_finder(region.boundary).for_each(mesh.triangles, [&](std::size_t, const simplex<1>& chord) {
-        chords.emplace_back(chord, r);
-      });
-    });
+    std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region
+    for (std::size_t r = 0; r < set_.count; ++r)
+      if (!result_.failures.contains(r))
+        for (const simplex<1>& chord : store_.known.at(result_.keys[r]).chords)
+          chords.emplace_back(labelled(r, chord), r);
+    if (chords.empty())
+      return false;
+    std::vector<simplex<1>> lines;
+    for (std::size_t r = 0; r < set_.count; ++r)
+      for (const simplex<1>& segment : std::as_const(segments_)[r])
+        lines.push_back(labelled(r, segment));
     sort_unique(lines);
     sort_unique(chords);
     std::set<std::size_t> changed;
@@ -250,9 +272,10 @@ private:
   const any_surface_mesher& mesher_;
   const refined_sizing& size_;
   const any_executor& run_;
-  batched_entities& store_;
+  region_store& store_;
   const mesh_regions_options& options_;
   std::vector<double> costs_;
+  compressed_rows<simplex<1>> segments_; ///< of each region's boundary
   meshed_regions result_;
 };
 
@@ -277,7 +300,7 @@ DOVETAIL_INLINE patch_mesh mesh_region(const any_surface_mesher& mesher, const a
 
 DOVETAIL_INLINE meshed_regions mesh_regions(const any_geometry& model, region_set& set,
                                             const any_surface_mesher& mesher, const refined_sizing& size,
-                                            const any_executor& run, batched_entities& store,
+                                            const any_executor& run, region_store& store,
                                             const mesh_regions_options& options) {
   if (runs_in_threads(run) && !mesher.may_run_in_threads())
     throw usage_error(

@@ -5,7 +5,6 @@
 
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/skeleton/patches.hpp"
@@ -49,7 +48,7 @@ remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh&
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
                                   const numbered_lines& lines, const refined_sizing& size,
                                   const any_surface_mesher& mesher, const any_executor& run,
-                                  batched_entities& made, const progress& on_progress = {});
+                                  region_store& made, const progress& on_progress = {});
 
 } // namespace dovetail
 

@@ -21,18 +21,18 @@ public:
   skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
                     std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
                     const numbered_lines& lines, const refined_sizing& size, const any_surface_mesher& mesher,
-                    const any_executor& run, batched_entities& made, const progress& on_progress)
+                    const any_executor& run, region_store& made, const progress& on_progress)
       : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), lines_(lines),
         size_(size), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
 
   remeshed_skeleton run() {
-    const std::size_t made_before = store_.made();
+    const std::size_t made_before = store_.meshes.made();
     mesh_patches();
     remeshed_skeleton result = assemble();
     result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
     result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
     result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("patches_made", static_cast<double>(store_.made() - made_before));
+    result.summary.set("patches_made", static_cast<double>(store_.meshes.made() - made_before));
     return result;
   }
 
@@ -51,13 +51,15 @@ private:
   surface_region region(std::size_t p) const {
     surface_region built;
     built.boundary = patch(p).boundary;
-    if (is_region(p)) {
+    if (is_region(p))
       built.face = skeleton_.regions[p].cad_face;
-      built.reversed = model_.topology().faces[at(built.face)].reversed;
-    } else {
-      built.reversed = !same_turn(key_order(face_of(p)), face_of(p).vertices);
-    }
+    built.reversed = is_reversed(p);
     return built;
+  }
+
+  bool is_reversed(std::size_t p) const {
+    return is_region(p) ? model_.topology().faces[at(skeleton_.regions[p].cad_face)].reversed
+                        : !same_turn(key_order(face_of(p)), face_of(p).vertices);
   }
 
   region_set patches() const {
@@ -124,10 +126,11 @@ private:
   /// Exactly: what grows by doubling holds up to twice as much, and both copies as it grows.
   void reserve(fine_skeleton& fine) const {
     std::size_t points = lines_.points.size(), triangles = 0;
-    meshed_.for_each(store_, [&](std::size_t, const patch_mesh& mesh) {
-      points += mesh.inner_points.size();
-      triangles += mesh.triangles.size();
-    });
+    for (const content_key key : meshed_.keys) {
+      const region_store::known_mesh& mesh = store_.known.at(key);
+      points += mesh.inner_points;
+      triangles += mesh.triangles;
+    }
     fine.points.reserve(points);
     fine.point_hosts.reserve(points);
     fine.sides.reserve(triangles);
@@ -178,14 +181,15 @@ private:
     const bool bounds_nothing_behind = subdomains[0] == no_id;
     if (bounds_nothing_behind)
       std::swap(subdomains[0], subdomains[1]);
-    const surface_region patched = region(p);
-    append_region(patched, mesh, fine.points, [&](simplex<2> triangle, const std::array<vec2, 3>&) {
-      if (bounds_nothing_behind)
-        std::swap(triangle[1], triangle[2]);
-      fine.sides.push_back(triangle);
-      fine.subdomains.push_back(subdomains);
-      fine.side_hosts.push_back(patched.face);
-    });
+    const local_id face = is_region(p) ? skeleton_.regions[p].cad_face : no_id;
+    append_triangles(meshed_.labels[p], is_reversed(p), mesh, fine.points,
+                     [&](simplex<2> triangle, const simplex<2>&) {
+                       if (bounds_nothing_behind)
+                         std::swap(triangle[1], triangle[2]);
+                       fine.sides.push_back(triangle);
+                       fine.subdomains.push_back(subdomains);
+                       fine.side_hosts.push_back(face);
+                     });
     fine.point_hosts.resize(fine.points.size(),
                             is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
   }
@@ -206,7 +210,7 @@ private:
   const refined_sizing& size_;
   const any_surface_mesher& mesher_;
   const any_executor& run_;
-  batched_entities& store_;
+  region_store& store_;
   const progress& on_progress_;
   meshed_regions meshed_;
 };
@@ -218,7 +222,7 @@ DOVETAIL_INLINE remeshed_skeleton remesh_skeleton(const any_geometry& model, con
                                                   const coarse_skeleton& skeleton,
                                                   const numbered_lines& lines, const refined_sizing& size,
                                                   const any_surface_mesher& mesher, const any_executor& run,
-                                                  batched_entities& made, const progress& on_progress) {
+                                                  region_store& made, const progress& on_progress) {
   return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher, run, made,
                                    on_progress)
       .run();
