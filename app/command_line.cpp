@@ -132,7 +132,8 @@ void add_output_options(CLI::App& command, mesh_options& options) {
                        joined(improving_strategy_names()));
   command.add_flag("--ghosts", options.ghosts,
                    "Each rank also has the elements of others that touch its own (pvtu, vtkhdf, msh-ranks)");
-  command.add_option("--files", options.files, "Number of VTU files (0, the default: one per subdomain)");
+  command.add_option("--files", options.files,
+                     "Number of VTU or HDF5 files (0, the default: one per subdomain)");
   add_order_option(command, options);
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_option("--trace", options.trace,

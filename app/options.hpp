@@ -47,7 +47,7 @@ struct mesh_options {
   std::vector<std::string> formats;
   std::string report;
   std::string trace;        ///< file for what ran when and where; empty: none
-  int files = 0;            ///< number of VTU files; 0: one per subdomain
+  int files = 0;            ///< number of VTU or HDF5 files; 0: one per subdomain
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
   std::string

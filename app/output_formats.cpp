@@ -16,6 +16,7 @@
 
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
 #include "dovetail/io/hdf5_format.hpp"
+#include "dovetail/io/hdf5_pieces.hpp"
 #endif
 
 #include <algorithm>
@@ -45,11 +46,15 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
                                             const any_redistributor<D>& redistribute) {
   const double msh_bytes = options.order == 2 ? (D == 3 ? 140 : 130) : D == 3 ? 48 : 45;
   const double vtu_bytes = options.order == 2 ? 110 : D == 3 ? 50 : 45;
+  [[maybe_unused]] const double hdf5_bytes = options.order == 2 ? 80 : D == 3 ? 24 : 25;
   std::vector<output_format<D>> known;
   known.push_back({"vtu", vtu_bytes, io::vtu_writer{.files = options.files}});
   known.push_back({"msh", msh_bytes, io::msh_writer{}});
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
+#ifdef DOVETAIL_DRIVER_WITH_HDF5
+  known.push_back({"hdf5", hdf5_bytes, io::hdf5_writer{.files = options.files}});
+#endif
   const auto add_by_ranks = [&](double bytes_per_element, auto format) {
     const io::rank_writer<decltype(format), any_redistributor<D>> writer{options.ranks.value_or(1), format,
                                                                          redistribute, options.ghosts};

@@ -135,9 +135,9 @@ public:
           !std::filesystem::is_directory(std::filesystem::symlink_status(of_format, ignored)))
         continue;
       for (const auto& file : entries_of(of_format))
-        if (const auto ending = file.extension(); ending == ".part" || ending == ".vtu" || ending == ".vtp" ||
-                                                  ending == ".pvtu" || ending == ".msh_piece" ||
-                                                  ending == ".rank_file")
+        if (const auto ending = file.extension();
+            ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu" ||
+            ending == ".msh_piece" || ending == ".vtkhdf" || ending == ".xdmf" || ending == ".rank_file")
           std::filesystem::remove(file, ignored);
       remove_empty_folder(of_format);
     }

@@ -70,6 +70,15 @@ void append_computed(output_file& file, std::uint64_t count, Function at) {
     file.value<T>(at(i));
 }
 
+/// VTK's number of a type of elements.
+inline std::uint8_t vtk_cell_type(int dimension, bool second_order) {
+  if (dimension == 1)
+    return 3;
+  if (second_order)
+    return dimension == 3 ? 24 : 22;
+  return dimension == 3 ? 10 : 5;
+}
+
 /// The text between the opening of a VTK XML file and its data.
 inline std::string vtk_xml_opening(const std::string& kind) {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +

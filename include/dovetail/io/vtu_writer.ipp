@@ -7,8 +7,10 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/global_numbering.hpp"
+#include "dovetail/io/numbered_files.hpp"
 #include "dovetail/io/piecewise_output.hpp"
 #include "dovetail/io/skeleton_index.hpp"
+#include "dovetail/io/skeleton_nodes.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
 #include "dovetail/io/vtp_output.hpp"
 #include "dovetail/io/vtu_writer.hpp"
@@ -36,7 +38,8 @@ public:
       : mesh_(mesh), corners_(nodes_per_element(mesh)), next_(first), last_(last), file_(path) {
     for (auto s = first; s < last; ++s)
       for (const auto t : sides[s])
-        share_nodes(mesh.skeleton.sides[static_cast<std::size_t>(t)]);
+        for_each_node(mesh, mesh.skeleton.sides[static_cast<std::size_t>(t)],
+                      [&](local_id node) { shared_.push_back(node); });
     sort_unique(shared_);
     const auto from = static_cast<std::size_t>(first);
     const auto to = static_cast<std::size_t>(last);
@@ -80,23 +83,6 @@ public:
   }
 
 private:
-  void share_nodes(const simplex<D - 1>& side) {
-    for (const auto v : side)
-      shared_.push_back(v);
-    if (!mesh_.mid_nodes)
-      return;
-    const auto first = static_cast<local_id>(mesh_.skeleton.points.size());
-    for (const auto& local : numbering::edges<D - 1>)
-      shared_.push_back(first + find_edge(mesh_.mid_nodes->edges, vertices_of_edge(side, local)));
-  }
-
-  /// VTK's number of the elements' type.
-  std::uint8_t cell_type() const {
-    if (mesh_.mid_nodes)
-      return D == 3 ? 24 : 22;
-    return D == 3 ? 10 : 5;
-  }
-
   void write_head(const std::string& field_data) {
     appended_layout layout(file_);
     file_.text(vtk_xml_opening("UnstructuredGrid"));
@@ -146,7 +132,8 @@ private:
     else
       append_computed<std::int32_t>(file_, elements_,
                                     [this](auto i) { return static_cast<std::int32_t>(corners_ * (i + 1)); });
-    append_computed<std::uint8_t>(file_, elements_, [this](auto) { return cell_type(); });
+    append_computed<std::uint8_t>(file_, elements_,
+                                  [this](auto) { return vtk_cell_type(D, mesh_.mid_nodes != nullptr); });
     append_per_subdomain(first, [](local_id s) { return s; });
     if constexpr (D == 3) {
       append_per_subdomain(first,
@@ -222,30 +209,6 @@ inline void write_pvtu(output_file& file, const std::string& field_data,
   file.text("</PUnstructuredGrid>\n</VTKFile>\n");
 }
 
-/// "<stem>_<number>.vtu" with as many digits as the largest number needs, at least four.
-inline std::string vtu_file_name(const std::string& stem, local_id number, local_id count) {
-  const auto width = std::max<std::size_t>(4, std::to_string(count - 1).size());
-  auto digits = std::to_string(number);
-  return stem + "_" + std::string(width - std::min(width, digits.size()), '0') + digits + ".vtu";
-}
-
-/// Removes files that an earlier mesh of more files left in the folder, so that they are not mistaken for
-/// part of this one.
-inline void remove_stale_files(const std::filesystem::path& folder, const std::string& stem,
-                               const std::vector<std::string>& sources) {
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const auto name = entry.path().filename().string();
-    const auto digits =
-        name.size() > stem.size() + 5 && name.starts_with(stem + "_") && name.ends_with(".vtu")
-            ? name.substr(stem.size() + 1, name.size() - stem.size() - 5)
-            : std::string();
-    if (!digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos &&
-        std::find(sources.begin(), sources.end(), name) == sources.end())
-      std::filesystem::remove(entry.path(), ignored);
-  }
-}
-
 } // namespace detail
 
 template <int D>
@@ -260,13 +223,9 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
       std::make_shared<const tables>(tables{number_nodes(mesh), sides_by_subdomain<D>(mesh),
                                             vtk_field_data({{"region_names", names_of_tags(mesh)}})});
   const auto subdomains = static_cast<local_id>(mesh.counts.size());
-  const auto count = files <= 0 ? subdomains : std::min<local_id>(files, subdomains);
   piecewise_output<D> output;
-  for (local_id f = 0; f <= count; ++f)
-    output.bounds.push_back(
-        static_cast<local_id>(static_cast<global_id>(f) * subdomains / std::max<local_id>(count, 1)));
-  for (local_id f = 0; f < count; ++f)
-    output.names.push_back(detail::vtu_file_name(stem, f, count));
+  output.bounds = bounds_of_files(files, subdomains);
+  output.names = numbered_names(stem, output.bounds.size() - 1, ".vtu");
   output.open = [&mesh, unfinished, shared, bounds = output.bounds, names = output.names](std::size_t f) {
     const auto file =
         std::make_shared<detail::vtu_file<D>>(unfinished / names[f], mesh, shared->numbers, shared->sides,
@@ -307,7 +266,7 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     std::uint64_t bytes = 0;
     for (const auto& name : summary.files)
       bytes += move_file(unfinished / name, folder / name);
-    detail::remove_stale_files(folder, stem, sources);
+    remove_stale_files(folder, stem, ".vtu", sources);
     sync_to_disk(folder);
 
     summary.set("elements", static_cast<double>(shared->numbers.elements()));
