@@ -30,8 +30,8 @@ namespace dovetail {
 /// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
 /// `mesh_error` when pieces and skeleton disagree.
 ///
-/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3,
-/// io::rank_writer of a format.
+/// Models: io::vtu_writer, io::hdf5_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer
+/// for D = 3, io::rank_writer of a format.
 template <class W, int D = 3>
 concept mesh_writer = std::copy_constructible<W> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) {
@@ -53,8 +53,8 @@ concept mesh_writer = std::copy_constructible<W> &&
 ///
 /// Failure: as `mesh_writer`; a file that is not closed leaves nothing.
 ///
-/// Models: io::vtu_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer for D = 3,
-/// io::rank_writer of a format.
+/// Models: io::vtu_writer, io::hdf5_writer and io::msh_writer for D = 2 and 3, io::partitioned_msh_writer
+/// for D = 3, io::rank_writer of a format.
 template <class W, int D = 3>
 concept piecewise_mesh_writer = mesh_writer<W, D> &&
     requires(const W& w, const distributed_simplicial_mesh<D>& mesh,
