@@ -220,6 +220,7 @@ resume
 
 # Killed while files are written: what is complete is neither made nor written again.
 written=("${long[@]/none/vtu}")
+extension=vtu
 kill_finishing() {
   what="dovetail ${written[*]}, killed while it writes"
   for ((try = 0; try < 5; ++try)); do
@@ -229,7 +230,7 @@ kill_finishing() {
     "$driver" "${written[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null &
     local process=$!
     # One worker: where the second file is complete, the first one's piece is given up.
-    while kill -0 $process 2>/dev/null && (($(compgen -G "out/unfinished/0/mesh_*.vtu" | wc -l) < 2)); do sleep 0.01; done
+    while kill -0 $process 2>/dev/null && (($(compgen -G "out/unfinished/0/mesh_*.$extension" | wc -l) < 2)); do sleep 0.01; done
     kill -KILL $process 2>/dev/null
     wait $process 2>/dev/null
     cd "$OLDPWD" || exit 1
@@ -256,6 +257,21 @@ kill_finishing
 rm "$(compgen -G "$sandbox/work/out/unfinished/0/mesh_*.vtu" | head -n 1)"
 resume
 expect_same_files "$inputs/resumed"
+
+# And so it is with HDF5 files.
+if "$driver" mesh --help | tr -s ' \n' ' ' | grep -q "msh-partitioned, hdf5"; then
+  written=("${long[@]/%vtu/hdf5}")
+  extension=vtkhdf
+  kill_finishing
+  long=("${written[@]}")
+  resume
+  grep -q '"taken_over": [1-9]' "$sandbox/work/report.json" || fault "no HDF5 file was taken over"
+  mv "$sandbox/work/out" "$inputs/resumed_hdf5"
+  expect_success "${long[@]}"
+  expect_same_files "$inputs/resumed_hdf5"
+  long=("${long[@]/%hdf5/vtu}")
+  written=("${long[@]}")
+fi
 
 interrupt INT
 ((status == 130)) || fault "exit code after Ctrl-C is $status"
