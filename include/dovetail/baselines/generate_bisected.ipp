@@ -51,8 +51,10 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   const auto solids = leave_undivided(cones, model.topology().solids.size());
   decomposition_rounds<3> rounds(model, cones, solids, background.size, undivided);
   realized<3> made = rounds.realize_boundaries();
+  recursive_bisection with_progress = bisect;
+  with_progress.on_progress = given.options.on_progress;
   bisected_surface divided =
-      bisect(std::move(made.fine), std::move(made.material_of_subdomain), rounds.size());
+      with_progress(std::move(made.fine), std::move(made.material_of_subdomain), rounds.size());
   made.fine = std::move(divided.fine);
   made.material_of_subdomain = std::move(divided.material_of_subdomain);
   auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),

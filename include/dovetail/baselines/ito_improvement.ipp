@@ -51,7 +51,7 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
                                                             const any_executor& run_tasks,
                                                             const improving_options& options) const {
   const stopwatch clock;
-  improved_pieces first = improve_pieces(mesh, improve, size, run_tasks, options);
+  improved_pieces first = improve_pieces(mesh, improve, size, run_tasks, within_stage(options, "first pass"));
 
   // Pieces have their numbers for labels, and the collected mesh of a material one beyond them.
   const stopwatch collecting;
@@ -66,11 +66,11 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
           label = label == no_piece ? piece.subdomain : pieces + piece.material;
         return labels;
       },
-      run_tasks, options);
+      run_tasks, within_stage(options, "collection"));
   report collection{"collection", collecting.seconds(), {}, {}, {}};
   collection.set("elements", static_cast<double>(collected.moved));
 
-  improving_options of_collected = options;
+  improving_options of_collected = within_stage(options, "second pass");
   for (std::size_t p = 0; p < collected.labels.size(); ++p)
     if (collected.labels[p] >= pieces)
       of_collected.only.push_back(static_cast<local_id>(p));
@@ -105,7 +105,7 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
         return detail::nearest_labels(table, at_sides, span_of(beside),
                                       static_cast<local_id>(least - mesh.counts.begin()));
       },
-      run_tasks, options);
+      run_tasks, within_stage(options, "writing back"));
 
   improved_pieces result{*back.mesh, quality_of_whole(*back.mesh), {}, back.labels};
   report written{"writing back", writing.seconds(), {}, {}, {}};

@@ -22,6 +22,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,18 @@ struct labelled_mesh {
   std::vector<local_id> labels; ///< of each piece, growing
   global_id moved = 0;          ///< elements whose label is not the one of their old piece
 };
+
+/// The same options, but progress has one name for all that is done with them, and so have traces.
+inline improving_options within_stage(const improving_options& options, const char* stage) {
+  improving_options named = options;
+  named.on_progress(stage, 0, 0);
+  if (options.on_progress.update)
+    named.on_progress.update =
+        [stage, update = options.on_progress.update](std::string_view, std::size_t done, std::size_t total) {
+          update(stage, done, total);
+        };
+  return named;
+}
 
 /// Gives each element a label, in a task per piece, and puts those of one label together. `label(piece,
 /// table, listed, at_sides)` labels the elements of a piece, whose own label is `own[piece]`; the table is

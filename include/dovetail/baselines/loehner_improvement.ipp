@@ -21,7 +21,7 @@ DOVETAIL_INLINE improved_pieces loehner_improvement::operator()(const distribute
                                                                 const any_executor& run_tasks,
                                                                 const improving_options& options) const {
   const stopwatch clock;
-  improved_pieces first = improve_pieces(mesh, improve, size, run_tasks, options);
+  improved_pieces first = improve_pieces(mesh, improve, size, run_tasks, within_stage(options, "first pass"));
 
   const stopwatch moving;
   const interface_points points(first.mesh);
@@ -34,7 +34,7 @@ DOVETAIL_INLINE improved_pieces loehner_improvement::operator()(const distribute
           label = std::min(label, piece.subdomain);
         return labels;
       },
-      run_tasks, options);
+      run_tasks, within_stage(options, "redistribution"));
   global_id most = 0, all = 0;
   for (const piece_counts& counts : moved.mesh->counts) {
     most = std::max(most, counts.elements);
@@ -48,7 +48,8 @@ DOVETAIL_INLINE improved_pieces loehner_improvement::operator()(const distribute
   redistribution.set("pieces", static_cast<double>(moved.labels.size()));
   redistribution.set("largest_over_mean", largest_over_mean);
 
-  improved_pieces result = improve_pieces(*moved.mesh, improve, size, run_tasks, options);
+  improved_pieces result =
+      improve_pieces(*moved.mesh, improve, size, run_tasks, within_stage(options, "second pass"));
   result.summary =
       summary_of_passes(std::move(first.summary), std::move(redistribution), std::move(result.summary));
   result.piece_before = moved.labels;

@@ -3,6 +3,7 @@
 /// bi-division of the fine surface triangulation.
 #pragma once
 
+#include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
@@ -36,7 +37,7 @@ struct bisected_surface {
 /// It is sequential, as in the paper: the first cut is one task, and it takes all of the surface.
 ///
 /// Called with a skeleton of one subdomain for each solid, as `decomposition_rounds` makes it of a model
-/// that is not divided. Throws what the surface mesher and the sizing field throw. About
+/// that is not divided. Throws what the surface mesher and the field throw, and `cancelled`. About
 /// O(n log n) in the faces for each level of the recursion and each plane tried.
 ///
 /// The summary counts "subdomains", "cuts", "planes" (tried), those of them that failed ("without_loops",
@@ -50,6 +51,7 @@ struct recursive_bisection {
   double least_wedge_deg = 8;      ///< a cut with a smaller one is none
   double least_share = 0.1;        ///< of the faces, on either side of a cut
   any_surface_mesher mesh_interface = {};
+  progress on_progress = {}; ///< of the subdomains that there are
 
   bisected_surface operator()(fine_skeleton surface, std::vector<local_id> material_of_subdomain,
                               const any_sizing& size) const;

@@ -50,6 +50,7 @@ public:
         if (s != no_id)
           sides_[index(s)].push_back(static_cast<local_id>(t));
     while (given_.most_subdomains == 0 || sides_.size() < given_.most_subdomains) {
+      given_.on_progress("recursive bisection", sides_.size(), given_.most_subdomains);
       const local_id s = largest();
       if (s == no_id)
         break;
