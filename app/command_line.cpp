@@ -194,6 +194,9 @@ struct parser {
                            "dovetail mesh plate.svg --dimension 2 -s 0.1 --format vtu,msh"});
     add_model_options(command, mesh.model);
     add_run_options(command, mesh);
+    command.add_option("--decomposition", mesh.decomposition,
+                       "How the domain is divided into subdomains: " + joined(decomposition_names()) +
+                           " (of the fine surface)");
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };

@@ -274,12 +274,11 @@ private:
       parameters_.largest_prediction =
           policies_.executor.once([&] { return elements_with_room(formats_, folder); });
     try {
+      if constexpr (D == 3)
+        if (options_.decomposition == by_bisection)
+          return bisect(source);
       const auto background = make_background_mesh<D>(source.geometry, source.size, policies_, parameters_);
-      const int planned = background.plan.subdomains;
-      if (options_.ranks && planned < *options_.ranks && options_.redistribute != by_elements)
-        throw partition_error("--ranks: " + std::to_string(*options_.ranks) + " are more than the " +
-                              std::to_string(planned) +
-                              " subdomains planned; give --subdomains, or --redistribute " + by_elements);
+      require_subdomains_for_ranks(background.plan.subdomains, "planned");
       return generate_mesh_from<D>(background, source.geometry, policies_, parameters_);
     } catch (const too_many_elements& problem) {
       throw io_error(folder.string() + ": the sizes predict about " + count_text(problem.predicted) +
@@ -288,9 +287,25 @@ private:
     }
   }
 
+  /// How many subdomains planes make is known when they are made.
+  generated<3> bisect(const model_source& source) {
+    generated<3> made = generate_by_bisection(source.geometry, source.size, policies_, parameters_);
+    require_subdomains_for_ranks(made.plan.subdomains, "made");
+    return made;
+  }
+
+  void require_subdomains_for_ranks(int subdomains, const char* how) const {
+    if (options_.ranks && subdomains < *options_.ranks && options_.redistribute != by_elements)
+      throw partition_error("--ranks: " + std::to_string(*options_.ranks) + " are more than the " +
+                            std::to_string(subdomains) + " subdomains " + how +
+                            "; give --subdomains, or --redistribute " + by_elements);
+  }
+
   void describe(const model_source& source, const generated<D>& result) {
     figures_.dimension = D;
     figures_.model = source.name;
+    figures_.decomposition =
+        options_.decomposition.empty() ? decomposition_names().front() : options_.decomposition;
     figures_.mesher = policies_.mesher.name();
     figures_.partitioner = policies_.partitioner.name();
     figures_.simplifier = policies_.simplifier.name();
@@ -319,6 +334,7 @@ private:
   void redistribute_by_elements(distributed_simplicial_mesh<D>& mesh,
                                 [[maybe_unused]] const any_sizing& size) {
     const stopwatch clock;
+    parameters_.on_progress("redistributing elements", 0, 0);
     const auto given =
         redistribution_by::elements{.partitioner = policies_.partitioner,
                                     .simplify_by = policies_.simplifier,
@@ -326,12 +342,14 @@ private:
                                     .store = parameters_.store,
                                     .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
+    figures_.seconds.redistribution = clock.seconds();
     std::vector<local_id> ranks = given.rank_of_piece;
     if constexpr (D == 3)
       if (!options_.improve_again.empty()) {
         auto improved = make_improving_strategy(options_.improve_again)(
             mesh, policies_.improver, size, policies_.executor,
             {.store = parameters_.store, .on_progress = parameters_.on_progress});
+        add_passes(improved.summary, figures_);
         mesh = std::move(improved.mesh);
         ranks.clear();
         for (const local_id p : improved.piece_before)
@@ -343,7 +361,6 @@ private:
       return redistribution<D>{ranks, given.summary, {}};
     };
     formats_ = make_formats<D>(options_, {known, by_elements});
-    figures_.seconds.output += clock.seconds();
   }
 
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder,

@@ -104,8 +104,10 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
                              " subdomains; a rank has one at least");
   if (options.order == 2)
     throw command_line_error("--order 2: files by ranks are of first order");
-  if (!by_ranks)
-    throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)));
+  const bool only_figures = formats.empty() && options.redistribute == by_elements;
+  if (!by_ranks && !only_figures)
+    throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)) +
+                             ", or with none and --redistribute " + by_elements);
 }
 
 } // namespace

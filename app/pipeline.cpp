@@ -1,6 +1,9 @@
 #include "pipeline.hpp"
 
+#include "dovetail/baselines/generate_bisected.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
+
+#include <cstddef>
 
 namespace dovetail::app {
 
@@ -27,6 +30,16 @@ template <int D>
 generated<D> generate_mesh_from(const background_result<D>& background, const any_geometry& geometry,
                                 const policies_of<D>& policies, const generate_options& options) {
   return generate_from_background<D>(geometry, background, composed(policies, options));
+}
+
+generated<3> generate_by_bisection(const any_geometry& geometry, const any_sizing& size,
+                                   const policies_of<3>& policies, const generate_options& options) {
+  baselines::recursive_bisection bisect{.mesh_interface = policies.surface_mesher};
+  if (options.subdomains > 0) {
+    bisect.most_faces = 0;
+    bisect.most_subdomains = static_cast<std::size_t>(options.subdomains);
+  }
+  return baselines::generate_bisected(geometry, size, composed(policies, options), bisect);
 }
 
 template <int D>

@@ -33,6 +33,11 @@ template <int D>
 generated<D> generate_mesh_from(const background_result<D>& background, const any_geometry& geometry,
                                 const policies_of<D>& policies, const generate_options& options);
 
+/// `generate` with the fine surface divided by planes in place of a background mesh: `subdomains` of the
+/// options is how many are wanted; without it the default of `baselines::recursive_bisection` counts faces.
+generated<3> generate_by_bisection(const any_geometry& geometry, const any_sizing& size,
+                                   const policies_of<3>& policies, const generate_options& options);
+
 /// What would be planned, without making anything but a first surface.
 template <int D>
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,

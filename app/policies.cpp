@@ -133,6 +133,9 @@ std::vector<named_strategy> improving_strategies() {
 
 } // namespace
 
+std::vector<std::string> decomposition_names() {
+  return {"simplification", by_bisection};
+}
 std::vector<std::string> partitioner_names() {
   return names_of(partitioners());
 }

@@ -18,6 +18,10 @@
 
 namespace dovetail::app {
 
+/// How the domain becomes subdomains: a simplified background mesh is partitioned, or the fine surface is
+/// bisected.
+std::vector<std::string> decomposition_names();
+inline constexpr const char* by_bisection = "bisection";
 std::vector<std::string> partitioner_names();
 std::vector<std::string> simplifier_names();
 /// Of meshers of elements of dimension D.

@@ -23,8 +23,14 @@ struct stage_seconds {
   double partition = 0;
   double skeleton = 0;
   double intersection = 0;
+  double bisection = 0; ///< of the fine surface, where that is how the domain is decomposed
   double meshing = 0;
   double improvement = 0;
+  double redistribution = 0; ///< by elements
+  double first_pass = 0;     ///< of what is improved again
+  double between_passes = 0;
+  double second_pass = 0;
+  double writing_back = 0;
   double output = 0;
   double total = 0;
 };
@@ -52,6 +58,7 @@ struct interface_figures {
 struct run_figures {
   int dimension = 3; ///< of the elements
   std::string model;
+  std::string decomposition;
   std::string mesher, partitioner, simplifier, improver, executor, background_mesher, surface_mesher;
   int workers = 1;
 
@@ -68,6 +75,8 @@ struct run_figures {
   std::int64_t merges = 0;
   std::int64_t largest_merged = 1; ///< subdomains merged into one, at most
   std::int64_t failed_subdomains = 0;
+  std::int64_t elements_between_passes = 0; ///< collected or moved, where ranks improve again
+  double largest_over_mean = 0;             ///< of the pieces of the second pass, where elements were moved
   std::uint64_t peak_rss_bytes = 0;
   std::uint64_t mesh_hash = 0;
   bool repeatable = true; ///< no limit of wall-clock time has decided anything: the hash is that of any run

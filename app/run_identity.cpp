@@ -1,6 +1,7 @@
 #include "run_identity.hpp"
 
 #include "file_checksums.hpp"
+#include "named_policies.hpp"
 #include "policies.hpp"
 #include "run_setup.hpp"
 
@@ -92,6 +93,8 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("enlarged above", all_digits(make_generate_options(options).enlarged_above));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
+  identity.emplace_back("decomposition",
+                        chosen_name(decomposition_names(), options.decomposition, "--decomposition"));
   identity.emplace_back("dimension", std::to_string(options.dimension));
   identity.emplace_back("order", std::to_string(options.order));
   identity.emplace_back("mesher", options.dimension == 3 ? make_mesher<3>(options.mesher).name()

@@ -1,6 +1,8 @@
 #include "run_setup.hpp"
 
 #include "failure.hpp"
+#include "named_policies.hpp"
+#include "output_formats.hpp"
 #include "policies.hpp"
 
 #include "dovetail/core/number_text.hpp"
@@ -11,8 +13,33 @@
 
 namespace dovetail::app {
 
+namespace {
+
+/// What has no part in a decomposition without a background mesh may not be asked for.
+void check_decomposition(const mesh_options& options, int dimension) {
+  if (chosen_name(decomposition_names(), options.decomposition, "--decomposition") != by_bisection)
+    return;
+  const std::string given = std::string("--decomposition ") + by_bisection;
+  if (dimension == 2)
+    throw command_line_error(given + " divides solids; with --dimension 2 there are none");
+  const bool parts_later = options.redistribute == by_elements;
+  for (const auto& [option, is_given] :
+       {std::pair("--coarsening", options.coarsening.has_value()),
+        std::pair("--background-mesher", !options.background_mesher.empty()),
+        std::pair("--background-improver", !options.background_improver.empty()),
+        std::pair("--simplifier", !options.simplifier.empty() && !parts_later),
+        std::pair("--wedge-angle", options.wedge_angle.has_value() && !parts_later),
+        std::pair("--partitioner", !options.partitioner.empty() && !parts_later)})
+    if (is_given)
+      throw command_line_error(given + " has no background mesh: " + option +
+                               " does nothing there, leave it out");
+}
+
+} // namespace
+
 template <int D>
 policies_of<D> make_policies_of(const mesh_options& options) {
+  check_decomposition(options, D);
   auto background_mesher = make_background_mesher(options.background_mesher);
   if (D == 2 && background_mesher)
     throw command_line_error(

@@ -55,14 +55,25 @@ void add_timing(table& rows, const run_figures& figures) {
   rows.row("Entire scheme", "%.2f", s.total);
   rows.row("  Geometry", "%.2f", s.geometry);
   rows.row("  Domain decomposition", "%.2f",
-           s.background + s.simplification + s.partition + s.skeleton + s.intersection);
+           s.background + s.simplification + s.partition + s.skeleton + s.intersection + s.bisection);
   rows.row("    Bkg. mesh generation", "%.2f", s.background);
   rows.row("    Bkg. mesh simplification", "%.2f", s.simplification);
   rows.row("    Partition", "%.2f", s.partition);
   rows.row("    Remeshing of subdomain boundaries", "%.2f", s.skeleton);
   rows.row("    Intersection detection", "%.2f", s.intersection);
+  if (s.bisection > 0)
+    rows.row("    Bisection of the fine surface", "%.2f", s.bisection);
   rows.row("  Mesh generation", "%.2f", s.meshing);
   rows.row("  Mesh improvement", "%.2f", s.improvement);
+  if (s.redistribution > 0)
+    rows.row("  Redistribution of elements", "%.2f", s.redistribution);
+  if (s.first_pass > 0)
+    rows.row("  Improvement again, first pass", "%.2f", s.first_pass);
+  if (s.second_pass > 0) {
+    rows.row("    Elements at interfaces", "%.2f", s.between_passes);
+    rows.row("    Second pass", "%.2f", s.second_pass);
+    rows.row("    Writing back", "%.2f", s.writing_back);
+  }
   rows.row("  Output", "%.2f", s.output);
   if (s.total > 0)
     rows.row("Relative speed (elements/second/worker)",

@@ -24,6 +24,7 @@ inline stage_seconds seconds_of_stages(const report& summary) {
   seconds.partition = summary.find("partition").seconds;
   seconds.skeleton = summary.find("skeleton").seconds;
   seconds.intersection = summary.find("intersection").seconds;
+  seconds.bisection = summary.find("recursive bisection").seconds;
   const report& meshing = summary.find("meshing");
   const double improver = meshing.get("improver_seconds");
   const double both = meshing.get("mesher_seconds") + improver;
@@ -31,6 +32,20 @@ inline stage_seconds seconds_of_stages(const report& summary) {
   seconds.meshing = meshing.seconds - seconds.improvement;
   seconds.total = summary.seconds;
   return seconds;
+}
+
+/// What is known of improving again, from the report of an `improving_strategy`.
+inline void add_passes(const report& improvement, run_figures& figures) {
+  const bool once = improvement.find("first pass").name.empty();
+  figures.seconds.first_pass = once ? improvement.seconds : improvement.find("first pass").seconds;
+  for (const char* between : {"collection", "redistribution"}) {
+    const report& part = improvement.find(between);
+    figures.seconds.between_passes += part.seconds;
+    figures.elements_between_passes += static_cast<std::int64_t>(part.get("elements"));
+    figures.largest_over_mean += part.get("largest_over_mean");
+  }
+  figures.seconds.second_pass = improvement.find("second pass").seconds;
+  figures.seconds.writing_back = improvement.find("writing back").seconds;
 }
 
 /// Elements of all pieces, and of the largest piece over the average.

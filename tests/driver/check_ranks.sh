@@ -75,6 +75,17 @@ for strategy in ito loehner; do
   [[ $(counter mesh_hash) != "$hash" && $(counter mesh_hash) != "$once" ]] || fault "not improved by $strategy"
 done
 
+# For the figures alone there need not be files.
+expect_success "${again[@]}" --improve-again=ito --format none --trace trace.json
+[[ ! -e $sandbox/work/out/ranks.pvtu ]] || fault "files that were not asked for"
+for stage in redistribution first_pass between_passes second_pass writing_back; do
+  [[ $(counter $stage) =~ [1-9] ]] || fault "no time of $stage"
+done
+for stage in "redistributing elements" "first pass" collection "second pass" "writing back"; do
+  grep -q "\"tid\": 0, \"name\": \"$stage\"" "$sandbox/work/trace.json" || fault "the trace has no stage $stage"
+done
+(($(counter elements_between_passes) > 0)) || fault "no elements between the passes"
+
 # What does not fit is refused before anything is read.
 expect_usage_error "--improve-again goes with" mesh nothing.off --ranks 2 --improve-again
 expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner" mesh nothing.off --ranks 2 \
@@ -85,6 +96,7 @@ expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
 expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off --ranks 5 --subdomains 4
 expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu
+expect_usage_error "--ranks goes with .*, or with none and --redistribute by-elements" mesh nothing.off --ranks 2 --format none
 expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2
 expect_usage_error "--order 2: files by ranks are of first order" mesh nothing.off --ranks 2 --order 2 --format vtu,mfem
 expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, by-elements, none" \

@@ -1,0 +1,89 @@
+#!/bin/bash
+# The domain divided by bisecting its fine surface: a mesh like any other, the same for any workers and after a stop.
+#   check_decomposition.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+limit=120
+write_cube >"$inputs/cube.off"
+bisected=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --decomposition bisection --report report.json)
+
+figure() { # the first with this key in the report
+  sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
+}
+positive() {
+  awk -v value="$1" 'BEGIN { exit !(value > 0) }'
+}
+
+# One mesh, whole and valid, with the times of what was done.
+expect_success "${bisected[@]}" --workers 2 --trace trace.json
+hash=$(figure mesh_hash)
+[[ $(figure decomposition) == bisection ]] || fault "the report names another decomposition"
+(($(figure subdomains) >= 6)) || fault "only $(figure subdomains) subdomains"
+(($(figure background_elements) == 0)) || fault "a background mesh"
+for stage in background skeleton bisection meshing improvement total; do
+  positive "$(figure $stage)" || fault "no time of $stage"
+done
+for stage in simplification partition; do
+  positive "$(figure $stage)" && fault "a time of $stage, which there is not"
+done
+grep -q "Bisection of the fine surface" "$sandbox/stdout" || fault "no bisection in the summary"
+grep -q '"name": "recursive bisection"' "$sandbox/work/trace.json" || fault "no bisection in the trace"
+mv "$sandbox/work/out" "$sandbox/work/report.json" "$inputs"
+expect_success check "$inputs/out/mesh.pvtu"
+expect_success check --report "$inputs/report.json"
+expect_success "${bisected[@]}" --workers 1
+[[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh by one worker"
+diff -rq "$inputs/out" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
+expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --report report.json
+[[ $(figure mesh_hash) != "$hash" && $(figure decomposition) == simplification ]] || fault "not the other decomposition by default"
+positive "$(figure bisection)" && fault "a time of bisection by default"
+
+# Without a number of subdomains it is the number of faces that counts, and a small surface stays whole.
+expect_success mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --format none --report report.json
+(($(figure subdomains) == 1)) || fault "$(figure subdomains) subdomains of a small surface"
+
+# What comes after: ranks, with pieces as they are and cut, and the second order.
+expect_success "${bisected[@]}" --ranks 3
+[[ -s $sandbox/work/out/ranks_0002.vtu ]] || fault "no file of the last rank"
+expect_success "${bisected[@]}" --ranks 5 --redistribute by-elements --partitioner metis --format none --improve-again
+for stage in redistribution first_pass; do
+  positive "$(figure $stage)" || fault "no time of $stage"
+done
+expect_success "${bisected[@]}" --order 2 --format vtu,msh
+
+# A run that is stopped goes on, and one that is finished has nothing left to do.
+long=(mesh "$inputs/cube.off" --size 0.03 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
+expect_success "${long[@]}" --format none
+hash=$(figure mesh_hash)
+rm -rf "$inputs/long"
+what="${long[*]}, stopped"
+: >"$sandbox/stderr"
+(cd "$sandbox/work" && exec "$driver" "${long[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null) &
+job=$!
+for ((tenths = 0; tenths < 600; ++tenths)); do
+  compgen -G "$inputs/long/spool/piece_*.blob" >/dev/null && break
+  sleep 0.1
+done
+kill -TERM $job
+wait $job
+status=$?
+((status == 130)) || fault "exit code is $status"
+cp "$sandbox/stderr" "$inputs/stopped"
+grep -q -- "--resume goes on" "$inputs/stopped" || fault "that another run can go on is not said"
+expect_error "decomposition" mesh "$inputs/cube.off" --size 0.03 --subdomains 8 --out "$inputs/long" --resume
+expect_success "${long[@]}" --resume
+[[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh after a stop"
+expect_success "${long[@]}" --resume
+grep -q "this run is finished" "$sandbox/stdout" || fault "a finished run is made again"
+
+# What has no part in it is refused before anything is read.
+bad=(mesh nothing.off --decomposition bisection)
+expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection" \
+  mesh nothing.off --decomposition halves
+expect_usage_error "--decomposition bisection divides solids; with --dimension 2" "${bad[@]}" --dimension 2
+for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--wedge-angle 20" "--partitioner metis"; do
+  expect_usage_error "--decomposition bisection has no background mesh: ${option% *} does nothing there" "${bad[@]}" $option
+done
+expect_error "--ranks: 3 are more than the 1 subdomains made" \
+  mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --ranks 3
+finish
