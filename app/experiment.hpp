@@ -10,11 +10,13 @@ namespace dovetail::app {
 /// Numbers of a document that are added up, each named by its JSON pointer.
 using summed = std::vector<std::string>;
 
-/// A figure of a document: a sum over the product of others. Without numbers in the sum there is no such
-/// figure.
+/// A figure of a document: a sum less another one, over the product of others, times a factor. Without
+/// numbers in the sum there is no such figure.
 struct figure {
   summed sum = {};
   std::vector<summed> over = {};
+  summed less = {};
+  double times = 1;
 };
 
 /// A run of `dovetail mesh`. For the paper's column that is named it has that column's elements and those of
@@ -27,6 +29,10 @@ struct experiment_run {
   std::string column;
   std::vector<std::string> options = {}; ///< more of `dovetail mesh`
   double elements = 0;                   ///< of a run that is not for a column of the paper
+  bool has_background = true;            ///< a coarse mesh is decomposed, of the column's elements
+  /// Other runs that are shown in the same column. In the documents of this one, the paper's as the report,
+  /// theirs have the names of their labels.
+  std::vector<experiment_run> beside = {};
 };
 
 constexpr int as_count = -1; ///< in place of digits: "12.3 k"

@@ -18,15 +18,27 @@ using json = nlohmann::ordered_json;
 /// The part of a report's times to which a stage of the trace belongs. What is neither before the skeleton
 /// nor after it makes the skeleton: lines, matching, detours.
 std::string part_of(const std::string& stage) {
-  constexpr std::array<std::pair<const char*, const char*>, 9> parts{{{"geometry", "geometry"},
-                                                                      {"planning", "background"},
-                                                                      {"background surface", "background"},
-                                                                      {"background volume", "background"},
-                                                                      {"simplification", "simplification"},
-                                                                      {"partition", "partition"},
-                                                                      {"intersection", "intersection"},
-                                                                      {"meshing", "meshing"},
-                                                                      {"finishing", "output"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 20> parts{
+      {{"geometry", "geometry"},
+       {"planning", "background"},
+       {"background surface", "background"},
+       {"background volume", "background"},
+       {"simplification", "simplification"},
+       {"partition", "partition"},
+       {"intersection", "intersection"},
+       {"recursive bisection", "bisection"},
+       {"meshing", "meshing"},
+       {"redistributing elements", "redistribution"},
+       {"simplifying pieces", "redistribution"},
+       {"cutting pieces", "redistribution"},
+       {"moving elements", "redistribution"},
+       {"improving pieces", "first_pass"},
+       {"first pass", "first_pass"},
+       {"collection", "between_passes"},
+       {"redistribution", "between_passes"},
+       {"second pass", "second_pass"},
+       {"writing back", "writing_back"},
+       {"finishing", "output"}}};
   const auto* const found =
       std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == stage; });
   return found == parts.end() ? "skeleton" : found->second;

@@ -113,16 +113,55 @@ std::string markdown_table(const experiment_result& result) {
   return text;
 }
 
-std::vector<std::string> places_in_paper(const experiment& what) {
-  std::vector<std::string> places;
-  for (const experiment_run& run : what.runs) {
+/// With those of the runs beside.
+json column_of_paper(const experiment_run& run) {
+  if (run.table.empty())
+    return json();
+  json column = paper_table(run.table).at("columns").at(run.column);
+  for (const experiment_run& other : run.beside)
+    column[other.label] = column_of_paper(other);
+  return column;
+}
+
+void add_places(const std::vector<experiment_run>& runs, std::vector<std::string>& places) {
+  for (const experiment_run& run : runs) {
     if (run.table.empty())
       continue;
     const auto place = paper_table(run.table).at("place").get<std::string>();
     if (std::find(places.begin(), places.end(), place) == places.end())
       places.push_back(place);
+    add_places(run.beside, places);
   }
+}
+
+std::vector<std::string> places_in_paper(const experiment& what) {
+  std::vector<std::string> places;
+  add_places(what.runs, places);
   return places;
+}
+
+/// A line for each run, also for those beside.
+void add_lines_of_runs(const std::vector<run_result>& runs, const std::string& column, std::string& text) {
+  for (const run_result& run : runs) {
+    const std::string label = column + run.run->label;
+    text += "- " + label + ": `" + run.record.at("command").get<std::string>() + '`';
+    if (run.record.contains("failure"))
+      text += ", failed: " + run.record.at("failure").get<std::string>();
+    else
+      text += ", mesh " + run.measured.at("mesh_hash").get<std::string>();
+    text += '\n';
+    add_lines_of_runs(run.beside, label + ", ", text);
+  }
+}
+
+json json_of_run(const run_result& run) {
+  json entry{{"label", run.run->label}};
+  entry.update(run.record);
+  if (!run.measured.is_null())
+    entry["mesh_hash"] = run.measured.at("mesh_hash");
+  for (const run_result& other : run.beside)
+    entry["beside"].push_back(json_of_run(other));
+  return entry;
 }
 
 /// What JSON has no number for is null.
@@ -135,22 +174,27 @@ json json_of(const std::vector<double>& values) {
 
 } // namespace
 
+void add_beside(run_result& result, run_result other) {
+  const std::string& label = other.run->label;
+  for (json run_result::*report : {&run_result::measured, &run_result::simulated})
+    if (!(result.*report).is_null() && !(other.*report).is_null())
+      (result.*report)[label] = other.*report;
+  result.beside.push_back(std::move(other));
+}
+
 double value_of(const figure& wanted, const json& document) {
   if (wanted.sum.empty() || document.is_null())
     return nothing;
-  double value = sum_of(wanted.sum, document);
+  double value = sum_of(wanted.sum, document) - sum_of(wanted.less, document);
   for (const summed& factor : wanted.over)
     value /= sum_of(factor, document);
-  return value;
+  return wanted.times * value;
 }
 
 row_values values_of(const experiment_row& row, const experiment_result& result) {
   row_values values;
   for (const run_result& run : result.runs) {
-    const bool of_paper = !run.run->table.empty();
-    values.paper.push_back(
-        of_paper ? value_of(row.paper, paper_table(run.run->table).at("columns").at(run.run->column))
-                 : nothing);
+    values.paper.push_back(value_of(row.paper, column_of_paper(*run.run)));
     values.measured.push_back(value_of(row.ours, run.measured));
     values.simulated.push_back(value_of(row.ours, run.simulated));
   }
@@ -173,14 +217,7 @@ std::string markdown_text(const experiment_result& result) {
   for (const std::string& note : result.what->notes)
     text += "- " + note + '\n';
   text += "\nThe runs, one by one:\n\n";
-  for (const run_result& run : result.runs) {
-    text += "- " + run.run->label + ": `" + run.record.at("command").get<std::string>() + '`';
-    if (run.record.contains("failure"))
-      text += ", failed: " + run.record.at("failure").get<std::string>();
-    else
-      text += ", mesh " + run.measured.at("mesh_hash").get<std::string>();
-    text += '\n';
-  }
+  add_lines_of_runs(result.runs, "", text);
   return text;
 }
 
@@ -207,13 +244,8 @@ std::string json_text(const experiment_result& result) {
   document["paper"] = paper_figures().at("paper");
   document["places"] = places_in_paper(*result.what);
   document["runs"] = json::array();
-  for (const run_result& run : result.runs) {
-    json entry{{"label", run.run->label}};
-    entry.update(run.record);
-    if (!run.measured.is_null())
-      entry["mesh_hash"] = run.measured.at("mesh_hash");
-    document["runs"].push_back(std::move(entry));
-  }
+  for (const run_result& run : result.runs)
+    document["runs"].push_back(json_of_run(run));
   document["rows"] = json::array();
   for (const experiment_row& row : result.what->rows) {
     const row_values values = values_of(row, result);

@@ -18,7 +18,8 @@ struct run_result {
   /// The report with the workers of the paper's column and the times that a simulation finds for them; null
   /// where so many have made the run.
   nlohmann::ordered_json simulated = {};
-  nlohmann::ordered_json record = {}; ///< what it was asked for, its command line and sizes
+  nlohmann::ordered_json record = {};  ///< what it was asked for, its command line and sizes
+  std::vector<run_result> beside = {}; ///< of the runs in the same column, whose reports are in these too
 };
 
 struct experiment_result {
@@ -27,8 +28,10 @@ struct experiment_result {
   std::vector<run_result> runs = {};  ///< as the experiment lists them
 };
 
-/// A figure of a document, the sum and all factors below taken as they are; NaN where one of its numbers is
-/// missing.
+/// Puts the reports of a run beside this one into its own, and keeps it.
+void add_beside(run_result& result, run_result other);
+
+/// A figure of a document, as its numbers are there; NaN where one of them is missing.
 double value_of(const figure& wanted, const nlohmann::ordered_json& document);
 
 /// The numbers of a row: of each run the paper's, the measured and the simulated one; NaN where there is

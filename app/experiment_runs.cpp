@@ -111,7 +111,7 @@ run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wan
     place.how = {"--subdomains", std::to_string(wanted.subdomains)};
   place.how.insert(place.how.end(),
                    {"--workers", std::to_string(std::min<std::int64_t>(wanted.workers, workers_))});
-  if (wanted.coarsening > 1)
+  if (run.has_background && wanted.coarsening > 1)
     place.how.insert(place.how.end(), {"--coarsening", number_text(wanted.coarsening)});
   place.how.insert(place.how.end(), run.options.begin(), run.options.end());
   place.asked = {{"model", place.what.back()},
@@ -179,6 +179,8 @@ run_result run_maker::make(const experiment_run& run) {
                             : "made");
   if (!failed && wanted.workers > workers_)
     result.simulated = simulated_report(result.measured, place.file("trace.json"), wanted.workers);
+  for (const experiment_run& other : run.beside)
+    add_beside(result, make(other));
   return result;
 }
 

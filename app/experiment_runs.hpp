@@ -23,8 +23,8 @@ public:
   /// Finds what is wrong with the options. Workers are processes of `dovetail mesh` as the driver makes them.
   run_maker(const experiment_options& options, driver_call driver);
 
-  /// The run in its folder in `<out>/runs`, unless the same one is there. One that fails is a result; throws
-  /// `cancelled` when it was stopped.
+  /// The run in its folder in `<out>/runs`, unless the same one is there, and those beside it. One that fails
+  /// is a result; throws `cancelled` when it was stopped.
   run_result make(const experiment_run& run);
   int workers() const { return workers_; }
 

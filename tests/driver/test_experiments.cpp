@@ -37,8 +37,14 @@ json example_report() {
                      .partition = 4,
                      .skeleton = 5,
                      .intersection = 6,
+                     .bisection = 50,
                      .meshing = 30,
                      .improvement = 10,
+                     .redistribution = 0.5,
+                     .first_pass = 1.5,
+                     .between_passes = 0.25,
+                     .second_pass = 2.5,
+                     .writing_back = 0.125,
                      .output = 7,
                      .total = 68};
   figures.quality.min_wedges.bins[5] = 1;
@@ -56,8 +62,14 @@ experiment_result result_of(const experiment& what) {
   json simulated = measured;
   simulated["workers"] = 32;
   experiment_result result{&what, {{"command", "dovetail experiment"}, {"scale", 100}}, {}};
-  for (const experiment_run& run : what.runs)
-    result.runs.push_back({&run, measured, simulated, {{"command", "dovetail mesh"}}});
+  const auto result_of_run = [&](const experiment_run& run) {
+    return run_result{&run, measured, simulated, {{"command", "dovetail mesh"}}};
+  };
+  for (const experiment_run& run : what.runs) {
+    result.runs.push_back(result_of_run(run));
+    for (const experiment_run& other : run.beside)
+      add_beside(result.runs.back(), result_of_run(other));
+  }
   return result;
 }
 
@@ -82,6 +94,16 @@ bool all_differ(const Items& items, Label label) {
   return labels.size() == items.size() && !labels.contains("");
 }
 
+void check_run(const experiment_run& run) {
+  INFO(run.label);
+  CHECK(std::set<std::string>{"aircraft", "combustor", "orbiter"}.contains(run.model));
+  CHECK(run.table.empty() == (run.elements > 0));
+  if (run.table.empty())
+    return;
+  REQUIRE(paper_table(run.table).at("columns").contains(run.column));
+  CHECK_NOTHROW(run_for(paper_table(run.table).at("columns").at(run.column), 100));
+}
+
 TEST_CASE("every experiment names figures that the paper's columns and reports have") {
   CHECK(all_differ(all_experiments(), [](const experiment& each) { return each.name; }));
   for (const experiment& each : all_experiments()) {
@@ -90,13 +112,8 @@ TEST_CASE("every experiment names figures that the paper's columns and reports h
     CHECK(all_differ(each.runs, [](const experiment_run& run) { return run.label; }));
     CHECK(all_differ(each.rows, [](const experiment_row& row) { return row.label; }));
     for (const experiment_run& run : each.runs) {
-      INFO(run.label);
-      CHECK(std::set<std::string>{"aircraft", "combustor", "orbiter"}.contains(run.model));
-      CHECK(run.table.empty() == (run.elements > 0));
-      if (run.table.empty())
-        continue;
-      REQUIRE(paper_table(run.table).at("columns").contains(run.column));
-      CHECK_NOTHROW(run_for(paper_table(run.table).at("columns").at(run.column), 100));
+      check_run(run);
+      std::for_each(run.beside.begin(), run.beside.end(), check_run);
     }
     const experiment_result result = result_of(each);
     for (const experiment_row& row : each.rows) {
@@ -163,6 +180,26 @@ TEST_CASE("rows are sums, over products of sums, of what the paper and reports s
   const experiment_result sixteen = result_of(named("fig16"));
   CHECK(value_in(sixteen, "Speedup of mesh improvement", 3, &row_values::paper) ==
         doctest::Approx(1753.1 / 211.1));
+  const experiment_result seven = result_of(named("table7"));
+  CHECK(value_in(seven, "Algorithm 1: entire scheme", 3, &row_values::paper) == 2648.7);
+  CHECK(value_in(seven, "Algorithm 2: entire scheme", 3, &row_values::paper) == 3548.1);
+  CHECK(value_in(seven, "Algorithm 2: surface meshing", 0, &row_values::measured) == 13);
+  CHECK(value_in(seven, "Algorithm 2: entire scheme", 0, &row_values::measured) == 103);
+  CHECK(value_in(seven, "Algorithm 2: relative speed", 0, &row_values::simulated) ==
+        doctest::Approx(280'000 / 103. / 32));
+  CHECK(value_in(seven, "Performance gap", 0, &row_values::paper) == 27.4);
+  CHECK(value_in(seven, "Performance gap", 0, &row_values::measured) ==
+        doctest::Approx(100 * (103. / 60 - 1)));
+  const experiment_result nine = result_of(named("table9"));
+  CHECK(value_in(nine, "Algorithm 2: domain decomposition", 4, &row_values::paper) == 1604.5);
+  const experiment_result table_ten = result_of(named("table10"));
+  CHECK(value_in(table_ten, "Entire improvement", 0, &row_values::measured) == doctest::Approx(4.875));
+  CHECK(value_in(table_ten, "Improvement of Algorithm 1", 1, &row_values::paper) == 211.1);
+  const experiment_result fourteen = result_of(named("fig14"));
+  CHECK(value_in(fourteen, "Speedup of Algorithm 1", 3, &row_values::paper) ==
+        doctest::Approx(6.56).epsilon(1e-3));
+  CHECK(value_in(fourteen, "Speedup of Algorithm 2", 3, &row_values::paper) ==
+        doctest::Approx(2.34).epsilon(1e-2));
   CHECK(std::isnan(value_of({{"/nowhere"}}, {{"here", 1}})));
   CHECK(std::isnan(value_of({{"/here"}}, json())));
 }
