@@ -52,7 +52,7 @@ done
 expect_success "${bisected[@]}" --order 2 --format vtu,msh
 
 # A run that is stopped goes on, and one that is finished has nothing left to do.
-long=(mesh "$inputs/cube.off" --size 0.03 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
+long=(mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
 expect_success "${long[@]}" --format none
 hash=$(figure mesh_hash)
 rm -rf "$inputs/long"
@@ -70,7 +70,7 @@ status=$?
 ((status == 130)) || fault "exit code is $status"
 cp "$sandbox/stderr" "$inputs/stopped"
 grep -q -- "--resume goes on" "$inputs/stopped" || fault "that another run can go on is not said"
-expect_error "decomposition" mesh "$inputs/cube.off" --size 0.03 --subdomains 8 --out "$inputs/long" --resume
+expect_error "decomposition" mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --out "$inputs/long" --resume
 expect_success "${long[@]}" --resume
 [[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh after a stop"
 expect_success "${long[@]}" --resume

@@ -59,6 +59,13 @@ on_ranks 2 several "${mesh[@]}" --format vtu,msh --workers 2
 fresh several
 on_ranks 3 several "${mesh[@]}" --format vtu,msh --executor serial
 [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files"
+# By the other decomposition too.
+fresh whole
+on_ranks 1 whole "${mesh[@]}" --decomposition bisection --workers 2
+((status == 0)) || fault "exit code is $status"
+fresh several
+on_ranks 3 several "${mesh[@]}" --decomposition bisection
+[[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files by bisection than with one rank"
 
 # 2. An error that all meet is said once; other commands know nothing of ranks.
 one_line() {
