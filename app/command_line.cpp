@@ -195,8 +195,8 @@ struct parser {
     add_model_options(command, mesh.model);
     add_run_options(command, mesh);
     command.add_option("--decomposition", mesh.decomposition,
-                       "How the domain is divided into subdomains: " + joined(decomposition_names()) +
-                           " (of the fine surface)");
+                       "How subdomains come about, of a coarse mesh or by planes through the fine surface: " +
+                           joined(decomposition_names()));
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };

@@ -122,7 +122,8 @@ TEST_CASE("every experiment names figures that the paper's columns and reports h
       const row_values values = values_of(row, result);
       const auto is_there = [](double value) { return std::isfinite(value); };
       if (!row.paper.sum.empty())
-        CHECK(std::all_of(values.paper.begin(), values.paper.end(), is_there));
+        for (std::size_t k = 0; k < each.runs.size(); ++k)
+          CHECK(std::isfinite(values.paper[k]) == !each.runs[k].table.empty());
       if (!row.ours.sum.empty()) {
         CHECK(std::all_of(values.measured.begin(), values.measured.end(), is_there));
         CHECK(std::all_of(values.simulated.begin(), values.simulated.end(), is_there));
@@ -267,7 +268,10 @@ TEST_CASE("tables have the paper's columns, ours beside them, and say what faile
   for (const experiment& each : all_experiments()) {
     const experiment_result result = result_of(each);
     const auto lines = lines_of_table(markdown_text(result));
-    const std::size_t columns = 3 * each.runs.size(), rows = each.rows.size();
+    std::size_t columns = 0;
+    for (const experiment_run& run : each.runs)
+      columns += run.table.empty() ? 1 : 3; // one of ours has neither the paper's nor a simulation
+    const std::size_t rows = each.rows.size();
     CHECK(lines.size() == 2 + (each.run_per_line ? columns : rows));
     for (const std::string& line : lines)
       CHECK(static_cast<std::size_t>(std::count(line.begin(), line.end(), '|')) ==
