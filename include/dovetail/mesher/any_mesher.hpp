@@ -56,6 +56,8 @@ public:
     return form;
   }
 
+  bool has_form_for_background() const { return background_ != nullptr; }
+
   explicit operator bool() const { return static_cast<bool>(call_); }
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
