@@ -23,6 +23,8 @@ void check_decomposition(const mesh_options& options, int dimension) {
   if (dimension == 2)
     throw command_line_error(given + " divides solids; with --dimension 2 there are none");
   const bool parts_later = options.redistribute == by_elements;
+  if (options.ranks && !options.subdomains && !parts_later)
+    throw command_line_error(given + " with --ranks: give --subdomains, or --redistribute " + by_elements);
   for (const auto& [option, is_given] :
        {std::pair("--coarsening", options.coarsening.has_value()),
         std::pair("--background-mesher", !options.background_mesher.empty()),

@@ -84,6 +84,5 @@ expect_usage_error "--decomposition bisection divides solids; with --dimension 2
 for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--wedge-angle 20" "--partitioner metis"; do
   expect_usage_error "--decomposition bisection has no background mesh: ${option% *} does nothing there" "${bad[@]}" $option
 done
-expect_error "--ranks: 3 are more than the 1 subdomains made" \
-  mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --ranks 3
+expect_usage_error "--decomposition bisection with --ranks: give --subdomains, or --redistribute by-elements" "${bad[@]}" --ranks 3
 finish
