@@ -53,6 +53,7 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
+  io::let_hdf5_close_nothing_at_exit();
   known.push_back({"hdf5", hdf5_bytes, io::hdf5_writer{.files = options.files}});
 #endif
   const auto add_by_ranks = [&](double bytes_per_element, auto format) {

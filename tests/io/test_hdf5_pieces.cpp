@@ -40,6 +40,8 @@ static_assert(piecewise_mesh_writer<io::hdf5_writer> && piecewise_mesh_writer<io
 
 namespace {
 
+[[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
+
 const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 /// The script's exit status (0: the same mesh) and what it printed.
