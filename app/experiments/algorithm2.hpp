@@ -4,6 +4,10 @@
 
 #include "common.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace dovetail::app::experiments {
 
 inline const std::string second_algorithm = "Algorithm 2";
@@ -70,5 +74,19 @@ inline const std::vector<std::string> notes_on_second = {
     "Algorithm 2 has as many subdomains as Algorithm 1 is asked for, unless no plane divides them further.",
     "Surface meshing of Algorithm 2 is by our own surface step, with the coarse surface that it begins with.",
     no_repartitioning};
+
+/// A table of Algorithm 2, with the times of ours that it is held against.
+inline experiment table_of_second(const std::string& name, const std::string& title,
+                                  std::vector<experiment_run> runs) {
+  experiment result{.name = name,
+                    .title = title,
+                    .runs = std::move(runs),
+                    .rows = second_rows("/" + second_algorithm),
+                    .notes = notes_on_second};
+  result.rows.insert(result.rows.begin(), {workers_row(), scheme_row()});
+  result.rows[1].label = "Algorithm 1: entire scheme";
+  result.rows.push_back(gap_row("/" + second_algorithm + "/gap"));
+  return result;
+}
 
 } // namespace dovetail::app::experiments

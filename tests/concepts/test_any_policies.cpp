@@ -106,6 +106,9 @@ TEST_CASE("below a held mesher's form for the background is the ladder of the me
   CHECK(marks(held) == std::vector<local_id>{0, 10});
   CHECK(marks(held.for_background()) == std::vector<local_id>{1, 0, 10});
   CHECK(held.for_background().name() == "both");
+  CHECK(held.has_form_for_background());
+  CHECK(held.with_fallback(two_forms(7)).has_form_for_background());
+  CHECK_FALSE(any_mesher<3>(archetype::mesher(0)).has_form_for_background());
   CHECK(marks(held.with_fallback(two_forms(7)).for_background()) == std::vector<local_id>{1, 0, 10, 7});
   CHECK(ladder_of(any_mesher<3>(archetype::mesher(0)).for_background()).size() == 1);
 }

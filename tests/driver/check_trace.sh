@@ -22,8 +22,11 @@ done
 
 expect_success simulate "$inputs/0.1.json" --workers 1,2
 grep -q "Entire scheme" "$sandbox/stdout" || fault "no times"
+grep -qE '^  meshing( +[0-9]+\.[0-9]{2}){2}$' "$sandbox/stdout" || fault "no seconds of a stage by one worker and by two"
+grep -q "^With 2 workers [a-z ]* takes longest$" "$sandbox/stdout" || fault "no longest stage"
 grep -q "Table 9" "$sandbox/stdout" && fault "the paper's table beside a small mesh"
 expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --workers 32,512
+grep -qE '^    not spread( +[0-9]+\.[0-9]{2}){2}$' "$sandbox/stdout" || fault "not a word on what no worker shares"
 grep -A2 "Table 9" "$sandbox/stdout" | grep -q "2648.7 *219.8" || fault "not the paper's columns"
 
 expect_usage_error "give a smaller and a larger one" simulate "$inputs/0.1.json" --elements 1e9

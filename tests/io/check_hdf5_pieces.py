@@ -12,25 +12,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
 
+from vtk_reading import read_by_vtk
+
 
 def fail(what):
     sys.exit(f"not the same mesh: {what}")
-
-
-def read_by_vtk(reader, path):
-    problems = []
-
-    def note(_, __, message):
-        problems.append(message)
-
-    note.CallDataType = "string0"
-    for event in ("ErrorEvent", "WarningEvent"):
-        reader.AddObserver(event, note)
-    reader.SetFileName(path)
-    reader.Update()
-    if problems:
-        fail(f"VTK cannot read {path}: {problems}")
-    return reader.GetOutput()
 
 
 def array(data, name):

@@ -9,6 +9,8 @@ import sys
 
 import numpy as np
 
+from vtk_reading import read_by_vtk
+
 
 def fail(what):
     sys.exit(f"not one mesh: {what}")
@@ -65,21 +67,6 @@ def check_pvtu(folder, count):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
-    def read(reader, path):
-        problems = []
-
-        def note(_, __, message):
-            problems.append(message)
-
-        note.CallDataType = "string0"
-        for event in ("ErrorEvent", "WarningEvent"):
-            reader.AddObserver(event, note)
-        reader.SetFileName(path)
-        reader.Update()
-        if problems:
-            fail(f"VTK cannot read {path}: {problems}")
-        return reader.GetOutput()
-
     def arrays(grid):
         points, cells = grid.GetPointData(), grid.GetCellData()
         offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
@@ -91,11 +78,11 @@ def check_pvtu(folder, count):
                 "ghost": vtk_to_numpy(cells.GetArray("vtkGhostType")) == 1,
                 "owner": vtk_to_numpy(points.GetArray("owner"))}
 
-    ranks = [arrays(read(vtkXMLUnstructuredGridReader(), f"{folder}/ranks_{q:04}.vtu")) for q in range(count)]
+    ranks = [arrays(read_by_vtk(vtkXMLUnstructuredGridReader(), f"{folder}/ranks_{q:04}.vtu")) for q in range(count)]
     for number, rank in enumerate(ranks):
         if not np.array_equal(rank["owner"] != number, rank["foreign"]):
             fail(f"rank {number}: ghost types and owners differ")
-    whole = arrays(read(vtkXMLPUnstructuredGridReader(), f"{folder}/ranks.pvtu"))
+    whole = arrays(read_by_vtk(vtkXMLPUnstructuredGridReader(), f"{folder}/ranks.pvtu"))
     for name in whole:
         if not np.array_equal(whole[name] if name != "cells" else whole["ids"][whole["cells"]],
                               np.concatenate([r[name] if name != "cells" else r["ids"][r["cells"]] for r in ranks])):

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <unistd.h>
 
@@ -38,6 +39,15 @@ inline std::string file_content(const std::filesystem::path& path) {
 
 inline void write_content(const std::filesystem::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
+}
+
+/// What is in a folder, by name; a folder in it has no content of its own.
+inline std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> content;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    content[entry.path().filename().string()] =
+        entry.is_directory() ? "a folder" : file_content(entry.path());
+  return content;
 }
 
 /// Number of files in a folder.

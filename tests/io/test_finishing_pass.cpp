@@ -39,14 +39,6 @@ struct lost_writer {
   }
 };
 
-std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> content;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    content[entry.path().filename().string()] =
-        entry.is_directory() ? "a folder" : testing::file_content(entry.path());
-  return content;
-}
-
 /// Pieces that can be given up, as in a spool.
 struct store {
   std::map<local_id, piece_note> notes = {};
@@ -86,7 +78,7 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
   for (const int count : {0, 3, 1}) {
     const auto name = std::to_string(count);
     io::vtu_writer{.files = count}(mesh, folder / name);
-    const auto files = content_of(folder / name);
+    const auto files = testing::content_of(folder / name);
     const auto check = [&](const any_executor& run_tasks) {
       const auto finished = io::finish_mesh<3>(mesh, {vtu(count)}, folder / (name + "by tasks"), run_tasks);
       CHECK(finished.hash == io::mesh_hash(mesh));
@@ -96,7 +88,7 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
       CHECK(finished.quality.min_wedges.bins == whole.min_wedges.bins);
       REQUIRE(finished.summary.children.size() == 1);
       CHECK(finished.summary.children[0].get("files") == static_cast<double>(files.size()));
-      CHECK(content_of(folder / (name + "by tasks")) == files);
+      CHECK(testing::content_of(folder / (name + "by tasks")) == files);
     };
     check(parallel::serial{});
     for (const int workers : {1, 2, 4})
@@ -144,7 +136,7 @@ TEST_CASE("a piece is loaded once, whatever is written of it") {
 TEST_CASE("a piece that does not fit is an error that names it, and the files stay as they were") {
   const testing::scratch_folder folder("finish_faults");
   io::vtu_writer{.files = 2}(cubes.distributed(), folder);
-  const auto before = content_of(folder);
+  const auto before = testing::content_of(folder);
   const auto refused = [&](const distributed_mesh& mesh, const char* place) {
     CAPTURE(place);
     for (const any_executor& run_tasks :
@@ -153,7 +145,7 @@ TEST_CASE("a piece that does not fit is an error that names it, and the files st
                            mesh_error);
       CHECK_THROWS_WITH_AS(io::finish_mesh<3>(mesh, {}, folder, run_tasks), doctest::Contains("subdomain 3"),
                            mesh_error);
-      CHECK(content_of(folder) == before);
+      CHECK(testing::content_of(folder) == before);
     }
   };
   refused(
@@ -201,7 +193,7 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   };
   CHECK_THROWS_WITH_AS(finish(mesh, 4), "a damaged file", io_error);
   CHECK(pieces.gone == std::set<local_id>{0, 1, 2, 3, 6, 7});
-  CHECK(content_of(folder / "out").size() == 1); // the folder of unfinished files
+  CHECK(testing::content_of(folder / "out").size() == 1); // the folder of unfinished files
 
   // Killed between two pieces of a file.
   pieces.gone.erase(7);
@@ -217,7 +209,7 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   CHECK(finished.summary.get("taken_over") == 3);
   CHECK(pieces.loads == std::vector<local_id>{4, 5});
   CHECK(pieces.gone.size() == 8);
-  CHECK(content_of(folder / "out") == content_of(folder / "expected"));
+  CHECK(testing::content_of(folder / "out") == testing::content_of(folder / "expected"));
 }
 
 TEST_CASE("an MSH file is put together from the parts of pieces, also by workers and after an interruption") {
@@ -247,7 +239,7 @@ TEST_CASE("an MSH file is put together from the parts of pieces, also by workers
     finish(pieces.mesh());
     CHECK(pieces.loads == std::vector<local_id>{5});
     CHECK(testing::file_content(folder / "again" / file) == expected);
-    CHECK(content_of(folder / "again").size() == 1); // the folder of parts has gone
+    CHECK(testing::content_of(folder / "again").size() == 1); // the folder of parts has gone
     std::filesystem::remove_all(folder / "again");
   };
   check(io::msh_writer{});
@@ -284,7 +276,7 @@ TEST_CASE("no file gets its final name before those of all writers are complete"
   CHECK_THROWS_WITH_AS(
       io::finish_mesh<3>(cubes.distributed(), {vtu(), blocked_writer{}}, folder, parallel::serial{}),
       doctest::Contains("mesh.msh"), io_error);
-  CHECK(content_of(folder).empty());
+  CHECK(testing::content_of(folder).empty());
 }
 
 TEST_CASE("files of pieces that were numbered otherwise are not taken over") {
@@ -319,5 +311,5 @@ TEST_CASE("a writer alone leaves nothing in a folder of unfinished files that wa
   };
   CHECK_THROWS_AS(io::vtu_writer{}(mesh, folder), io_error);
   CHECK_THROWS_AS(io::msh_writer{}(mesh, folder), io_error);
-  CHECK(content_of(folder).empty());
+  CHECK(testing::content_of(folder).empty());
 }

@@ -1,5 +1,6 @@
 // HDF5 files of whole pieces: h5py, VTK and a reader of XDMF find the mesh that VTU files have
 // (check_hdf5_pieces.py).
+#include "io/file_size_limit.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -21,7 +22,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -29,7 +29,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <sys/resource.h>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -63,14 +62,6 @@ bool has_readers() {
   return false;
 }
 
-std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
-  std::map<std::string, std::string> content;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    content[entry.path().filename().string()] =
-        entry.is_directory() ? "a folder" : testing::file_content(entry.path());
-  return content;
-}
-
 /// Writes both, and expects the same mesh.
 template <int D>
 void check_readers(const distributed_simplicial_mesh<D>& mesh, int files, const std::string& expected) {
@@ -98,24 +89,6 @@ distributed_mesh with_straight_middles(distributed_mesh mesh) {
   mesh.mid_nodes = std::make_shared<const mid_edge_nodes<3>>(nodes);
   return mesh;
 }
-
-/// While it lives, no file may grow beyond a number of bytes: the nearest thing to a full disk.
-class file_size_limit {
-public:
-  explicit file_size_limit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit lowered{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &lowered);
-  }
-  ~file_size_limit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
-private:
-  void (*old_handler_)(int);
-  rlimit old_{};
-};
 
 } // namespace
 
@@ -161,7 +134,7 @@ TEST_CASE("the files are the same by every executor, at any time") {
   const testing::scratch_folder folder("hdf5_executors");
   const auto mesh = cubes.distributed();
   const auto summary = io::hdf5_writer{.files = 3}(mesh, folder / "alone");
-  const auto expected = content_of(folder / "alone");
+  const auto expected = testing::content_of(folder / "alone");
   std::uint64_t bytes = 0;
   for (const auto& [name, content] : expected)
     bytes += content.size();
@@ -174,7 +147,7 @@ TEST_CASE("the files are the same by every executor, at any time") {
     const auto finished =
         io::finish_mesh<3>(mesh, {io::hdf5_writer{.files = 3}}, folder / name, run_tasks, {.release = true});
     CHECK(finished.hash == io::mesh_hash(mesh));
-    CHECK(content_of(folder / name) == expected);
+    CHECK(testing::content_of(folder / name) == expected);
   };
   check("serial", parallel::serial{});
   check("processes", parallel::processes{.worker_count = 2});
@@ -206,22 +179,22 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   };
   CHECK_THROWS_WITH_AS(finish(), "a damaged file", io_error);
   CHECK(gone == std::set<local_id>{0, 1, 2, 3, 6, 7});
-  CHECK(content_of(folder / "out").size() == 1); // the folder of unfinished files
+  CHECK(testing::content_of(folder / "out").size() == 1); // the folder of unfinished files
   loads.clear();
   is_damaged = false;
   CHECK(finish().summary.get("taken_over") == 3);
   CHECK(loads == std::vector<local_id>{4, 5});
-  CHECK(content_of(folder / "out") == content_of(folder / "expected"));
+  CHECK(testing::content_of(folder / "out") == testing::content_of(folder / "expected"));
 }
 
 TEST_CASE("a file that would not fit leaves no trace, and the error names it and the reason") {
   const testing::scratch_folder folder("hdf5_full");
   for (const std::size_t bytes : {0, 500, 10000, 20000}) {
     CAPTURE(bytes);
-    const file_size_limit limit(bytes);
+    const testing::file_size_limit limit(bytes);
     CHECK_THROWS_WITH_AS(io::hdf5_writer{}(cubes.distributed(), folder),
                          doctest::Contains("mesh_0000.vtkhdf.part: HDF5: File too large"), io_error);
-    CHECK(content_of(folder).empty());
+    CHECK(testing::content_of(folder).empty());
   }
 }
 
@@ -231,7 +204,7 @@ TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") 
   testing::write_content(folder / "mesh_mine.vtkhdf", "x");
   io::hdf5_writer{.files = 2}(cubes.distributed(), folder);
   std::set<std::string> names;
-  for (const auto& [name, content] : content_of(folder))
+  for (const auto& [name, content] : testing::content_of(folder))
     names.insert(name);
   CHECK(names == std::set<std::string>{"mesh.xdmf", "mesh_0000.vtkhdf", "mesh_0001.vtkhdf",
                                        "mesh_mine.vtkhdf", "skeleton.vtkhdf"});
@@ -252,9 +225,9 @@ TEST_CASE("a piece that has not the skeleton's points, or comes out of turn, is 
   const auto other = cubes.distributed();
   {
     const auto file = io::hdf5_writer{}.begin(other, folder).open(1);
-    CHECK(content_of(folder).contains("mesh_0001.vtkhdf.part"));
+    CHECK(testing::content_of(folder).contains("mesh_0001.vtkhdf.part"));
     CHECK_THROWS_WITH_AS(file.add(other.load(0)), doctest::Contains("subdomain 0 is not the next"),
                          mesh_error);
   }
-  CHECK(content_of(folder).empty()); // what is not closed leaves nothing
+  CHECK(testing::content_of(folder).empty()); // what is not closed leaves nothing
 }

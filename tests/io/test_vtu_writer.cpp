@@ -2,16 +2,15 @@
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/io/msh_writer.hpp"
 #include "dovetail/io/vtu_writer.hpp"
+#include "io/file_size_limit.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <set>
 #include <string>
-#include <sys/resource.h>
 
 using namespace dovetail;
 
@@ -30,24 +29,6 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
     names.insert(entry.path().filename().string());
   return names;
 }
-
-/// While it lives, no file may grow beyond a number of bytes: the nearest thing to a full disk.
-class file_size_limit {
-public:
-  explicit file_size_limit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit lowered{bytes, old_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &lowered);
-  }
-  ~file_size_limit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
-private:
-  void (*old_handler_)(int);
-  rlimit old_{};
-};
 
 } // namespace
 
@@ -96,7 +77,7 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it") {
   const testing::scratch_folder folder("vtu_full");
   const auto mesh = cubes.distributed();
   const auto refused = [&](std::size_t bytes, const auto& writer, const char* file) {
-    const file_size_limit limit(bytes);
+    const testing::file_size_limit limit(bytes);
     CHECK_THROWS_WITH_AS(writer(mesh, folder), doctest::Contains(file), io_error);
     CHECK(names_in(folder).empty());
   };

@@ -75,6 +75,14 @@ void require_valid(const generate_result& result) {
   CHECK(result.quality.elements > 0);
 }
 
+/// Makes what TetGen makes, and has no other parameters for a background.
+struct without_form {
+  static constexpr mesher_traits traits = mesher::tetgen::traits;
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    return mesher::tetgen{}(input, size);
+  }
+};
+
 } // namespace
 
 TEST_CASE("a drilled block is meshed whole, in pieces, with the right volume and clean interfaces") {
@@ -129,6 +137,20 @@ TEST_CASE("two materials share the triangles of their common face, and no subdom
     between_materials += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   }
   CHECK(between_materials == doctest::Approx(0.48).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "sizes of a background with many surface triangles are doubled, where the mesher regards its angles") {
+  const auto scale_with = [](const any_mesher<3>& mesher, double elements_per_subdomain) {
+    generate_options options = in_parts(2);
+    options.background_elements_per_subdomain = elements_per_subdomain;
+    return make_background<3>(occt_shape_from(drilled_block()).model, uniform_size(0.1),
+                              parameters<>{}.with_mesher(mesher).with_options(options))
+        .plan.coarse_scale;
+  };
+  const any_mesher<3> formed(mesher::tetgen{}), plain(without_form{});
+  CHECK(scale_with(formed, 10) == doctest::Approx(2 * scale_with(plain, 10)));
+  CHECK(scale_with(formed, 1e4) == doctest::Approx(scale_with(plain, 1e4)));
 }
 
 TEST_CASE("one subdomain needs no volume: the mesh is the one that comes of a background with it") {

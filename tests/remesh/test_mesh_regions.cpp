@@ -258,6 +258,26 @@ TEST_CASE("a mesh is made once for the same region, and again for another") {
   CHECK(made_with(set) == 2);
 }
 
+TEST_CASE("chords are found again among meshes that were made before") {
+  auto store = empty_store();
+  const auto mesh = [&](listed_regions set) {
+    return meshed_set(std::move(set), any_surface_mesher(careless{}), parallel::serial{}, 6, store);
+  };
+  const meshed_set first = mesh(cushion());
+  const std::size_t made = store.meshes.made();
+  listed_regions renamed = cushion();
+  for (surface_region& region : renamed.regions)
+    for (local_id& label : region.boundary.labels)
+      label += 7; // chords are kept by places in the boundary, not by labels
+  for (const meshed_set& again : {mesh(cushion()), mesh(renamed)}) {
+    CHECK(store.meshes.made() == made);
+    CHECK(again.result.keys == first.result.keys);
+    CHECK(again.set.forbidden_edges.at(1).size() == 1);
+    for (const auto& [chord, regions] : again.regions_at_chords())
+      CHECK(regions.size() == 1);
+  }
+}
+
 TEST_CASE("threads: the same meshes; a mesher that may not run there is refused") {
   const auto one = mesh_all(cushion()), many = mesh_all(cushion(), {}, parallel::threads{2});
   for (std::size_t r = 0; r < 2; ++r)
