@@ -111,9 +111,13 @@ struct rough_sheet {
 };
 
 struct serial_run {
+  std::size_t* tasks = nullptr; ///< counts them
+
   int workers() const { return 1; }
   bool shares_process() const { return true; }
   std::vector<task_outcome> run(std::size_t count, const task_function& task, const run_options&) const {
+    if (tasks)
+      *tasks += count;
     std::vector<task_outcome> outcomes(count);
     for (std::size_t i = 0; i < count; ++i)
       outcomes[i] = {.ok = true, .result = task(i), .failure = {}};
@@ -206,6 +210,16 @@ TEST_CASE("in a mesh, quick proofs hide no crossing: flat, rough, and folded ove
         CHECK(expected.empty() == (displacement < 0.5));
       CHECK(crossing_triangles(sheet.points, sheet.triangles, {}, serial_run{}) == expected);
     }
+}
+
+TEST_CASE("a large mesh is searched in many tasks, and what crosses between their cells is found once") {
+  std::mt19937 engine(17);
+  const rough_sheet sheet(40, 0.6, engine);
+  const auto expected = sheet.pairs_by_testing_all();
+  REQUIRE(expected.size() > 20);
+  std::size_t tasks = 0;
+  CHECK(crossing_triangles(sheet.points, sheet.triangles, {}, serial_run{&tasks}) == expected);
+  CHECK(tasks > 2);
 }
 
 TEST_CASE("a set is called a single sheet only when none of its triangles cross") {

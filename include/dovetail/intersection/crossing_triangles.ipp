@@ -8,6 +8,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/intersection/single_sheet.hpp"
+#include "dovetail/intersection/triangle_blocks.hpp"
 #include "dovetail/intersection/triangle_separation.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
 #include "dovetail/parallel/any_executor.hpp"
@@ -26,56 +27,53 @@ namespace dovetail {
 
 namespace detail {
 
-inline box3 box_of(std::span<const vec3> points, const simplex<2>& triangle) {
-  box3 box;
-  for (const local_id v : triangle)
-    box.include(points[static_cast<std::size_t>(v)]);
-  return box;
-}
-
 /// Searches cells of an octree over the triangles' boxes; a triangle is in every cell that its box overlaps.
-/// A pair is tested in the cell that has the lower corner of what their boxes share, so once. Boxes are made
-/// when they are needed: beside the mesh there are only the lists of the cells on the way down.
+/// A pair is tested in the cell that has the lower corner of what their boxes share, so once. Boxes of
+/// triangles are made when they are needed: beside the mesh there are only those of blocks, and the lists of
+/// the cells on the way down.
 class crossing_search {
 public:
   /// An octant of the root, or a part of one.
   struct cell {
     box3 box;
-    std::vector<local_id> items;
+    std::vector<local_id> items; ///< triangles, or blocks of them
     int depth = 0;
   };
 
   crossing_search(std::span<const vec3> points, std::span<const simplex<2>> triangles,
                   const std::function<bool(local_id, local_id)>& excluded,
-                  const crossing_parameters& parameters)
-      : points_(points), triangles_(triangles), excluded_(excluded), parameters_(parameters) {}
+                  const crossing_parameters& parameters, const triangle_blocks& blocks)
+      : points_(points), triangles_(triangles), excluded_(excluded), parameters_(parameters),
+        blocks_(blocks) {}
 
-  /// Cells that together hold all pairs, at least `wanted` where there is so much to split.
-  std::vector<cell> start(std::size_t wanted) {
-    cell root;
-    for (const simplex<2>& triangle : triangles_)
-      for (const local_id v : triangle)
-        root.box.include(points_[static_cast<std::size_t>(v)]);
-    for (int axis = 0; axis < 3; ++axis) // half open: nothing is on the upper side of the root
-      root.box.upper[axis] = std::nextafter(root.box.upper[axis], std::numeric_limits<double>::max());
-    root.items.resize(triangles_.size());
-    std::iota(root.items.begin(), root.items.end(), local_id{0});
-    std::vector<cell> cells;
-    cells.push_back(std::move(root));
-    for (int level = 0; level < 3 && cells.size() < wanted; ++level) {
-      std::vector<cell> parts;
-      for (cell& whole : cells) {
-        if (whole.items.size() <= 1000) {
-          parts.push_back(std::move(whole));
-          continue;
-        }
-        for (cell& part : octants(whole))
-          if (part.items.size() > 1)
-            parts.push_back(std::move(part));
+  /// Cells of blocks that together hold all pairs, at least `wanted` of them where there is so much to split,
+  /// and not many times more.
+  std::vector<cell> start(std::size_t wanted) const {
+    const std::size_t most =
+        std::max<std::size_t>(1000, triangles_.size() / wanted) / triangle_blocks::block_size;
+    std::vector<cell> level{root()}, done;
+    while (!level.empty()) {
+      std::vector<cell> next;
+      for (cell& whole : level) {
+        const bool may_split = whole.items.size() > most && whole.depth < parameters_.depth_limit &&
+                               done.size() + next.size() < 8 * wanted;
+        if (!may_split || !split(whole, next))
+          done.push_back(std::move(whole));
       }
-      cells = std::move(parts);
+      level.swap(next);
     }
-    return cells;
+    return done;
+  }
+
+  /// The cell with the triangles of its blocks instead of these.
+  cell with_triangles(const cell& of_blocks) const {
+    cell result{of_blocks.box, {}, of_blocks.depth};
+    for (const local_id block : of_blocks.items)
+      blocks_.for_each(static_cast<std::size_t>(block), [&](local_id t) {
+        if (box(t).overlaps(of_blocks.box))
+          result.items.push_back(t);
+      });
+    return result;
   }
 
   /// Appends the crossing pairs of a cell. One searcher for each thread.
@@ -86,14 +84,8 @@ public:
       test_pairs(whole, found);
       return;
     }
-    auto parts = octants(whole);
-    // Long triangles are in many parts. Where splitting saves less than a quarter of the pairs they only are
-    // copied; so all cells together never take longer than testing each pair of the whole once.
-    const auto pairs_of = [](const cell& c) { return static_cast<double>(c.items.size() * c.items.size()); };
-    double pairs = 0;
-    for (const cell& part : parts)
-      pairs += pairs_of(part);
-    if (pairs > 0.75 * pairs_of(whole)) {
+    auto parts = octants(whole, [&](local_id item) { return box(item); });
+    if (!is_worth_it(whole, parts)) {
       test_pairs(whole, found);
       return;
     }
@@ -105,14 +97,57 @@ public:
 private:
   box3 box(local_id item) const { return box_of(points_, triangles_[static_cast<std::size_t>(item)]); }
 
-  std::array<cell, 8> octants(const cell& whole) const {
+  cell root() const {
+    cell whole;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      whole.box.include(blocks_.box(b).lower);
+      whole.box.include(blocks_.box(b).upper);
+    }
+    for (int axis = 0; axis < 3; ++axis) // half open: nothing is on its upper side
+      whole.box.upper[axis] = std::nextafter(whole.box.upper[axis], std::numeric_limits<double>::max());
+    whole.items.resize(blocks_.size());
+    std::iota(whole.items.begin(), whole.items.end(), local_id{0});
+    return whole;
+  }
+
+  /// Appends the parts of a cell of blocks, unless most of these would be in most parts.
+  bool split(const cell& whole, std::vector<cell>& parts) const {
+    auto eight = octants(whole, [&](local_id block) { return blocks_.box(static_cast<std::size_t>(block)); });
+    if (listed_in(eight) > 4 * whole.items.size())
+      return false;
+    for (cell& part : eight)
+      if (!part.items.empty())
+        parts.push_back(std::move(part));
+    return true;
+  }
+
+  template <class BoxOf>
+  static std::array<cell, 8> octants(const cell& whole, BoxOf&& box_of_item) {
     auto items = items_by_octant(whole.box, whole.items, [&](local_id item) {
-      return [at = box(item)](const box3& part) { return at.overlaps(part); };
+      return [at = box_of_item(item)](const box3& part) { return at.overlaps(part); };
     });
     std::array<cell, 8> parts;
     for (unsigned k = 0; k < 8; ++k)
       parts[k] = {octant(whole.box, k), std::move(items[k]), whole.depth + 1};
     return parts;
+  }
+
+  static std::size_t listed_in(const std::array<cell, 8>& parts) {
+    std::size_t listed = 0;
+    for (const cell& part : parts)
+      listed += part.items.size();
+    return listed;
+  }
+
+  /// Long triangles are in many parts. Where splitting saves less than a quarter of the pairs they only are
+  /// copied; so all cells together never take much longer than testing each pair of the whole once. Where
+  /// hardly any is copied the triangles are together in one part, which is split in turn.
+  static bool is_worth_it(const cell& whole, const std::array<cell, 8>& parts) {
+    const auto pairs_of = [](const cell& c) { return static_cast<double>(c.items.size() * c.items.size()); };
+    double pairs = 0;
+    for (const cell& part : parts)
+      pairs += pairs_of(part);
+    return pairs <= 0.75 * pairs_of(whole) || listed_in(parts) <= whole.items.size() + whole.items.size() / 8;
   }
 
   void test_pairs(const cell& leaf, std::vector<triangle_pair>& found) {
@@ -148,6 +183,7 @@ private:
   std::span<const simplex<2>> triangles_;
   const std::function<bool(local_id, local_id)>& excluded_;
   crossing_parameters parameters_;
+  const triangle_blocks& blocks_;
   single_sheet is_sheet_{points_, triangles_};
   std::vector<std::pair<box3, local_id>> boxes_; ///< of a cell's triangles
 };
@@ -158,17 +194,21 @@ DOVETAIL_INLINE std::vector<triangle_pair>
 crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
                    const std::function<bool(local_id, local_id)>& excluded, const any_executor& run,
                    const crossing_parameters& parameters, const progress& on_progress) {
-  constexpr std::size_t triangles_per_task = 50'000; // a request to stop is seen after each
+  constexpr std::size_t triangles_per_task = 20'000; // a request to stop is seen after each
   const auto most_tasks = 8 * static_cast<std::size_t>(run.workers()) + triangles.size() / triangles_per_task;
-  const auto cells = detail::crossing_search(points, triangles, excluded, parameters).start(most_tasks);
+  const triangle_blocks blocks(points, triangles);
+  const auto searcher = [&] {
+    return detail::crossing_search(points, triangles, excluded, parameters, blocks);
+  };
+  const auto cells = searcher().start(most_tasks);
   const std::size_t tasks = std::min(cells.size(), most_tasks);
   const auto outcomes = run.run(
       tasks,
       [&](std::size_t task) {
-        detail::crossing_search searcher(points, triangles, excluded, parameters);
+        auto search = searcher();
         std::vector<triangle_pair> found;
         for (std::size_t c = task; c < cells.size(); c += tasks)
-          searcher.search(detail::crossing_search::cell(cells[c]), found);
+          search.search(search.with_triangles(cells[c]), found);
         std::vector<local_id> flat;
         for (const auto& [i, j] : found) {
           flat.push_back(i);

@@ -6,6 +6,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/intersection/suppression.hpp"
+#include "dovetail/intersection/triangle_blocks.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
@@ -19,19 +20,23 @@ namespace detail {
 /// The triangles that are not known to be apart, and those near them; growing.
 inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
   const box_tree others(known.around_others);
+  const auto is_near_others = [&](const box3& box) {
+    bool is_near = false;
+    others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
+                    [&](local_id other) {
+                      is_near = is_near || known.around_others[static_cast<std::size_t>(other)].overlaps(box);
+                    });
+    return is_near;
+  };
+  const triangle_blocks blocks(skeleton.points, skeleton.sides);
   std::vector<local_id> near;
-  for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
-    bool is_near = !known.triangles[t];
-    if (!is_near) {
-      const box3 box = box_of(skeleton.points, skeleton.sides[t]);
-      others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
-                      [&](local_id other) {
-                        is_near =
-                            is_near || known.around_others[static_cast<std::size_t>(other)].overlaps(box);
-                      });
-    }
-    if (is_near)
-      near.push_back(static_cast<local_id>(t));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const bool may_be_near = is_near_others(blocks.box(b));
+    blocks.for_each(b, [&](local_id triangle) {
+      const auto t = static_cast<std::size_t>(triangle);
+      if (!known.triangles[t] || (may_be_near && is_near_others(box_of(skeleton.points, skeleton.sides[t]))))
+        near.push_back(triangle);
+    });
   }
   return near;
 }
