@@ -22,22 +22,25 @@ class candidate_octree {
 public:
   candidate_octree() = default;
 
-  /// `reaches(item, box)`: may the item concern a point of the box? A false "yes" costs time only.
-  /// Lists keep the order of `order`, which lists the items.
-  template <class Reaches>
-  candidate_octree(const box3& bounds, std::span<const local_id> order, Reaches&& reaches) : bounds_(bounds) {
+  /// `reaches(item, box)`: may the item concern a point of the box? `narrow(box, items)` may take out more of
+  /// those, which the others of them make needless everywhere in it. A false "yes" costs time only. Lists
+  /// keep the order of `order`, which lists the items.
+  template <class Reaches, class Narrow>
+  candidate_octree(const box3& bounds, std::span<const local_id> order, Reaches&& reaches, Narrow&& narrow)
+      : bounds_(bounds) {
     if (order.empty() || bounds.empty())
       return;
     tree_ = octree(cube_around(bounds));
     const std::size_t most_nodes = 64 * order.size() + 64;
     std::vector<listed_leaf> level{{0, {order.begin(), order.end()}}};
+    narrow(tree_.bounds(), level.front().items);
     std::vector<listed_leaf> done;
     for (int depth = 0; !level.empty(); ++depth) {
       std::vector<listed_leaf> next;
       for (listed_leaf& leaf : level) {
         const bool may_split =
             leaf.items.size() > leaf_size && depth < largest_depth && tree_.node_count() + 8 <= most_nodes;
-        if (!may_split || !split(leaf, reaches, next))
+        if (!may_split || !split(leaf, reaches, narrow, next))
           done.push_back(std::move(leaf));
       }
       level.swap(next);
@@ -48,6 +51,10 @@ public:
           put(tree_.leaf_index(leaf.node), item);
     });
   }
+
+  template <class Reaches>
+  candidate_octree(const box3& bounds, std::span<const local_id> order, Reaches&& reaches)
+      : candidate_octree(bounds, order, reaches, [](const box3&, std::vector<local_id>&) {}) {}
 
   /// The items that may concern p; none outside the bounds.
   std::span<const local_id> candidates(vec3 p) const {
@@ -67,17 +74,20 @@ private:
 
   /// Refuses when the eight lists together would be nearly eight times the old one: big items, nothing
   /// gained.
-  template <class Reaches>
-  bool split(const listed_leaf& leaf, Reaches&& reaches, std::vector<listed_leaf>& next) {
+  template <class Reaches, class Narrow>
+  bool split(const listed_leaf& leaf, Reaches&& reaches, Narrow&& narrow, std::vector<listed_leaf>& next) {
     // Rounding moves the centres of a descent by far less than this.
     const double margin = 1e-12 * (norm(bounds_.lower) + norm(bounds_.upper));
     const auto reach = [&](local_id item) {
       return [&reaches, item](const box3& part) { return reaches(item, part); };
     };
-    auto lists = items_by_octant(tree_.box(leaf.node), leaf.items, reach, margin);
+    const box3 box = tree_.box(leaf.node);
+    auto lists = items_by_octant(box, leaf.items, reach, margin);
     std::size_t listed = 0;
-    for (const auto& list : lists)
-      listed += list.size();
+    for (unsigned k = 0; k < 8; ++k) {
+      narrow(inflated(octant(box, k), margin), lists[k]);
+      listed += lists[k].size();
+    }
     if (listed > 7 * leaf.items.size())
       return false;
     tree_.split(leaf.node);

@@ -152,6 +152,7 @@ private:
     double reach = 0;     ///< beyond this distance the source asks for the ambient size or more
     box3 reached;         ///< beyond this box likewise
     bool constant = true; ///< the same radii and spacing at all corners
+    double rate = 0;      ///< of growth, where it is constant
     /// How fast they change along the source, per length; infinite on a degenerate source with unequal
     /// corners.
     double inner_slope = 0;
@@ -170,11 +171,26 @@ private:
     stable_sort_all(order, [&](local_id a, local_id b) {
       return laws_[static_cast<std::size_t>(a)].log_least < laws_[static_cast<std::size_t>(b)].log_least;
     });
-    located_ = candidate_octree(tree_.bounds(), order, [&](local_id id, const box3& box) {
-      const auto i = static_cast<std::size_t>(id);
-      return laws_[i].reached.overlaps(box) &&
-             nearest(i, box.center()).distance <= laws_[i].reach + 0.5001 * box.diagonal();
-    });
+    located_ = candidate_octree(
+        tree_.bounds(), order,
+        [&](local_id id, const box3& box) {
+          const auto i = static_cast<std::size_t>(id);
+          return laws_[i].reached.overlaps(box) &&
+                 nearest(i, box.center()).distance <= laws_[i].reach + 0.5001 * box.diagonal();
+        },
+        [&](const box3& box, std::vector<local_id>& items) { remove_outdone(box, items); });
+  }
+
+  /// Takes out sources that ask for more than another one does, wherever in the box.
+  void remove_outdone(const box3& box, std::vector<local_id>& items) const {
+    constexpr double rounding = 1e-9; // far more than there is
+    const vec3 center = box.center();
+    const double radius = 0.5001 * box.diagonal();
+    double most = log_ambient_; // the size is at most this
+    for (const local_id i : items)
+      if (laws_[static_cast<std::size_t>(i)].constant)
+        most = std::min(most, log_size(i, center, -radius));
+    std::erase_if(items, [&](local_id i) { return log_size(i, center, radius) > most + rounding; });
   }
 
   static double moved(double slope, double by) { return by > 0 ? slope * by : 0; }
@@ -215,6 +231,7 @@ private:
       result.reach = std::max(result.reach, inner + width_of_growth(log_least, slowest) + limited);
     }
     result.log_least = std::log(result.least);
+    result.rate = growth_rate(s, s.inner_radius[0], s.outer_radius[0], result.log_least);
     if (!result.constant) {
       result.inner_slope = slope_along(s, s.inner_radius);
       result.outer_slope = slope_along(s, s.outer_radius);
@@ -256,7 +273,8 @@ private:
     return {distance(foot, p), at};
   }
 
-  /// Logarithm of what source i asks for at distance max(0, |p - source| - closer).
+  /// Logarithm of what source i asks for at distance max(0, |p - source| - closer). `closer` may be negative
+  /// for a source that is the same everywhere.
   double log_size(local_id id, vec3 p, double closer) const {
     const auto i = static_cast<std::size_t>(id);
     const grid_source& s = sources_[i];
@@ -279,8 +297,8 @@ private:
       return log_spacing;
     if (!std::isfinite(inner) || !std::isfinite(outer))
       return log_spacing;
-    return std::min(log_ambient_,
-                    log_grown(log_spacing, growth_rate(s, inner, outer, log_spacing), r - inner));
+    const double rate = l.constant ? l.rate : growth_rate(s, inner, outer, log_spacing);
+    return std::min(log_ambient_, log_grown(log_spacing, rate, r - inner));
   }
 
   /// The logarithm of the size grows by this per length outside the inner radius, before it is limited.
