@@ -113,6 +113,21 @@ TEST_CASE("a field without bounds is sampled everywhere") {
   CHECK(p.elements == doctest::Approx(exact).epsilon(0.05));
 }
 
+TEST_CASE("elements may be integrated over in parts, and that is where a prediction begins") {
+  const source_field h(1.0, {point_source({0.2, 0.3, 0.4}, 0.1, 0.7, 0.05)});
+  const auto mesh = box_mesh({0, 0, 0}, {1, 1, 1}, 3);
+  auto known = integrate_elements(mesh, h, 0, 50);
+  for (const auto& estimate : integrate_elements(mesh, h, 50, mesh.elements.size()))
+    known.push_back(estimate);
+  const auto alone = predict_elements(mesh, h), begun = predict_elements(mesh, h, {}, known);
+  CHECK(begun.per_element == alone.per_element);
+  CHECK(begun.cells == alone.cells);
+  for (auto& estimate : known)
+    estimate = {0.5, 0}; // so exact that no element is split
+  CHECK(predict_elements(mesh, h, {.density = 1}, known).per_element ==
+        std::vector<double>(mesh.elements.size(), 0.5));
+}
+
 TEST_CASE("sizes too small for any number predict no number, and the prediction ends") {
   const any_sizing h = [](vec3 p) { return distance(p, {0.3, 0.4, 0.6}) < 0.1 ? 1e-300 : 0.2; };
   const auto p = predict_elements(box_mesh({0, 0, 0}, {1, 1, 1}, 4), h);

@@ -4,27 +4,61 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles_codec.hpp"
+#include "dovetail/parallel/final_errors.hpp"
+#include "dovetail/parallel/run_task.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
 namespace detail {
 
+/// The first step of the prediction of elements, which for a large background mesh is most of it, in tasks.
+template <int D>
+std::vector<integral_estimate> integrate_in_tasks(const simplicial_mesh<D>& mesh, const any_sizing& size,
+                                                  const any_parameters<D>& given) {
+  constexpr std::size_t elements_per_task = 10'000; // some 30 ms
+  const std::size_t elements = mesh.elements.size();
+  const auto outcomes = given.run_tasks.run(
+      (elements + elements_per_task - 1) / elements_per_task,
+      [&](std::size_t task) {
+        return with_final_errors([&] {
+          const std::size_t first = task * elements_per_task;
+          byte_writer to;
+          to.array(integrate_elements(mesh, size, first, std::min(elements, first + elements_per_task)));
+          return to.take();
+        });
+      },
+      run_options{.on_progress = given.options.on_progress, .stage = "simplification"});
+  std::vector<integral_estimate> estimates;
+  estimates.reserve(elements);
+  for (const task_outcome& outcome : outcomes) {
+    require_done(outcome, "the prediction of elements");
+    append(estimates, byte_reader(without_final_errors(outcome.result)).template array<integral_estimate>());
+  }
+  return estimates;
+}
+
 template <int D>
 divided_background<D> divide_here(const simplicial_background<D>& coarse, const any_sizing& size,
-                                  int subdomains, const any_parameters<D>& given) {
+                                  std::span<const integral_estimate> estimates, int subdomains,
+                                  const any_parameters<D>& given) {
   const generate_options& options = given.options;
   divided_background<D> result;
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
   result.sides = build_sides(coarse.elements());
-  result.weights = predict_elements<D>(coarse.elements(), size).per_element;
+  result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
   auto simplified = simplify_background(coarse, result.sides, result.weights, bound, given.simplify_by,
@@ -99,9 +133,13 @@ template <int D>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
                              const any_parameters<D>& given) {
   const any_executor& run = given.run_tasks;
+  const stopwatch clock;
+  const auto estimates = detail::integrate_in_tasks<D>(coarse.elements(), size, given);
+  const double integration_seconds = clock.seconds();
   divided_background<D> result;
   const byte_buffer known = run.once([&] {
-    result = detail::divide_here<D>(coarse, size, subdomains, given);
+    result = detail::divide_here<D>(coarse, size, estimates, subdomains, given);
+    result.simplification.seconds += integration_seconds;
     return run.has_others() ? detail::encode(result) : byte_buffer{};
   });
   return run.leads() ? std::move(result) : detail::decode_division<D>(coarse, known);

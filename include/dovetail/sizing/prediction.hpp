@@ -13,6 +13,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,19 @@ double measure_of(const std::array<vec3, D + 1>& c) {
 }
 
 template <int D>
+integration_cell<D> cell_of_element(const simplicial_mesh<D>& mesh, std::size_t element) {
+  std::array<vec3, D + 1> corners;
+  for (std::size_t i = 0; i <= D; ++i)
+    corners[i] = mesh.points[static_cast<std::size_t>(mesh.elements[element][i])];
+  return {corners, measure_of<D>(corners), element};
+}
+
+/// How far apart samples may be in a field of which nothing but samples tells.
+inline double largest_unsampled(const box3& domain) {
+  return domain.diagonal() / 24;
+}
+
+template <int D>
 double density_at(double h) {
   return D == 3 ? 1 / (h * h * h) : 1 / (h * h);
 }
@@ -81,7 +95,7 @@ double assumed_error(double quadrature_error, double integral, double measure, d
 
 /// Two rules of degree 2 that share no point; their difference is the error estimate.
 template <int D, sizing_field H>
-void integrate(integration_cell<D>& cell, const H& h, double largest_unsampled) {
+void integrate(integration_cell<D>& cell, const H& h, double most_unsampled) {
   constexpr double inner = D == 3 ? 0.58541019662496845 : 2.0 / 3;
   constexpr double outer = (1 - inner) / D;
   double least = std::numeric_limits<double>::infinity();
@@ -112,7 +126,7 @@ void integrate(integration_cell<D>& cell, const H& h, double largest_unsampled) 
   if (bound > 0)
     return;
   // Nothing but samples tells: look everywhere, and doubt a cell that may hold a jump.
-  if (box.diagonal() > largest_unsampled)
+  if (box.diagonal() > most_unsampled)
     cell.error = std::numeric_limits<double>::infinity();
   if (least < suspicious_ratio * greatest)
     cell.error = std::max(cell.error, 0.2 * cell.measure * density_at<D>(least));
@@ -171,28 +185,54 @@ double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::
 
 } // namespace sizing
 
-/// The number of D-simplices of edge length h that fill `mesh`, and the share of each of its elements, D = 2
-/// or 3. Adaptive: cells are split, worst first, until the estimated error is below the one asked for; a
-/// source smaller than a cell is found by the field's `smallest_size_in`, or, where the field has none, only
-/// if it shows up in samples about 1/48 of the domain apart. O(cells * cost of h). Deterministic.
+/// The integral of h^-D over an element, and the error estimated for it.
+struct integral_estimate {
+  double integral = 0;
+  double error = 0;
+};
+
+/// The elements first, first + 1, ... last - 1 of a mesh, before any is split: what `predict_elements` begins
+/// with, so that several can share the work. O(n * cost of h).
 template <int D, sizing_field H>
-element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
-                                    const prediction_options& options = {}) {
-  static_assert(D == 2 || D == 3, "elements are triangles or tetrahedra");
-  using cell = sizing::integration_cell<D>;
+std::vector<integral_estimate> integrate_elements(const simplicial_mesh<D>& mesh, const H& h,
+                                                  std::size_t first, std::size_t last) {
   box3 domain;
   for (const vec3& p : mesh.points)
     domain.include(p);
-  const double largest_unsampled = domain.diagonal() / 24;
+  std::vector<integral_estimate> estimates;
+  estimates.reserve(last - first);
+  for (std::size_t e = first; e < last; ++e) {
+    auto cell = sizing::cell_of_element<D>(mesh, e);
+    sizing::integrate(cell, h, sizing::largest_unsampled(domain));
+    estimates.push_back({cell.integral, cell.error});
+  }
+  return estimates;
+}
+
+/// The number of D-simplices of edge length h that fill `mesh`, and the share of each of its elements, D = 2
+/// or 3. `known` are all of `integrate_elements`, or empty. Adaptive: cells are split, worst first, until the
+/// estimated error is below the one asked for; a source smaller than a cell is found by the field's
+/// `smallest_size_in`, or, where the field has none, only if it shows up in samples about 1/48 of the domain
+/// apart. O(cells * cost of h). Deterministic.
+template <int D, sizing_field H>
+element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
+                                    const prediction_options& options = {},
+                                    std::span<const integral_estimate> known = {}) {
+  static_assert(D == 2 || D == 3, "elements are triangles or tetrahedra");
+  using cell = sizing::integration_cell<D>;
+  const std::vector<integral_estimate> own =
+      known.empty() ? integrate_elements(mesh, h, 0, mesh.elements.size()) : std::vector<integral_estimate>{};
+  const auto estimates = known.empty() ? std::span(own) : known;
+  box3 domain;
+  for (const vec3& p : mesh.points)
+    domain.include(p);
 
   std::vector<cell> cells;
   cells.reserve(mesh.elements.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    std::array<vec3, D + 1> corners;
-    for (std::size_t i = 0; i <= D; ++i)
-      corners[i] = mesh.points[static_cast<std::size_t>(mesh.elements[e][i])];
-    cells.push_back({corners, sizing::measure_of<D>(corners), e});
-    sizing::integrate(cells.back(), h, largest_unsampled);
+    cells.push_back(sizing::cell_of_element<D>(mesh, e));
+    cells.back().integral = estimates[e].integral;
+    cells.back().error = estimates[e].error;
   }
 
   element_prediction result;
@@ -218,7 +258,7 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
       const std::size_t first = next.size();
       sizing::append_children(cells[i], next);
       for (std::size_t k = first; k < next.size(); ++k)
-        sizing::integrate(next[k], h, largest_unsampled);
+        sizing::integrate(next[k], h, sizing::largest_unsampled(domain));
     }
     cells.swap(next);
   }
