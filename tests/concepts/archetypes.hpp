@@ -111,6 +111,14 @@ struct aware_sizing : copyable_only {
 };
 // end
 
+// for narrowable_sizing_field
+struct narrowable_sizing : copyable_only {
+  using copyable_only::copyable_only;
+  float operator()(vec3) const { return 0.2f; }
+  narrowable_sizing within(const box3&) const { return *this; }
+};
+// end
+
 /// Meshes a boundary that is the surface of one tetrahedron.
 struct mesher : copyable_only {
   using copyable_only::copyable_only;

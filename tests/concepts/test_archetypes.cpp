@@ -41,6 +41,8 @@ static_assert(bounded_below_sizing_field<archetype::bounded_sizing>);
 static_assert(!feature_aware_sizing_field<archetype::bounded_sizing>);
 static_assert(feature_aware_sizing_field<archetype::aware_sizing>);
 static_assert(!bounded_below_sizing_field<archetype::aware_sizing>);
+static_assert(narrowable_sizing_field<archetype::narrowable_sizing>);
+static_assert(!narrowable_sizing_field<archetype::aware_sizing>);
 static_assert(bisection_rule<archetype::bisection> && !graph_partitioner<archetype::bisection>);
 static_assert(improvement::shape_measure<archetype::shape_measure>);
 static_assert(improvement::mesh_operation<archetype::operation, 3>);

@@ -159,6 +159,38 @@ TEST_CASE("smallest_size_in is a lower bound and gets sharp") {
     }
 }
 
+TEST_CASE("the field of a box is the whole one there, to the last bit, and goes on as that outside") {
+  for (const auto growth : {source_growth::to_ambient, source_growth::doubling})
+    for (const double slope : {0.25, std::numeric_limits<double>::infinity()}) {
+      std::mt19937 random(13);
+      const source_field whole(0.9, random_sources(random, 300, growth), slope);
+      std::uniform_real_distribution<double> at(0, 10), unit(0, 1);
+      std::size_t most = 0;
+      for (int i = 0; i < 50; ++i) {
+        const vec3 corner{at(random), at(random), at(random)},
+            extent{unit(random), unit(random), unit(random)};
+        const box3 box{corner, corner + extent};
+        const source_field part = whole.within(box);
+        const any_sizing faster = faster_in(keep_bounds(whole), box);
+        most = std::max(most, part.sources().size());
+        for (int j = 0; j < 100; ++j) {
+          vec3 inside = corner;
+          for (int k = 0; k < 3; ++k)
+            inside[k] += unit(random) * extent[k];
+          CHECK(part(inside) == whole(inside));
+          CHECK(faster(inside) == whole(inside));
+          const vec3 anywhere{at(random), at(random), at(random)};
+          CHECK(faster(anywhere) == whole(anywhere));
+        }
+        CHECK(smallest_size_in(faster, box) == whole.smallest_size_in(box));
+        CHECK(feature_size(faster, corner) == whole.feature_size(corner));
+      }
+      CHECK(most < 150);
+    }
+  const any_sizing plain = [](vec3 p) { return 1 + p.x; };
+  CHECK(faster_in(plain, {{0, 0, 0}, {1, 1, 1}})({0.5, 0, 0}) == 1.5);
+}
+
 TEST_CASE("feature_size is half the inner radius or distance of the sources in reach") {
   const source_field h(2.0, {point_source({0, 0, 0}, 0.5, 1.5, 0.1), point_source({1, 0, 0}, 0, 0.6, 0.1)});
   CHECK(h.feature_size({-0.2, 0, 0}) == 0.25);

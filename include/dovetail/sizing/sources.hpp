@@ -125,6 +125,22 @@ public:
     return least < log_ambient_ ? std::exp(least) * (1 - 1e-12) : ambient_;
   }
 
+  /// Of the sources that count in the box.
+  source_field within(const box3& box) const {
+    std::vector<local_id> counting;
+    tree_.for_each([&](const box3& reached, std::size_t) { return reached.overlaps(box); },
+                   [&](local_id i) {
+                     if (laws_[static_cast<std::size_t>(i)].reached.overlaps(box))
+                       counting.push_back(i);
+                   });
+    remove_outdone(box, counting);
+    sort_all(counting);
+    std::vector<grid_source> sources;
+    for (const local_id i : counting)
+      sources.push_back(sources_[static_cast<std::size_t>(i)]);
+    return {ambient_, std::move(sources), largest_slope_};
+  }
+
   double ambient() const { return ambient_; }
   const std::vector<grid_source>& sources() const { return sources_; }
 
