@@ -1,4 +1,5 @@
 // What ranks hold: together the mesh, each in the order of solvers, agreeing about what they share.
+#include "io/bent_edges.hpp"
 #include "io/stacked_cubes.hpp"
 
 #include "dovetail/geometry/plane_domain.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <set>
@@ -137,6 +139,73 @@ void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<
   CHECK(sides == sides_of_whole);
 }
 
+/// A second-order mesh with all its nodes and elements at their numbers.
+template <int D>
+struct numbered_nodes {
+  std::vector<vec3> points;
+  std::vector<std::vector<global_id>> elements;
+
+  explicit numbered_nodes(const distributed_simplicial_mesh<D>& mesh) {
+    const auto numbers = io::number_nodes(mesh);
+    for (std::size_t v = 0; v < skeleton_nodes(mesh); ++v)
+      points.push_back(skeleton_node(mesh, static_cast<local_id>(v)));
+    for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
+      const auto piece = mesh.load(static_cast<local_id>(p));
+      const piece_nodes<D> nodes(mesh, piece);
+      append(points, nodes.own());
+      for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
+        for (auto& of = elements.emplace_back(); const local_id v : nodes.of_element(e))
+          of.push_back(io::global_node(nodes, numbers, static_cast<local_id>(p), v));
+    }
+  }
+};
+
+/// Of a mesh with middles of edges: the ranks have its nodes, bit for bit, owned corners first as without
+/// middles.
+template <int D>
+void check_second_order(const distributed_simplicial_mesh<D>& mesh,
+                        const std::vector<local_id>& rank_of_piece, local_id ranks) {
+  const numbered_nodes<D> whole(mesh);
+  auto linear = mesh;
+  linear.mid_nodes = {};
+  for (const bool ghosts : {false, true}) {
+    CAPTURE(ghosts);
+    const auto of_corners = all_ranks(linear, rank_of_piece, ranks, ghosts);
+    const auto all = all_ranks(mesh, rank_of_piece, ranks, ghosts);
+    CHECK(faults_of(all) == "");
+    std::size_t vertices = 0, elements = 0;
+    bool same = true;
+    for (const auto& rank : all) {
+      const auto& corners = of_corners[static_cast<std::size_t>(rank.rank)];
+      vertices += rank.owned_vertices;
+      elements += rank.owned_elements;
+      for (std::size_t v = 0; v < rank.mesh.points.size(); ++v)
+        same = same && rank.mesh.points[v] == whole.points[static_cast<std::size_t>(rank.vertex_numbers[v])];
+      for (std::size_t e = 0; e < rank.mesh.elements.size(); ++e) {
+        std::vector<global_id> nodes;
+        for_each_node(rank, e,
+                      [&](local_id v) { nodes.push_back(rank.vertex_numbers[static_cast<std::size_t>(v)]); });
+        same = same && nodes == whole.elements[static_cast<std::size_t>(rank.element_numbers[e])];
+      }
+      same = same && rank.owned_corners == corners.owned_vertices &&
+             std::equal(corners.mesh.points.begin(),
+                        corners.mesh.points.begin() + static_cast<std::ptrdiff_t>(rank.owned_corners),
+                        rank.mesh.points.begin());
+      same = same && rank.element_ids == corners.element_ids && rank.mesh.tags == corners.mesh.tags &&
+             rank.side_hosts == corners.side_hosts && rank.side_middles.size() == rank.sides.size();
+      for (std::size_t s = 0; s < rank.side_middles.size(); ++s)
+        for (std::size_t k = 0; k < edges_per_element<D - 1>; ++k) {
+          const auto [a, b] = vertices_of_edge(rank.sides[s], numbering::edges<D - 1>[k]);
+          const auto at = [&](local_id v) { return rank.mesh.points[static_cast<std::size_t>(v)]; };
+          same = same && at(rank.side_middles[s][k]) == testing::bent_middle(at(a), at(b));
+        }
+    }
+    CHECK(same);
+    CHECK(vertices == whole.points.size());
+    CHECK(elements == whole.elements.size());
+  }
+}
+
 /// Of elements or pieces: one of `kinds`, each at least once.
 std::vector<local_id> random_labels(std::size_t count, local_id kinds, std::mt19937& random) {
   std::vector<local_id> labels;
@@ -159,7 +228,9 @@ TEST_CASE("ranks make up the mesh: random elements in pieces, random pieces on r
     const auto pieces = static_cast<local_id>(1 + random() % 12);
     const auto ranks = static_cast<local_id>(1 + random() % static_cast<unsigned>(pieces));
     const auto mesh = cubes.distributed(random_labels(count, pieces, random));
-    check_all_of(mesh, random_labels(static_cast<std::size_t>(pieces), ranks, random), ranks);
+    const auto rank_of_piece = random_labels(static_cast<std::size_t>(pieces), ranks, random);
+    check_all_of(mesh, rank_of_piece, ranks);
+    check_second_order(testing::with_bent_edges(mesh), rank_of_piece, ranks);
   }
 }
 
@@ -178,12 +249,20 @@ TEST_CASE("ranks make up the mesh: boxes of two solids, whose sides between are 
   CHECK(halves[0].owned_vertices == 75); // the lower half has what lies between
   CHECK(halves[1].owned_vertices == 50);
   CHECK(halves[1].held_vertices == 75);
+  const auto quadratic = all_ranks(testing::with_bent_edges(mesh), {0, 0, 0, 0, 1, 1, 1, 1}, 2, false);
+  for (const auto& rank : quadratic) {
+    REQUIRE(rank.neighbours.size() == 1);
+    CHECK(rank.neighbours[0].vertices.size() == 25 + 32 + 24);
+    CHECK(rank.neighbours[0].edges.size() == 32 + 24);
+  }
+  CHECK(quadratic[1].held_vertices == quadratic[1].owned_vertices + 25 + 32 + 24);
 }
 
 TEST_CASE("a rank without pieces is empty, and one rank has everything") {
   const auto mesh = testing::stacked_cubes{.cells = 2, .cuts = 2}.distributed();
   check_all_of(mesh, std::vector<local_id>(8, 1), 3);
   check_all_of(mesh, std::vector<local_id>(8, 0), 1);
+  check_second_order(testing::with_bent_edges(mesh), std::vector<local_id>(8, 1), 3);
   const auto ranks = all_ranks(mesh, std::vector<local_id>(8, 1), 3, true);
   CHECK(ranks[0].mesh.points.empty());
   CHECK(ranks[1].owned_elements == 48);
@@ -211,6 +290,7 @@ TEST_CASE("triangles: a plane domain, and sheets that meet in an edge") {
   const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z M1 1 h0.5 v0.5 h-0.5 Z"));
   const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
   check_all_of(result.mesh, {0, 1, 2, 0, 1, 2, 0}, 3);
+  check_second_order(testing::with_bent_edges(result.mesh), {0, 1, 2, 0, 1, 2, 0}, 3);
 
   distributed_simplicial_mesh<2> sheets;
   sheets.skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
@@ -230,6 +310,7 @@ TEST_CASE("triangles: a plane domain, and sheets that meet in an edge") {
     piece.mesh = {{points[0], points[1], points[static_cast<std::size_t>(2 + s)]}, {{0, 1, 2}}, {s}};
     return piece;
   };
+  check_second_order(testing::with_bent_edges(sheets), {0, 1, 2}, 3);
   const auto ranks = all_ranks(sheets, {0, 1, 2}, 3, true);
   CHECK(faults_of(ranks) == "");
   for (const auto& rank : ranks) {
@@ -278,6 +359,32 @@ TEST_CASE("arrays as solvers take them") {
     }
     CHECK(on_cube);
   }
+  const auto quadratic = all_ranks(testing::with_bent_edges(mesh), {0, 0, 1, 1, 0, 0, 1, 1}, 2, false);
+  coordinates.clear();
+  for (const auto& rank : quadratic)
+    append(coordinates, owned_coordinates(rank));
+  REQUIRE(coordinates.size() ==
+          3 * (27 + 98)); // a lattice of 2 x 2 x 2 cells has as many edges, with diagonals
+  for (const auto& rank : quadratic) {
+    const auto cells = cells_by_ids(rank);
+    REQUIRE(cells.size() == 10 * rank.owned_elements);
+    bool bent = true;
+    for (std::size_t first = 0; first < cells.size(); first += 10)
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto at = [&](std::size_t i) {
+          const auto v = static_cast<std::size_t>(cells[first + i]);
+          return vec3{coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+        };
+        const auto [a, b] = numbering::edges<3>[k];
+        bent = bent && at(4 + k) == testing::bent_middle(at(static_cast<std::size_t>(a)),
+                                                         at(static_cast<std::size_t>(b)));
+      }
+    CHECK(bent);
+    CHECK(sides_by_ids(rank).size() == 3 * rank.sides.size());
+    CHECK_THROWS_AS(cells_for_dmplex(rank), usage_error);
+    io::mesh_hasher hasher;
+    CHECK_THROWS_AS(io::hash_rank_mesh(hasher, rank), usage_error);
+  }
 }
 
 TEST_CASE("the check of ranks finds what is wrong") {
@@ -320,10 +427,43 @@ TEST_CASE("the check of ranks finds what is wrong") {
         }).find("its ghosts are not") != std::string::npos);
 }
 
+TEST_CASE("the check of ranks finds what is wrong with middles of edges") {
+  const auto mesh = testing::with_bent_edges(testing::stacked_cubes{.cells = 2, .cuts = 2}.distributed());
+  const auto spoilt = [&](const std::function<void(std::vector<rank_mesh<3>>&)>& spoil) {
+    auto ranks = all_ranks(mesh, {0, 0, 1, 1, 2, 2, 2, 2}, 3, true);
+    spoil(ranks);
+    return faults_of(ranks);
+  };
+  using ranks_of = std::vector<rank_mesh<3>>;
+  const auto found = [&](const std::function<void(ranks_of&)>& spoil, const std::string& what) {
+    const auto faults = spoilt(spoil);
+    CHECK_MESSAGE(faults.find(what) != std::string::npos, faults);
+  };
+  const std::string differ = "middle of an edge is not the same";
+  CHECK(spoilt([](ranks_of&) {}) == "");
+  found([](ranks_of& r) { r[1].middles.pop_back(); }, "lengths");
+  found([](ranks_of& r) { r[1].side_middles.pop_back(); }, "lengths");
+  found([](ranks_of& r) { r[1].middles[0][0] = 1 << 20; }, "a vertex that is not there");
+  found([](ranks_of& r) { std::swap(r[1].middles[0][0], r[1].middles[0][1]); }, differ);
+  found([](ranks_of& r) { std::swap(r[1].side_middles[0][0], r[1].side_middles[0][1]); }, differ);
+  found([](ranks_of& r) { ++r[0].owned_corners; }, differ);
+  found([](ranks_of& r) { --r[0].owned_corners; }, differ);
+  found([](ranks_of& r) { std::swap(r[1].middles.back()[0], r[1].middles.back()[1]); },
+        "its ghosts are not the elements");
+  found([](ranks_of& r) { r[1].mesh.points[r[1].held_vertices - 1].x += 1; }, "is not as its owner has it");
+}
+
 TEST_CASE("ranks that do not fit the pieces, and points that no element has, are refused") {
   auto mesh = testing::stacked_cubes{.cells = 2, .cuts = 2}.distributed();
   CHECK_THROWS_AS(io::number_by_ranks(mesh, {0, 1}, 2), usage_error);
   CHECK_THROWS_AS(io::number_by_ranks(mesh, std::vector<local_id>(8, 2), 2), usage_error);
+  const std::vector<local_id> one(8, 0);
+  auto quadratic = testing::with_bent_edges(mesh);
+  auto nodes = *quadratic.mid_nodes;
+  ++nodes.inner[3];
+  quadratic.mid_nodes = std::make_shared<const mid_edge_nodes<3>>(nodes);
+  CHECK_THROWS_WITH_AS(io::make_rank_mesh<3>(quadratic, io::number_by_ranks(quadratic, one, 1), 0),
+                       doctest::Contains("subdomain 3: the loaded piece has other inner edges"), mesh_error);
   const auto load = mesh.load;
   mesh.load = [load](local_id p) {
     auto piece = load(p);
@@ -332,6 +472,5 @@ TEST_CASE("ranks that do not fit the pieces, and points that no element has, are
         v = std::min(v, static_cast<local_id>(piece.mesh.points.size()) - 2);
     return piece;
   };
-  CHECK_THROWS_AS(io::make_rank_mesh<3>(mesh, io::number_by_ranks(mesh, std::vector<local_id>(8, 0), 1), 0),
-                  mesh_error);
+  CHECK_THROWS_AS(io::make_rank_mesh<3>(mesh, io::number_by_ranks(mesh, one, 1), 0), mesh_error);
 }

@@ -2,6 +2,7 @@
 /// Do the meshes of all ranks make one mesh, and do the ranks agree about what they share?
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesh/adjacency.hpp"
@@ -35,6 +36,7 @@ public:
     for (const auto& rank : ranks_)
       check_neighbours(rank);
     check_ghosts();
+    check_middles();
     return std::move(faults_);
   }
 
@@ -42,6 +44,10 @@ private:
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   void refuse(local_id rank, const std::string& what) {
     faults_.push_back("rank " + std::to_string(rank) + ": " + what);
+  }
+
+  bool of_second_order() const {
+    return std::any_of(ranks_.begin(), ranks_.end(), [](const auto& rank) { return !rank.middles.empty(); });
   }
 
   /// Ids go on from rank to rank; the mesh's own numbers are those of a permutation.
@@ -53,13 +59,15 @@ private:
       const auto points = mesh.points.size(), elements = mesh.elements.size();
       if (rank.rank != static_cast<local_id>(q) || at(rank.ranks) != ranks_.size())
         refuse(static_cast<local_id>(q), "it is called another rank");
-      if (rank.owned_vertices > rank.held_vertices || rank.held_vertices > points ||
-          rank.owned_elements > elements || rank.vertex_ids.size() != points ||
+      if (rank.owned_corners > rank.owned_vertices || rank.owned_vertices > rank.held_vertices ||
+          rank.held_vertices > points || rank.owned_elements > elements || rank.vertex_ids.size() != points ||
           rank.vertex_owners.size() != points || rank.vertex_numbers.size() != points ||
           rank.element_ids.size() != elements || rank.element_owners.size() != elements ||
           rank.element_numbers.size() != elements || rank.subdomains.size() != elements ||
           mesh.tags.size() != elements || rank.side_hosts.size() != rank.sides.size() ||
-          rank.side_elements.size() != rank.sides.size())
+          rank.side_elements.size() != rank.sides.size() ||
+          rank.middles.size() != (of_second_order() ? elements : 0) ||
+          rank.side_middles.size() != (of_second_order() ? rank.sides.size() : 0))
         return refuse(rank.rank, "its arrays do not have the lengths that they should have");
       const auto first_vertex = static_cast<global_id>(vertex_numbers.size());
       const auto first_element = static_cast<global_id>(element_numbers.size());
@@ -71,10 +79,14 @@ private:
         if (rank.element_ids[e] != first_element + static_cast<global_id>(e) ||
             rank.element_owners[e] != rank.rank)
           return refuse(rank.rank, "the ids of its elements are not contiguous");
-      for (std::size_t e = 0; e < elements; ++e)
-        for (const local_id v : mesh.elements[e])
-          if (v < 0 || at(v) >= (e < rank.owned_elements ? rank.held_vertices : points))
-            return refuse(rank.rank, "an element has a vertex that is not there");
+      for (std::size_t e = 0; e < elements; ++e) {
+        bool there = true;
+        for_each_node(rank, e, [&](local_id v) {
+          there = there && v >= 0 && at(v) < (e < rank.owned_elements ? rank.held_vertices : points);
+        });
+        if (!there)
+          return refuse(rank.rank, "an element has a vertex that is not there");
+      }
       append(vertex_numbers, span_of(rank.vertex_numbers).first(rank.owned_vertices));
       append(element_numbers, span_of(rank.element_numbers).first(rank.owned_elements));
     }
@@ -123,6 +135,11 @@ private:
     std::vector<global_id> ids;
     for (const local_id v : list)
       ids.push_back(rank.vertex_ids[at(v)]);
+    return ids;
+  }
+  std::vector<global_id> ids_of_element(const rank_mesh<D>& rank, std::size_t e) const {
+    std::vector<global_id> ids;
+    for_each_node(rank, e, [&](local_id v) { ids.push_back(rank.vertex_ids[at(v)]); });
     return ids;
   }
 
@@ -204,19 +221,19 @@ private:
     });
     if (!wanted)
       return;
-    std::vector<std::map<global_id, std::array<global_id, D + 1>>> expected(ranks_.size());
+    std::vector<std::map<global_id, std::vector<global_id>>> expected(ranks_.size());
     for (const auto& rank : ranks_)
       for (std::size_t e = 0; e < rank.owned_elements; ++e) {
-        const auto ids = ids_of(rank, rank.mesh.elements[e]);
+        const auto ids = ids_of_element(rank, e);
         for (const global_id id : ids)
           for (const local_id r : holders_[id])
             if (r != rank.rank)
               expected[at(r)][rank.element_ids[e]] = ids;
       }
     for (const auto& rank : ranks_) {
-      std::map<global_id, std::array<global_id, D + 1>> found;
+      std::map<global_id, std::vector<global_id>> found;
       for (std::size_t e = rank.owned_elements; e < rank.mesh.elements.size(); ++e) {
-        found[rank.element_ids[e]] = ids_of(rank, rank.mesh.elements[e]);
+        found[rank.element_ids[e]] = ids_of_element(rank, e);
         const auto& owner = ranks_[at(rank.element_owners[e])];
         const global_id there = rank.element_ids[e] - (owner.element_ids.empty() ? 0 : owner.element_ids[0]);
         if (there < 0 || at(there) >= owner.owned_elements ||
@@ -230,6 +247,38 @@ private:
     }
   }
 
+  /// An edge has the same vertex in its middle in all elements and sides, and no other edge has it; a rank's
+  /// own corners come before its own middles.
+  void check_middles() {
+    std::map<std::array<global_id, 2>, global_id> middle_of;
+    std::map<global_id, std::array<global_id, 2>> edge_of;
+    for (const auto& rank : ranks_) {
+      const auto meet = [&](const auto& vertices, const auto& middles, const auto& edges) {
+        for (std::size_t k = 0; k < middles.size(); ++k) {
+          auto key = ids_of(rank, vertices_of_edge(vertices, edges[k]));
+          std::sort(key.begin(), key.end());
+          const global_id middle = rank.vertex_ids[at(middles[k])];
+          const bool owned = at(middles[k]) < rank.owned_vertices;
+          if (middle_of.try_emplace(key, middle).first->second != middle ||
+              edge_of.try_emplace(middle, key).first->second != key ||
+              (owned && at(middles[k]) < rank.owned_corners))
+            return false;
+        }
+        return true;
+      };
+      bool agreed = true;
+      for (std::size_t e = 0; e < rank.middles.size(); ++e)
+        agreed = agreed && meet(rank.mesh.elements[e], rank.middles[e], numbering::edges<D>);
+      for (std::size_t s = 0; s < rank.side_middles.size(); ++s)
+        agreed = agreed && meet(rank.sides[s], rank.side_middles[s], numbering::edges<D - 1>);
+      for (const auto& element : rank.mesh.elements)
+        for (const local_id v : element)
+          agreed = agreed && (at(v) < rank.owned_corners || at(v) >= rank.owned_vertices);
+      if (!agreed)
+        refuse(rank.rank, "the middle of an edge is not the same vertex for all who have the edge");
+    }
+  }
+
   std::span<const rank_mesh<D>> ranks_;
   std::map<global_id, std::vector<local_id>> holders_; ///< of each vertex, growing ranks
   std::vector<std::string> faults_;
@@ -239,17 +288,21 @@ private:
 
 /// What is wrong with the meshes of ranks 0, 1, 2, ..., one sentence each; nothing when they make one mesh:
 /// ids are contiguous per owner and number each vertex and element once, owners are lowest, copies equal
-/// what they copy, neighbours list all that they share in the same order, ghosts are one layer. All are in
-/// memory, with 100 bytes more per vertex. About n log n, and linear in the pairs of neighbours.
+/// what they copy, neighbours list all that they share in the same order, ghosts are one layer, edges of
+/// second-order elements have one middle each. All are in memory, with 100 bytes more per vertex, and of
+/// second order with 200 per edge. About n log n, and linear in the pairs of neighbours.
 template <int D>
 std::vector<std::string> check_rank_meshes(std::span<const rank_mesh<D>> ranks) {
   return detail::rank_mesh_check<D>(ranks).run();
 }
 
 /// Adds what a rank owns to the hash of the mesh: over all ranks that of the distributed mesh they were made
-/// from, when every point of its skeleton is in an element. O(rank).
+/// from, when every point of its skeleton is in an element. O(rank). Throws `usage_error` for elements of
+/// second order: the hash is that of the mesh without middles of edges.
 template <int D>
 void hash_rank_mesh(mesh_hasher& hasher, const rank_mesh<D>& rank) {
+  if (!rank.middles.empty())
+    throw usage_error("the hash of a mesh is that of its elements of first order");
   for (std::size_t v = 0; v < rank.owned_vertices; ++v)
     hasher.point(rank.vertex_numbers[v], rank.mesh.points[v]);
   for (std::size_t e = 0; e < rank.owned_elements; ++e) {

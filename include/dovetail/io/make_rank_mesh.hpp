@@ -8,11 +8,12 @@
 
 namespace dovetail::io {
 
-/// The mesh of one rank. Vertices that the rank owns: points of the skeleton, then inner points of its
-/// pieces; elements piece by piece. Loads the rank's own pieces, once; for ghosts also each piece of another
-/// rank that touches one of its points, whole, one in memory at a time, since who touches what is known of
-/// pieces only (with 20 pieces per rank about as many again). Pure; linear in what it loads and the skeleton,
-/// of which it reads all. Memory: the result, 8 bytes per point of the skeleton, and one piece.
+/// The mesh of one rank, of second order where the distributed mesh has `mid_nodes`. Vertices that the rank
+/// owns are in the order of their ids (rank_numbering.hpp); elements piece by piece. Loads the rank's own
+/// pieces, once; for ghosts also each piece of another rank that touches one of its points, whole, one in
+/// memory at a time, since who touches what is known of pieces only (with 20 pieces per rank about as many
+/// again). Pure; linear in what it loads and the skeleton, of which it reads all. Memory: the result, 8 bytes
+/// per node of the skeleton, and one piece.
 ///
 /// Throws `mesh_error` when pieces and skeleton disagree, when a point of the rank is in none of its
 /// elements, or when it has more of them than local ids can number.

@@ -7,12 +7,14 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/make_rank_mesh.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/mid_nodes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -26,7 +28,7 @@ template <int D>
 class rank_mesh_builder {
 public:
   rank_mesh_builder(const distributed_simplicial_mesh<D>& source, const rank_numbering& ranks, local_id rank)
-      : source_(source), skeleton_(source.skeleton), ranks_(ranks), numbers_(number_globally(source)) {
+      : source_(source), skeleton_(source.skeleton), ranks_(ranks), numbers_(number_nodes(source)) {
     result_.rank = rank;
     result_.ranks = ranks.ranks();
     const auto q = static_cast<std::size_t>(rank);
@@ -63,30 +65,43 @@ private:
     result_.vertex_numbers.push_back(number);
     return static_cast<local_id>(result_.mesh.points.size() - 1);
   }
-  local_id add_skeleton_point(std::size_t v) {
-    const auto point = static_cast<local_id>(v);
-    return local_[v] =
-               add_vertex(skeleton_.points[v], ranks_.point_ids[v], ranks_.owner_of_point(point), point);
+  local_id add_skeleton_node(std::size_t v) {
+    const auto node = static_cast<local_id>(v);
+    return local_[v] = add_vertex(skeleton_node(source_, node), ranks_.point_ids[v],
+                                  ranks_.owner_of_point(node), node);
+  }
+  /// Of own node i of a piece: its inner points come first, then the middles of its inner edges.
+  global_id id_of_own(std::size_t piece, global_id i) const {
+    const global_id points = source_.counts[piece].inner_points;
+    return i < points ? ranks_.first_inner_of_piece[piece] + i
+                      : ranks_.first_middle_of_piece[piece] + i - points;
   }
 
-  /// Room for the inner points is made here, their places come with the pieces.
+  /// Room for what is inside pieces is made here, the places come with them.
   void add_owned_vertices() {
-    local_.assign(skeleton_.points.size(), no_id);
-    for (std::size_t v = 0; v < local_.size(); ++v)
-      if (ranks_.owner_of_point(static_cast<local_id>(v)) == result_.rank)
-        add_skeleton_point(v);
-    for (const local_id piece : ranks_.pieces_of_rank[result_.rank]) {
-      const auto p = static_cast<std::size_t>(piece);
-      for (global_id i = 0; i < source_.counts[p].inner_points; ++i)
-        add_vertex({}, ranks_.first_inner_of_piece[p] + i, result_.rank, numbers_.first_point[p] + i);
-    }
+    local_.assign(skeleton_nodes(source_), no_id);
+    const auto add = [&](bool middles) {
+      const std::size_t points = skeleton_.points.size();
+      for (std::size_t v = middles ? points : 0; v < (middles ? local_.size() : points); ++v)
+        if (ranks_.owner_of_point(static_cast<local_id>(v)) == result_.rank)
+          add_skeleton_node(v);
+      for (const local_id piece : ranks_.pieces_of_rank[result_.rank]) {
+        const auto p = static_cast<std::size_t>(piece);
+        const global_id inner = source_.counts[p].inner_points;
+        for (global_id i = middles ? inner : 0; i < (middles ? inner_nodes(source_, p) : inner); ++i)
+          add_vertex({}, id_of_own(p, i), result_.rank, numbers_.first_point[p] + i);
+      }
+    };
+    add(false);
+    result_.owned_corners = result_.mesh.points.size();
+    add(true);
     result_.owned_vertices = result_.mesh.points.size();
   }
   void add_vertices_of_others() {
     for (std::size_t v = 0; v < local_.size(); ++v) {
       const auto at = ranks_.ranks_at_point[v];
       if (local_[v] == no_id && std::find(at.begin(), at.end(), result_.rank) != at.end())
-        add_skeleton_point(v);
+        add_skeleton_node(v);
     }
     result_.held_vertices = result_.mesh.points.size();
     require_room(static_cast<global_id>(result_.held_vertices));
@@ -112,24 +127,28 @@ private:
                 keys_.end());
     result_.sides.resize(keys_.size());
     result_.side_elements.assign(keys_.size(), {no_id, no_id});
+    if (source_.mid_nodes)
+      result_.side_middles.resize(keys_.size());
     for (const auto& [key, host] : keys_)
       result_.side_hosts.push_back(host);
   }
 
-  local_id local_of(const simplicial_piece<D>& piece, local_id i) const {
-    const auto shared = piece.skeleton_points.size();
-    if (const auto at = static_cast<std::size_t>(i); at < shared)
-      return local_[static_cast<std::size_t>(piece.skeleton_points[at])];
-    const auto p = static_cast<std::size_t>(piece.subdomain);
-    return static_cast<local_id>(ranks_.first_inner_of_piece[p] -
-                                 ranks_.first_vertex[static_cast<std::size_t>(result_.rank)]) +
-           i - static_cast<local_id>(shared);
+  /// Of node i of a piece of this rank.
+  local_id local_of(const piece_nodes<D>& nodes, std::size_t piece, std::size_t i) const {
+    const auto shared = nodes.shared();
+    if (i < shared.size())
+      return local_[static_cast<std::size_t>(shared[i])];
+    return static_cast<local_id>(id_of_own(piece, static_cast<global_id>(i - shared.size())) -
+                                 ranks_.first_vertex[static_cast<std::size_t>(result_.rank)]);
   }
 
-  void add_element(const simplicial_piece<D>& piece, std::size_t e, const simplex<D>& element) {
+  /// `vertices` are the corners and, of second order, the middles of its edges.
+  void add_element(const simplicial_piece<D>& piece, std::size_t e, std::span<const local_id> vertices) {
     const auto p = static_cast<std::size_t>(piece.subdomain);
     const auto in_piece = static_cast<global_id>(e);
-    result_.mesh.elements.push_back(element);
+    std::copy_n(vertices.begin(), D + 1, result_.mesh.elements.emplace_back().begin());
+    if (source_.mid_nodes)
+      std::copy(vertices.begin() + D + 1, vertices.end(), result_.middles.emplace_back().begin());
     result_.mesh.tags.push_back(piece.mesh.tags.empty() ? piece.material : piece.mesh.tags[e]);
     result_.element_ids.push_back(ranks_.first_element_of_piece[p] + in_piece);
     result_.element_owners.push_back(ranks_.rank_of_piece[p]);
@@ -137,26 +156,35 @@ private:
     result_.subdomains.push_back(piece.subdomain);
   }
 
+  void require_announced(const piece_nodes<D>& nodes, std::size_t piece) const {
+    if (static_cast<global_id>(nodes.own().size()) != inner_nodes(source_, piece))
+      throw mesh_error("subdomain " + std::to_string(piece) +
+                       ": the loaded piece has other inner edges than announced");
+  }
+
   void add_piece(const simplicial_piece<D>& piece) {
-    for (std::size_t i = 0; i < piece.mesh.points.size(); ++i)
-      if (const local_id v = local_of(piece, static_cast<local_id>(i)); v != no_id)
-        result_.mesh.points[static_cast<std::size_t>(v)] = piece.mesh.points[i];
+    const auto p = static_cast<std::size_t>(piece.subdomain);
+    const piece_nodes<D> nodes(source_, piece);
+    require_announced(nodes, p);
+    for (std::size_t i = 0; i < nodes.own().size(); ++i)
+      result_.mesh.points[static_cast<std::size_t>(local_of(nodes, p, nodes.shared().size() + i))] =
+          nodes.own()[i];
+    std::vector<local_id> vertices(nodes.per_element());
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
-      simplex<D> element = piece.mesh.elements[e];
-      for (local_id& v : element) {
-        v = local_of(piece, v);
-        if (v == no_id)
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        vertices[k] = local_of(nodes, p, static_cast<std::size_t>(nodes.of_element(e)[k]));
+        if (vertices[k] == no_id)
           throw mesh_error("subdomain " + std::to_string(piece.subdomain) +
                            " has a skeleton point that is on none of its skeleton sides");
       }
+      add_element(piece, e, vertices);
       for (const auto& side : numbering::sides<D>)
         meet_side(piece, dovetail::detail::pick(piece.mesh.elements[e], side),
-                  dovetail::detail::pick(element, side));
-      add_element(piece, e, element);
+                  dovetail::detail::pick(result_.mesh.elements.back(), side));
     }
   }
 
-  /// `side` and `ours`, in the numbers of piece and rank, is one of the next element.
+  /// `side` and `ours`, in the numbers of piece and rank, is one of the last element.
   void meet_side(const simplicial_piece<D>& piece, simplex<D - 1> side, const simplex<D - 1>& ours) {
     for (local_id& v : side) {
       if (static_cast<std::size_t>(v) >= piece.skeleton_points.size())
@@ -169,20 +197,28 @@ private:
     if (found == keys_.end() || found->first != key)
       return;
     const auto s = static_cast<std::size_t>(found - keys_.begin());
-    const auto element = static_cast<local_id>(result_.mesh.elements.size());
+    const auto element = static_cast<local_id>(result_.mesh.elements.size() - 1);
     auto& [behind, front] = result_.side_elements[s];
     if (behind == no_id) {
       behind = element;
       result_.sides[s] = ours;
+      if (source_.mid_nodes)
+        for (std::size_t k = 0; k < edges_per_element<D - 1>; ++k)
+          result_.side_middles[s][k] = middle_of(vertices_of_edge(side, numbering::edges<D - 1>[k]));
     } else if (front == no_id)
       front = element;
   }
 
+  /// The vertex in the middle of an edge of the skeleton.
+  local_id middle_of(const simplex<1>& edge) const {
+    const auto number = static_cast<std::size_t>(find_edge(source_.mid_nodes->edges, edge));
+    return local_[skeleton_.points.size() + number];
+  }
+
   void require_used() const {
     std::vector<bool> used(result_.held_vertices, false);
-    for (const auto& element : result_.mesh.elements)
-      for (const local_id v : element)
-        used[static_cast<std::size_t>(v)] = true;
+    for (std::size_t e = 0; e < result_.mesh.elements.size(); ++e)
+      for_each_node(result_, e, [&](local_id v) { used[static_cast<std::size_t>(v)] = true; });
     if (const auto at = std::find(used.begin(), used.end(), false); at != used.end())
       throw mesh_error("point " +
                        std::to_string(result_.vertex_numbers[static_cast<std::size_t>(at - used.begin())]) +
@@ -274,37 +310,37 @@ private:
   }
 
   void add_ghosts(const simplicial_piece<D>& piece) {
-    const auto shared = piece.skeleton_points.size();
     const auto p = static_cast<std::size_t>(piece.subdomain);
-    std::map<local_id, local_id> inner; // points of the piece that are vertices of ghosts
+    const piece_nodes<D> nodes(source_, piece);
+    require_announced(nodes, p);
+    const auto shared = nodes.shared();
+    std::map<std::size_t, local_id> inner; // own nodes of the piece that are vertices of ghosts
     const auto is_held = [&](local_id v) {
-      const local_id at =
-          static_cast<std::size_t>(v) < shared
-              ? local_[static_cast<std::size_t>(piece.skeleton_points[static_cast<std::size_t>(v)])]
-              : no_id;
-      return at != no_id && static_cast<std::size_t>(at) < result_.held_vertices;
+      const auto at = static_cast<std::size_t>(v);
+      const local_id ours = at < shared.size() ? local_[static_cast<std::size_t>(shared[at])] : no_id;
+      return ours != no_id && static_cast<std::size_t>(ours) < result_.held_vertices;
     };
     const auto place = [&](local_id v) {
       const auto at = static_cast<std::size_t>(v);
-      if (at < shared) {
-        const auto point = static_cast<std::size_t>(piece.skeleton_points[at]);
-        return local_[point] != no_id ? local_[point] : add_skeleton_point(point);
+      if (at < shared.size()) {
+        const auto node = static_cast<std::size_t>(shared[at]);
+        return local_[node] != no_id ? local_[node] : add_skeleton_node(node);
       }
-      const auto [known, is_new] = inner.try_emplace(v, no_id);
+      const auto [known, is_new] = inner.try_emplace(at - shared.size(), no_id);
       if (is_new) {
-        const global_id offset = v - static_cast<local_id>(shared);
-        known->second = add_vertex(piece.mesh.points[at], ranks_.first_inner_of_piece[p] + offset,
-                                   ranks_.rank_of_piece[p], numbers_.first_point[p] + offset);
+        const auto i = static_cast<global_id>(known->first);
+        known->second = add_vertex(nodes.own()[known->first], id_of_own(p, i), ranks_.rank_of_piece[p],
+                                   numbers_.first_point[p] + i);
       }
       return known->second;
     };
+    std::vector<local_id> vertices(nodes.per_element());
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
-      simplex<D> element = piece.mesh.elements[e];
-      if (std::none_of(element.begin(), element.end(), is_held))
+      const auto of_element = nodes.of_element(e);
+      if (std::none_of(of_element.begin(), of_element.begin() + D + 1, is_held))
         continue;
-      for (local_id& v : element)
-        v = place(v);
-      add_element(piece, e, element);
+      std::transform(of_element.begin(), of_element.end(), vertices.begin(), place);
+      add_element(piece, e, vertices);
     }
     require_room(static_cast<global_id>(std::max(result_.mesh.points.size(), result_.mesh.elements.size())));
   }
@@ -313,7 +349,7 @@ private:
   const simplicial_skeleton<D>& skeleton_;
   const rank_numbering& ranks_;
   const global_numbering numbers_;
-  std::vector<local_id> local_;                           ///< per point of the skeleton, or no_id
+  std::vector<local_id> local_;                           ///< per node of the skeleton, or no_id
   std::vector<std::pair<simplex<D - 1>, local_id>> keys_; ///< per side: points of the skeleton, host
   std::map<local_id, rank_neighbour> neighbours_;
   rank_mesh<D> result_;

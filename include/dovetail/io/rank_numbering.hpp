@@ -8,8 +8,10 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
 #include "dovetail/io/skeleton_index.hpp"
+#include "dovetail/io/skeleton_nodes.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -18,7 +20,8 @@
 
 namespace dovetail::io {
 
-/// What every rank knows of all: O(skeleton + pieces).
+/// What every rank knows of all: O(skeleton + pieces). The skeleton's points are its nodes where the mesh has
+/// those in the middle of edges (mid_nodes.hpp).
 struct rank_numbering {
   std::vector<local_id> rank_of_piece;
   compressed_rows<local_id> pieces_of_rank;    ///< growing
@@ -27,6 +30,7 @@ struct rank_numbering {
   std::vector<global_id> first_element;        ///< per rank, and the number of all elements
   std::vector<global_id> point_ids;            ///< per point of the skeleton; -1 when no element has it
   std::vector<global_id> first_inner_of_piece; ///< id of each piece's first inner point
+  std::vector<global_id> first_middle_of_piece;  ///< id of the first middle of each piece's inner edges
   std::vector<global_id> first_element_of_piece; ///< id of each piece's first element
 
   local_id ranks() const { return static_cast<local_id>(pieces_of_rank.size()); }
@@ -39,14 +43,16 @@ struct rank_numbering {
 namespace detail {
 
 template <int D>
-compressed_rows<local_id> ranks_at_points(const simplicial_skeleton<D>& skeleton,
+compressed_rows<local_id> ranks_at_points(const distributed_simplicial_mesh<D>& mesh,
                                           std::span<const local_id> rank_of_piece) {
-  auto met = sorted_into_rows<local_id>(skeleton.points.size(), [&](const auto& put) {
+  const auto& skeleton = mesh.skeleton;
+  auto met = sorted_into_rows<local_id>(skeleton_nodes(mesh), [&](const auto& put) {
     for (std::size_t s = 0; s < skeleton.sides.size(); ++s)
-      for (const local_id v : skeleton.sides[s])
+      for_each_node(mesh, skeleton.sides[s], [&](local_id v) {
         for (const local_id p : skeleton.subdomains[s])
           if (p != no_id)
             put(v, rank_of_piece[static_cast<std::size_t>(p)]);
+      });
   });
   compressed_rows<local_id> ranks;
   ranks.begins.reserve(met.begins.size());
@@ -64,8 +70,10 @@ compressed_rows<local_id> ranks_at_points(const simplicial_skeleton<D>& skeleton
 } // namespace detail
 
 /// Numbers vertices and elements for `ranks` ranks, of which each piece has one: of a rank first the points
-/// of the skeleton that it owns, growing, then the inner points of its pieces. About linear in the skeleton.
-/// Throws `usage_error` when a piece has no rank, `mesh_error` when the skeleton refers to what is not there.
+/// of the skeleton that it owns, growing, then the inner points of its pieces; then, of second-order
+/// elements, the middles of the skeleton's edges that it owns, growing, and those of the inner edges of its
+/// pieces. About linear in the skeleton. Throws `usage_error` when a piece has no rank, `mesh_error` when the
+/// skeleton refers to what is not there.
 template <int D>
 rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
                                std::vector<local_id> rank_of_piece, local_id ranks) {
@@ -78,24 +86,30 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
                         std::to_string(rank_of_piece[p]) + " of " + std::to_string(ranks));
   sides_by_subdomain<D>{mesh}; // checks the skeleton's references
   rank_numbering numbers;
-  numbers.ranks_at_point = detail::ranks_at_points(mesh.skeleton, rank_of_piece);
+  numbers.ranks_at_point = detail::ranks_at_points(mesh, rank_of_piece);
   numbers.pieces_of_rank = sorted_into_rows<local_id>(static_cast<std::size_t>(ranks), [&](const auto& put) {
     for (std::size_t p = 0; p < rank_of_piece.size(); ++p)
       put(rank_of_piece[p], static_cast<local_id>(p));
   });
   numbers.rank_of_piece = std::move(rank_of_piece);
 
-  std::vector<global_id> next(static_cast<std::size_t>(ranks), 0); // owned points of the skeleton, then ids
-  for (std::size_t v = 0; v < mesh.skeleton.points.size(); ++v)
+  // Of each rank: of the skeleton the points and the middles that it owns, then their next ids.
+  std::vector<std::array<global_id, 2>> next(static_cast<std::size_t>(ranks), {0, 0});
+  const std::size_t nodes = skeleton_nodes(mesh);
+  const auto next_of = [&](std::size_t v, local_id owner) -> global_id& {
+    return next[static_cast<std::size_t>(owner)][v < mesh.skeleton.points.size() ? 0 : 1];
+  };
+  for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      ++next[static_cast<std::size_t>(owner)];
+      ++next_of(v, owner);
   numbers.first_vertex = {0};
   numbers.first_element = {0};
   numbers.first_inner_of_piece.resize(mesh.counts.size());
+  numbers.first_middle_of_piece.resize(mesh.counts.size());
   numbers.first_element_of_piece.resize(mesh.counts.size());
   for (std::size_t q = 0; q < next.size(); ++q) {
-    const global_id first = numbers.first_vertex.back();
-    global_id vertex = first + next[q];
+    global_id vertex = numbers.first_vertex.back();
+    vertex += std::exchange(next[q][0], vertex);
     global_id element = numbers.first_element.back();
     for (const local_id piece : numbers.pieces_of_rank[q]) {
       const auto p = static_cast<std::size_t>(piece);
@@ -104,14 +118,19 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
       vertex += mesh.counts[p].inner_points;
       element += mesh.counts[p].elements;
     }
-    next[q] = first;
+    vertex += std::exchange(next[q][1], vertex);
+    for (const local_id piece : numbers.pieces_of_rank[q]) {
+      const auto p = static_cast<std::size_t>(piece);
+      numbers.first_middle_of_piece[p] = vertex;
+      vertex += inner_nodes(mesh, p) - mesh.counts[p].inner_points;
+    }
     numbers.first_vertex.push_back(vertex);
     numbers.first_element.push_back(element);
   }
-  numbers.point_ids.assign(mesh.skeleton.points.size(), -1);
-  for (std::size_t v = 0; v < numbers.point_ids.size(); ++v)
+  numbers.point_ids.assign(nodes, -1);
+  for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      numbers.point_ids[v] = next[static_cast<std::size_t>(owner)]++;
+      numbers.point_ids[v] = next_of(v, owner)++;
   return numbers;
 }
 

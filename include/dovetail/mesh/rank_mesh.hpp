@@ -3,12 +3,13 @@
 /// want it.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,11 +33,16 @@ struct rank_neighbour {
 /// A vertex is owned by the lowest rank that has an element at it. Ids are contiguous per owner: vertex v of
 /// the owned ones has id vertex_ids[0] + v, element e has id element_ids[0] + e, and the ids of the next rank
 /// follow. The mesh's own numbers, which do not know of ranks (distributed_mesh.hpp), stand beside them.
+///
+/// The nodes in the middle of the edges of second-order elements are vertices like the corners, in the same
+/// ranges, each owned by the lowest rank that has an element at its edge. Of the owned vertices the corners
+/// come first. Numbers are those of nodes (mid_nodes.hpp).
 template <int D>
 struct rank_mesh {
   local_id rank = 0;
   local_id ranks = 1;
   std::size_t owned_vertices = 0;
+  std::size_t owned_corners = 0; ///< the owned vertices before those in the middle of edges
   std::size_t held_vertices = 0; ///< the owned ones with them; the others are of ghosts alone
   std::size_t owned_elements = 0;
 
@@ -48,6 +54,9 @@ struct rank_mesh {
   std::vector<local_id> element_owners;   ///< per element: a rank
   std::vector<global_id> element_numbers; ///< per element: its number in the distributed mesh
   std::vector<local_id> subdomains;       ///< per element: its piece
+  /// Of second-order elements, per element: the vertices in the middle of its edges, in the order of
+  /// `numbering::edges`. Empty otherwise.
+  std::vector<std::array<local_id, edges_per_element<D>>> middles;
 
   /// Sides of owned elements on CAD faces (D = 3) or curves (D = 2), each once, outwards of the first of its
   /// elements. One between two ranks is in the mesh of each.
@@ -56,36 +65,47 @@ struct rank_mesh {
   /// Per side: the element that it faces outwards of, and the one in front of it, or no_id where the rank's
   /// elements end. Of an edge with more than two triangles (D = 2), the first two.
   std::vector<std::array<local_id, 2>> side_elements;
+  std::vector<std::array<local_id, edges_per_element<D - 1>>> side_middles; ///< per side, as `middles`
 
   std::vector<rank_neighbour> neighbours; ///< by growing rank: those with which it shares a vertex
 };
 
-namespace detail {
-
-template <int D, std::size_t N>
-std::vector<global_id> by_ids(const rank_mesh<D>& mesh, std::span<const std::array<local_id, N>> simplices) {
-  std::vector<global_id> ids;
-  ids.reserve(N * simplices.size());
-  for (const auto& vertices : simplices)
-    for (const local_id v : vertices)
-      ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
-  return ids;
+/// The vertices per element, those in the middle of its edges among them.
+template <int D>
+std::size_t nodes_per_element(const rank_mesh<D>& mesh) {
+  return mesh.middles.empty() ? D + 1 : quadratic_nodes<D>;
 }
 
-} // namespace detail
+/// Calls `take(v)` for the vertices of an element: its corners, then the middles of its edges. VTK's order.
+template <int D, class Take>
+void for_each_node(const rank_mesh<D>& mesh, std::size_t element, const Take& take) {
+  for (const local_id v : mesh.mesh.elements[element])
+    take(v);
+  if (!mesh.middles.empty())
+    for (const local_id v : mesh.middles[element])
+      take(v);
+}
 
-/// The elements that the rank owns as ids of vertices: (owned elements) x (D + 1), row by row. The `cells` of
-/// `dolfinx::mesh::create_mesh`, which takes a simplex's vertices in any order. O(elements).
+/// The elements that the rank owns as ids of vertices: (owned elements) x `nodes_per_element`, row by row.
+/// The `cells` of `dolfinx::mesh::create_mesh`, which takes a simplex's vertices in any order; those of
+/// second order are in VTK's. O(elements).
 template <int D>
 std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
-  return detail::by_ids(mesh, span_of(mesh.mesh.elements).first(mesh.owned_elements));
+  std::vector<global_id> ids;
+  ids.reserve(nodes_per_element(mesh) * mesh.owned_elements);
+  for (std::size_t e = 0; e < mesh.owned_elements; ++e)
+    for_each_node(mesh, e, [&](local_id v) { ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]); });
+  return ids;
 }
 
 /// The same, and as large, in the order of PETSc's `DMPlexCreateFromCellListParallel`: the first three
 /// vertices of its tetrahedra turn the other way, so the first two of each are exchanged (D = 3).
-/// O(elements).
+/// O(elements). Throws `usage_error` for elements of second order, which it does not take.
 template <int D>
 std::vector<global_id> cells_for_dmplex(const rank_mesh<D>& mesh) {
+  if (!mesh.middles.empty())
+    throw usage_error(
+        "DMPlex takes elements of first order: make the ranks' meshes without middles of edges");
   auto cells = cells_by_ids(mesh);
   if constexpr (D == 3)
     for (std::size_t first = 0; first < cells.size(); first += 4)
@@ -93,11 +113,16 @@ std::vector<global_id> cells_for_dmplex(const rank_mesh<D>& mesh) {
   return cells;
 }
 
-/// The sides on CAD faces or curves as ids of vertices: (sides) x D, row by row, for `side_hosts`. What
+/// The sides on CAD faces or curves as ids of their corners: (sides) x D, row by row, for `side_hosts`. What
 /// `dolfinx::io::distribute_entity_data` makes tags of. O(sides).
 template <int D>
 std::vector<global_id> sides_by_ids(const rank_mesh<D>& mesh) {
-  return detail::by_ids(mesh, span_of(mesh.sides));
+  std::vector<global_id> ids;
+  ids.reserve(D * mesh.sides.size());
+  for (const auto& side : mesh.sides)
+    for (const local_id v : side)
+      ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
+  return ids;
 }
 
 /// The coordinates that belong to these: (owned vertices) x 3, row by row, in the order of ids. The `x` of
