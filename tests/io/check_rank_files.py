@@ -16,6 +16,22 @@ def fail(what):
     sys.exit(f"not one mesh: {what}")
 
 
+EDGES = {3: [(0, 1), (1, 2), (2, 0)], 4: [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]}  # VTK's order
+
+
+def check_middles(nodes, corners, places):
+    """Each edge has one node in its middle, near it, and no other edge has that."""
+    edges = EDGES[corners]
+    ends = np.concatenate([nodes[:, edge] for edge in edges])
+    middles = np.concatenate([nodes[:, corners + k] for k in range(len(edges))])
+    a, b = places[ends[:, 0]], places[ends[:, 1]]
+    if np.any(np.linalg.norm(places[middles] - (a + b) / 2, axis=1) > 0.1 * np.linalg.norm(b - a, axis=1)):
+        fail("a node is not in the middle of its edge")
+    found = np.unique(np.column_stack((np.sort(ends, axis=1), middles)), axis=0)
+    if len(np.unique(found[:, :2], axis=0)) != len(found) or len(np.unique(found[:, 2])) != len(found):
+        fail("edges and the nodes in their middles")
+
+
 def check_ranks(ranks):
     """Each rank: points, their ids and whether another owns them; elements by place, their ids and whether they are
     ghosts."""
@@ -45,6 +61,10 @@ def check_ranks(ranks):
         if any(seen[int(i)] != tuple(sorted(e)) for i, e in zip(rank["cell_ids"][rank["ghost"]], ids[rank["ghost"]])):
             fail(f"a ghost of rank {number} is another element for its owner")
     named = np.concatenate(named)
+    corners = {3: 3, 4: 4, 6: 3, 10: 4}[named.shape[1]]
+    if named.shape[1] > corners:
+        check_middles(named, corners, places)
+    named = named[:, :corners]
     p = places[named]
     if named.shape[1] == 4:
         measures = np.einsum("ij,ij->i", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
@@ -52,8 +72,7 @@ def check_ranks(ranks):
         measures = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
     if np.any(measures <= 0):
         fail("elements turned inside out")
-    corners = range(named.shape[1])
-    sides = np.sort(np.concatenate([np.delete(named, k, axis=1) for k in corners]), axis=1)
+    sides = np.sort(np.concatenate([np.delete(named, k, axis=1) for k in range(corners)]), axis=1)
     uses = np.unique(sides, axis=0, return_counts=True)[1]
     if np.any(uses > 2):
         fail("sides with more than two elements")
@@ -70,10 +89,13 @@ def check_pvtu(folder, count):
     def arrays(grid):
         points, cells = grid.GetPointData(), grid.GetCellData()
         offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+        nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(len(offsets) - 1, -1)
+        if {grid.GetCellType(i) for i in range(len(nodes))} != {{3: 5, 4: 10, 6: 22, 10: 24}[nodes.shape[1]]}:
+            fail("types of cells")
         return {"points": vtk_to_numpy(grid.GetPoints().GetData()),
                 "ids": vtk_to_numpy(points.GetGlobalIds()),
                 "foreign": vtk_to_numpy(points.GetArray("vtkGhostType")) == 1,
-                "cells": vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(len(offsets) - 1, -1),
+                "cells": nodes,
                 "cell_ids": vtk_to_numpy(cells.GetGlobalIds()),
                 "ghost": vtk_to_numpy(cells.GetArray("vtkGhostType")) == 1,
                 "owner": vtk_to_numpy(points.GetArray("owner"))}

@@ -1,4 +1,5 @@
 // Files of parallel solvers: each rank its own, read by somebody else's reader (check_rank_files.py).
+#include "io/bent_edges.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -11,7 +12,6 @@
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/mesh/mid_nodes.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -21,7 +21,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <string>
 
 using namespace dovetail;
@@ -83,11 +82,30 @@ TEST_CASE("PVTU of triangles") {
   const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z M1 1 h0.5 v0.5 h-0.5 Z"));
   const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
   const testing::scratch_folder folder("ranks_triangles");
-  io::rank_writer<io::pvtu_format>{.ranks = 3}(result.mesh, folder);
-  const auto [status, log] = check("pvtu", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find("measure 5.750000000") != std::string::npos);
+  for (const auto& mesh : {result.mesh, testing::with_bent_edges(result.mesh)}) {
+    io::rank_writer<io::pvtu_format>{.ranks = 3}(mesh, folder);
+    const auto [status, log] = check("pvtu", folder, 3);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.find("measure 5.750000000") != std::string::npos);
+    const auto nodes = " " + std::to_string(io::number_nodes(mesh).points()) + " vertices";
+    CHECK(log.find(nodes) != std::string::npos);
+  }
+}
+
+TEST_CASE("PVTU of second order: VTK reads nodes in the middle of edges, with and without ghosts") {
+  if (!has_python_module("vtkmodules.vtkIOXML"))
+    return;
+  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  for (const bool ghosts : {false, true}) {
+    const testing::scratch_folder folder("ranks_quadratic");
+    io::rank_writer<io::pvtu_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
+    const auto [status, log] = check("pvtu", folder, 4);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((log.find(" 0 ghosts") == std::string::npos) == ghosts);
+  }
 }
 
 TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in another order wrong") {
@@ -141,7 +159,7 @@ TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are the
 }
 
 TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {
-  auto mesh = cubes.distributed();
+  auto mesh = testing::with_bent_edges(cubes.distributed());
   bool released = false;
   mesh.release = [&released](local_id, const piece_note&) { released = true; };
   const testing::scratch_folder folder("ranks_finishing"), alone("ranks_alone");
@@ -172,10 +190,11 @@ TEST_CASE("files of more ranks do not stay behind; a mesh that does not fit leav
   CHECK_FALSE(std::filesystem::exists(folder / "processor2"));
   const testing::scratch_folder other("ranks_wrong");
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes.distributed(), other), partition_error);
-  auto quadratic = cubes.distributed();
-  quadratic.mid_nodes = std::make_shared<const mid_edge_nodes<3>>();
+  const auto quadratic = testing::with_bent_edges(cubes.distributed());
   CHECK_THROWS_WITH_AS(io::rank_writer<io::mfem_format>{.ranks = 2}(quadratic, other),
-                       doctest::Contains("of first order"), usage_error);
+                       doctest::Contains("mfem are of first order"), usage_error);
+  CHECK_THROWS_WITH_AS(io::rank_writer<io::openfoam_format>{.ranks = 2}(quadratic, other),
+                       doctest::Contains("in the format pvtu or msh-ranks"), usage_error);
   const auto cracked = cubes.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 2}(cracked, other), mesh_error);
   CHECK(testing::file_count(other) == 0);

@@ -76,7 +76,8 @@ concept piecewise_mesh_writer = mesh_writer<W, D> &&
 ///
 /// Semantics: what is written depends on the arguments alone, and a file on its own names alone, as the names
 /// given are temporary. Each call may be made in another process, in any order. `write` or `write_all` is not
-/// called where there are no names.
+/// called where there are no names. Meshes of second order are given to a format only if it has a static
+/// constant `second_order` that is true (`has_second_order<F>`).
 ///
 /// Complexity: linear in the rank; of `write_all` in what the files hold.
 ///
@@ -93,6 +94,12 @@ concept rank_format = std::copy_constructible<F> &&
   { f.files_of_all() } -> std::same_as<std::vector<std::string>>;
   f.write(source, mesh, paths);
   f.write_all(source, paths);
+};
+
+/// Whether a `rank_format` writes second-order elements.
+template <class F>
+inline constexpr bool has_second_order = requires {
+  requires F::second_order;
 };
 
 /// The role `mesh_reader`: a file becomes a mesh.

@@ -15,8 +15,9 @@ namespace dovetail::io {
 std::string rank_digits(local_id rank);
 
 /// `<stem>.pvtu` and `<stem>_0000.vtu`, one per rank. What another rank owns has vtkGhostType 1; global ids
-/// are contiguous per rank. See docs/formats.md for the arrays.
+/// are contiguous per rank. Elements of second order are those of VTK. See docs/formats.md for the arrays.
 struct pvtu_format {
+  static constexpr bool second_order = true;
   std::string stem = "ranks";
 
   std::string name() const { return "pvtu"; }

@@ -23,7 +23,7 @@ DOVETAIL_INLINE std::string rank_digits(local_id rank) {
 template <int D>
 void pvtu_format::write(const rank_source<D>& source, const rank_mesh<D>& rank,
                         const std::vector<std::filesystem::path>& paths) const {
-  constexpr std::uint64_t corners = D + 1;
+  const std::uint64_t nodes = nodes_per_element(rank);
   const auto points = rank.mesh.points.size();
   const auto elements = rank.mesh.elements.size();
   output_file file(paths.front());
@@ -39,7 +39,7 @@ void pvtu_format::write(const rank_source<D>& source, const rank_mesh<D>& rank,
   layout.template array<local_id>("owner", points);
   layout.template array<std::uint8_t>("vtkGhostType", points);
   file.text("</PointData>\n<Cells>\n");
-  layout.template array<local_id>("connectivity", corners * elements);
+  layout.template array<local_id>("connectivity", nodes * elements);
   layout.template array<std::int64_t>("offsets", elements);
   layout.template array<std::uint8_t>("types", elements);
   file.text("</Cells>\n<CellData Scalars=\"subdomain\" GlobalIds=\"GlobalCellIds\">\n");
@@ -57,10 +57,13 @@ void pvtu_format::write(const rank_source<D>& source, const rank_mesh<D>& rank,
   append_values(file, span_of(rank.vertex_owners));
   append_computed<std::uint8_t>(
       file, points, [&](auto v) { return is_of_another(rank.vertex_owners[static_cast<std::size_t>(v)]); });
-  append_values(file, span_of(rank.mesh.elements));
+  file.value<std::uint64_t>(nodes * elements * sizeof(local_id));
+  for (std::size_t e = 0; e < elements; ++e)
+    for_each_node(rank, e, [&](local_id v) { file.value(v); });
   append_computed<std::int64_t>(file, elements,
-                                [](auto e) { return static_cast<std::int64_t>(corners * (e + 1)); });
-  append_computed<std::uint8_t>(file, elements, [](auto) { return std::uint8_t{D == 3 ? 10 : 5}; });
+                                [&](auto e) { return static_cast<std::int64_t>(nodes * (e + 1)); });
+  append_computed<std::uint8_t>(file, elements,
+                                [&](auto) { return vtk_cell_type(D, !rank.middles.empty()); });
   append_values(file, span_of(rank.element_ids));
   append_values(file, span_of(rank.element_numbers));
   append_values(file, span_of(rank.subdomains));

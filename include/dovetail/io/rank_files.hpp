@@ -30,9 +30,10 @@ struct rank_writer {
   Redistributor redistribute = {};
   bool ghosts = false; ///< each rank also has the elements of others that touch its own
 
-  /// A model of `piecewise_mesh_writer`. Memory: the skeleton, 30 bytes per point of it, and a rank's mesh
+  /// A model of `piecewise_mesh_writer`. Memory: the skeleton, 30 bytes per node of it, and a rank's mesh
   /// per worker. Further throws what the redistributor throws, and
-  /// `usage_error` for a mesh of second order. The report has a child "redistribution".
+  /// `usage_error` for a mesh of second order in a format that has none. The report has a child
+  /// "redistribution".
   template <int D>
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {
     return write_piecewise<D>(mesh, *this, folder);
@@ -43,8 +44,10 @@ struct rank_writer {
     requires rank_format<Format, D> && redistributor<Redistributor, D> piecewise_output<D>
     begin(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& unfinished)
   const {
-    if (mesh.mid_nodes)
-      throw usage_error("files by ranks are of first order: write them of the mesh without middles of edges");
+    if (mesh.mid_nodes && !has_second_order<Format>)
+      throw usage_error("files of the format " + format.name() +
+                        " are of first order: write second-order elements for ranks in the format pvtu or "
+                        "msh-ranks, or these of the mesh without middles of edges");
     redistribution<D> given = redistribute(mesh, ranks);
     const auto& divided = given.divided(mesh);
     const auto held = std::make_shared<const held_source<D>>(held_source<D>{
