@@ -2,6 +2,7 @@
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/rank_msh_format.hpp"
+#include "io/bent_edges.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
@@ -47,9 +48,9 @@ public:
       for (std::size_t t = 0; t < types.size(); ++t) {
         count[d] += of_type[t].size();
         for (std::size_t e = 0; e < of_type[t].size(); ++e)
-          if (types[t] == 4)
-            tetrahedra[of_type[t][e]] = {corners[t][4 * e], corners[t][4 * e + 1], corners[t][4 * e + 2],
-                                         corners[t][4 * e + 3]};
+          if (types[t] == 4 || types[t] == 11)
+            for (std::size_t nodes_each = types[t] == 4 ? 4 : 10, k = 0; k < nodes_each; ++k)
+              tetrahedra[of_type[t][e]].push_back(corners[t][nodes_each * e + numbering::gmsh_nodes<3>[k]]);
       }
     }
     gmsh::vectorpair groups;
@@ -81,8 +82,8 @@ public:
   std::string complaints;
   std::size_t node_count = 0;
   std::map<std::size_t, vec3> nodes;
-  std::map<std::size_t, std::array<std::size_t, 4>> tetrahedra;
-  std::map<int, std::size_t> count; ///< of elements by dimension
+  std::map<std::size_t, std::vector<std::size_t>> tetrahedra; ///< nodes in VTK's order
+  std::map<int, std::size_t> count;                           ///< of elements by dimension
   std::set<std::string> names;
   std::set<int> partitions;
   std::map<int, std::map<std::size_t, int>> ghosts; ///< of a partition: elements, and whose they are
@@ -90,8 +91,9 @@ public:
 
 const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
 
-void check_files(bool binary) {
-  const auto mesh = cubes.distributed();
+void check_files(bool binary, bool quadratic) {
+  const auto mesh = quadratic ? testing::with_bent_edges(cubes.distributed()) : cubes.distributed();
+  const std::size_t nodes = quadratic ? 2197 : 343;
   const testing::scratch_folder folder("ranks_msh");
   io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}}(mesh, folder);
   std::vector<std::filesystem::path> files;
@@ -110,9 +112,9 @@ void check_files(bool binary) {
   CHECK(elements == 1296);
   const gmsh_model all(files);
   CHECK(all.complaints == "");
-  CHECK(all.nodes.size() == 343);
+  CHECK(all.nodes.size() == nodes);
   CHECK(all.nodes.begin()->first == 1);
-  CHECK(all.nodes.rbegin()->first == 343);
+  CHECK(all.nodes.rbegin()->first == nodes);
   CHECK(all.tetrahedra.size() == 1296);
   CHECK(all.tetrahedra.begin()->first == 1);
   CHECK(all.tetrahedra.rbegin()->first == 1296);
@@ -133,16 +135,19 @@ void check_files(bool binary) {
 } // namespace
 
 TEST_CASE("Gmsh reads the binary file of each rank, and all of them together") {
-  check_files(true);
+  check_files(true, false);
+  check_files(true, true);
 }
 
 TEST_CASE("Gmsh reads text files of ranks") {
-  check_files(false);
+  check_files(false, false);
+  check_files(false, true);
 }
 
 TEST_CASE("Gmsh reads the ghosts of each rank, and whose they are") {
-  const auto mesh = cubes.distributed();
   for (const bool binary : {true, false}) {
+    const bool quadratic = !binary;
+    const auto mesh = quadratic ? testing::with_bent_edges(cubes.distributed()) : cubes.distributed();
     const testing::scratch_folder folder("ranks_msh");
     io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}, .ghosts = true}(mesh,
                                                                                                    folder);
@@ -159,11 +164,13 @@ TEST_CASE("Gmsh reads the ghosts of each rank, and whose they are") {
         const auto tag = static_cast<std::size_t>(rank.element_ids[e] + 1);
         if (e >= rank.owned_elements)
           ghosts[q][tag] = rank.element_owners[e] + 1;
-        for (std::size_t k = 0; k < 4; ++k) {
-          const auto v = static_cast<std::size_t>(rank.mesh.elements[e][k]);
-          const auto node = static_cast<std::size_t>(rank.vertex_ids[v] + 1);
-          same = same && one.tetrahedra.at(tag)[k] == node && one.nodes.at(node) == rank.mesh.points[v];
-        }
+        std::vector<std::size_t> nodes;
+        for_each_node(rank, e, [&](local_id vertex) {
+          const auto v = static_cast<std::size_t>(vertex);
+          nodes.push_back(static_cast<std::size_t>(rank.vertex_ids[v] + 1));
+          same = same && one.nodes.at(nodes.back()) == rank.mesh.points[v];
+        });
+        same = same && one.tetrahedra.at(tag) == nodes;
       }
       CHECK(same);
       CHECK(one.ghosts == ghosts);

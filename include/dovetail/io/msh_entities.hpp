@@ -75,7 +75,8 @@ inline void collect_members(msh_entities& out, const std::vector<vec3>& points) 
 }
 
 /// Files the middles of the skeleton's edges, where there are any, under the entities that the edges are in:
-/// a line, else a face, else the inside; `inside_of(subdomain)` is that of a subdomain, of dimension D.
+/// a line, else a face, else the inside; `inside_of(subdomain)` is that of a subdomain, of dimension D. Edges
+/// of sides that the skeleton does not have are left out.
 template <int D, class Function>
 void file_middles(msh_entities& out, const distributed_simplicial_mesh<D>& mesh, Function inside_of) {
   if (!mesh.mid_nodes)
@@ -95,8 +96,9 @@ void file_middles(msh_entities& out, const distributed_simplicial_mesh<D>& mesh,
       lower(vertices_of_edge(skeleton.sides[t], local), entity);
   }
   for (std::size_t e = 0; e < of_edge.size(); ++e)
-    out.points[static_cast<std::size_t>(of_edge[e].dimension)][static_cast<std::size_t>(of_edge[e].id)]
-        .push_back(static_cast<local_id>(skeleton.points.size() + e));
+    if (of_edge[e].id != no_id)
+      out.points[static_cast<std::size_t>(of_edge[e].dimension)][static_cast<std::size_t>(of_edge[e].id)]
+          .push_back(static_cast<local_id>(skeleton.points.size() + e));
 }
 
 /// The entities of the CAD model, numbered by their index in the model.

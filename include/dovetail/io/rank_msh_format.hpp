@@ -14,8 +14,10 @@ namespace dovetail::io {
 /// `<stem>_1.msh`, `<stem>_2.msh`, ... with the partitioned entities of all ranks; partition q + 1 is rank q.
 /// A file has all nodes of its rank; the points, lines and triangles that ranks share are elements of the
 /// lowest of them. Tags are ids, counted from 1. Ghosts are elements of an entity of their own, and
-/// `$GhostElements` names their owners. Each file costs n log n in the skeleton.
+/// `$GhostElements` names their owners. Elements of second order are complete ones. Each file costs n log n
+/// in the skeleton.
 struct rank_msh_format {
+  static constexpr bool second_order = true;
   bool binary = true;
   std::string stem = "ranks";
 

@@ -20,7 +20,7 @@ namespace dovetail::io {
 namespace detail {
 
 /// The skeleton of ranks: what lies between two subdomains of a rank and on no CAD face is not in it. Its
-/// subdomains are the materials of ranks.
+/// subdomains are the materials of ranks, its points and the middles of edges those of the whole skeleton.
 struct rank_skeleton {
   distributed_mesh mesh;
   std::vector<std::array<local_id, 2>> volumes; ///< per subdomain: rank, material
@@ -59,6 +59,7 @@ inline rank_skeleton skeleton_of_ranks(const rank_source<3>& source) {
     skeleton.subdomains.push_back(volumes);
     skeleton.side_hosts.push_back(from.skeleton.side_hosts[s]);
   }
+  result.mesh.mid_nodes = from.mid_nodes;
   result.mesh.material_names = from.material_names;
   result.mesh.face_names = from.face_names;
   result.mesh.group_names = from.group_names;
@@ -80,6 +81,7 @@ public:
     const point_sharers sharers(ranks_.mesh.skeleton);
     document_.cad = number_cad_entities(ranks_.mesh, sharers, document_.materials.size());
     document_.parts = number_partition_entities(ranks_.mesh, sharers, document_.cad);
+    file_middles(document_.parts, ranks_.mesh, [](local_id) { return no_id; }); // all sides are in faces
     if (source.ghosts)
       for (local_id q = 0; q < numbers_.ranks(); ++q)
         document_.ghost_tags.push_back(document_.parts.tags[3].back() + 1 + q);
@@ -127,18 +129,21 @@ private:
 
   /// Vertices that lie on no entity of the skeleton of ranks, by the volume of an element.
   void list_inner_vertices() {
+    std::vector<bool> on_skeleton(skeleton_nodes(ranks_.mesh), false);
+    for (std::size_t d = 0; d < 3; ++d)
+      for (const auto& nodes : parts().points[d])
+        for (const local_id node : nodes)
+          on_skeleton[index(node)] = true;
     inner_.resize(ranks_.volumes.size());
     std::vector<bool> listed(rank_.held_vertices, false);
-    const auto& of_point = parts().entities.of_point;
     for (std::size_t e = 0; e < rank_.owned_elements; ++e)
-      for (const local_id v : rank_.mesh.elements[e]) {
+      for_each_node(rank_, e, [&](local_id v) {
         const auto number = index(rank_.vertex_numbers[index(v)]);
-        const bool on_skeleton = number < of_point.size() && of_point[number].id != no_id;
-        if (listed[index(v)] || on_skeleton)
-          continue;
+        if (listed[index(v)] || (number < on_skeleton.size() && on_skeleton[number]))
+          return;
         listed[index(v)] = true;
         inner_[volume_of(e)].push_back(v);
-      }
+      });
   }
 
   /// Calls `visit(dimension, entity, count)` for the entities of the rank that have nodes.
@@ -155,6 +160,7 @@ private:
     for_each_node_block([&](std::size_t, std::size_t, std::size_t count) { ++blocks, nodes += count; });
     const auto& ids = rank_.vertex_ids;
     const std::size_t of_ghosts = ids.size() - rank_.held_vertices;
+    const auto place = [&](local_id v) { return rank_.mesh.points[index(v)]; };
     out.begin("Nodes");
     out.count(blocks + (of_ghosts > 0 ? 1 : 0));
     out.count(nodes + of_ghosts);
@@ -164,43 +170,48 @@ private:
     for_each_node_block([&](std::size_t d, std::size_t i, std::size_t count) {
       write_block_head(out, static_cast<int>(d), parts().tags[d][i], 0, static_cast<global_id>(count));
       if (d == 3)
-        write_node_list(out, inner_[i], ids, rank_.mesh.points);
+        write_node_list(out, inner_[i], ids, place);
       else
-        write_node_list(out, parts().points[d][i], numbers_.point_ids, ranks_.mesh.skeleton.points);
+        write_node_list(out, parts().points[d][i], numbers_.point_ids,
+                        [&](local_id node) { return skeleton_node(ranks_.mesh, node); });
     });
     if (of_ghosts > 0) {
       write_block_head(out, 3, ghost_tag(), 0, static_cast<global_id>(of_ghosts));
       std::vector<local_id> members(of_ghosts);
       std::iota(members.begin(), members.end(), static_cast<local_id>(rank_.held_vertices));
-      write_node_list(out, members, ids, rank_.mesh.points);
+      write_node_list(out, members, ids, place);
     }
     out.end("Nodes");
   }
+  template <class Place>
   static void write_node_list(msh_encoder& out, const std::vector<local_id>& members,
-                              const std::vector<global_id>& ids, const std::vector<vec3>& points) {
+                              const std::vector<global_id>& ids, const Place& place) {
     for (const local_id v : members) {
       out.count(msh_tag(ids[index(v)]));
       out.line();
     }
     for (const local_id v : members) {
-      out.point(points[index(v)]);
+      out.point(place(v));
       out.line();
     }
   }
 
+  bool quadratic() const { return ranks_.mesh.mid_nodes != nullptr; }
+  /// A line or triangle of the skeleton.
   template <std::size_t N>
   void write_simplex(msh_encoder& out, std::uint64_t tag, const std::array<local_id, N>& points) const {
-    std::array<global_id, N> ids;
-    for (std::size_t k = 0; k < N; ++k)
-      ids[k] = numbers_.point_ids[index(points[k])];
-    write_element(out, tag, ids);
+    std::vector<global_id> nodes = nodes_of(document_, points);
+    for (global_id& node : nodes)
+      node = numbers_.point_ids[index(node)];
+    write_element(out, tag, nodes);
   }
   /// Elements of the skeleton in one entity: `members(i)` of them, numbered over all ranks.
   template <class Write>
-  std::uint64_t write_shared_block(msh_encoder& out, std::size_t d, std::size_t i, msh_type type,
-                                   std::size_t count, std::uint64_t first_tag, const Write& write) const {
+  std::uint64_t write_shared_block(msh_encoder& out, std::size_t d, std::size_t i, std::size_t count,
+                                   std::uint64_t first_tag, const Write& write) const {
     if (parts().entities.of_dimension[d][i].sharers.front() == rank_.rank && count > 0) {
-      write_block_head(out, static_cast<int>(d), parts().tags[d][i], static_cast<int>(type),
+      const int dimension = static_cast<int>(d);
+      write_block_head(out, dimension, parts().tags[d][i], msh_type_of(dimension, quadratic()),
                        static_cast<global_id>(count));
       for (std::size_t k = 0; k < count; ++k)
         write(k, first_tag + k);
@@ -238,21 +249,19 @@ private:
     std::uint64_t tag = first_shared;
     const auto& skeleton = parts().entities;
     for (std::size_t i = 0; i < parts().tags[0].size(); ++i)
-      tag = write_shared_block(out, 0, i, msh_type::point, 1, tag, [&](std::size_t, std::uint64_t t) {
-        write_simplex<1>(out, t, {parts().points[0][i].front()});
+      tag = write_shared_block(out, 0, i, 1, tag, [&](std::size_t, std::uint64_t t) {
+        write_element(out, t, std::array{numbers_.point_ids[index(parts().points[0][i].front())]});
       });
     for (std::size_t i = 0; i < parts().tags[1].size(); ++i)
-      tag = write_shared_block(out, 1, i, msh_type::line, shared_count(1, i), tag,
-                               [&](std::size_t k, std::uint64_t t) {
-                                 const local_id e = parts().simplices[1][i][k];
-                                 write_simplex(out, t, skeleton.edges[index(e)].vertices);
-                               });
+      tag = write_shared_block(out, 1, i, shared_count(1, i), tag, [&](std::size_t k, std::uint64_t t) {
+        const local_id e = parts().simplices[1][i][k];
+        write_simplex(out, t, skeleton.edges[index(e)].vertices);
+      });
     for (std::size_t i = 0; i < parts().tags[2].size(); ++i)
-      tag = write_shared_block(out, 2, i, msh_type::triangle, shared_count(2, i), tag,
-                               [&](std::size_t k, std::uint64_t t) {
-                                 const local_id s = parts().simplices[2][i][k];
-                                 write_simplex(out, t, skeleton.triangles[index(s)]);
-                               });
+      tag = write_shared_block(out, 2, i, shared_count(2, i), tag, [&](std::size_t k, std::uint64_t t) {
+        const local_id s = parts().simplices[2][i][k];
+        write_simplex(out, t, skeleton.triangles[index(s)]);
+      });
     for (std::size_t volume = 0; volume < elements_.size(); ++volume)
       write_tetrahedra(out, parts().tags[3][volume], elements_[volume]);
     if (!ghosts_.empty())
@@ -262,12 +271,11 @@ private:
   void write_tetrahedra(msh_encoder& out, local_id entity, const std::vector<local_id>& elements) const {
     if (elements.empty())
       return;
-    write_block_head(out, 3, entity, static_cast<int>(msh_type::tetrahedron),
-                     static_cast<global_id>(elements.size()));
+    write_block_head(out, 3, entity, msh_type_of(3, quadratic()), static_cast<global_id>(elements.size()));
+    std::vector<global_id> ids;
     for (const local_id e : elements) {
-      std::array<global_id, 4> ids;
-      for (std::size_t k = 0; k < 4; ++k)
-        ids[k] = rank_.vertex_ids[index(rank_.mesh.elements[index(e)][k])];
+      ids.clear();
+      for_each_node(rank_, index(e), [&](local_id v) { ids.push_back(rank_.vertex_ids[index(v)]); });
       write_element(out, msh_tag(rank_.element_ids[index(e)]), ids);
     }
   }
