@@ -254,10 +254,10 @@ private:
       finish();
       throw mesher_error(text_of_failures(result.failures));
     }
-    if (options_.order == 2)
-      add_middles(result.mesh, source);
     if (options_.redistribute == by_elements)
       redistribute_by_elements(result.mesh, source.size);
+    if (options_.order == 2)
+      add_middles(result.mesh, source);
     write(result.mesh, folder, finished);
     finish();
     if (leads_ && !formats_.empty())

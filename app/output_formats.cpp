@@ -59,11 +59,12 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
   const auto add_by_ranks = [&](double bytes_per_element, auto format) {
     const io::rank_writer<decltype(format), any_redistributor<D>> writer{options.ranks.value_or(1), format,
                                                                          redistribute, options.ghosts};
-    known.push_back({format.name(), bytes_per_element, writer, true});
+    known.push_back({format.name(), bytes_per_element, writer, true, has_second_order<decltype(format)>});
   };
-  add_by_ranks(D == 3 ? 65.0 : 60.0, io::pvtu_format{});
+  const double pvtu_bytes = options.order == 2 ? 150 : D == 3 ? 65 : 60;
+  add_by_ranks(pvtu_bytes, io::pvtu_format{});
   if constexpr (D == 3) {
-    add_by_ranks(50.0, io::rank_msh_format{});
+    add_by_ranks(options.order == 2 ? 150 : 50, io::rank_msh_format{});
     add_by_ranks(85.0, io::openfoam_format{});
     add_by_ranks(55.0, io::mfem_format{});
   }
@@ -85,6 +86,22 @@ std::vector<std::string> names_of_formats(bool by_ranks) {
   return names;
 }
 
+/// Files that say nothing of ranks have elements of either order.
+template <int D>
+void check_order(const mesh_options& options, const std::vector<output_format<D>>& formats) {
+  if (options.order == 1)
+    return;
+  for (const auto& format : formats)
+    if (!format.second_order) {
+      std::vector<std::string> others;
+      for (const auto& other : known_formats<D>({}, redistribution_by::blocks{}))
+        if (other.by_ranks && other.second_order)
+          others.push_back(other.name);
+      throw command_line_error("--order 2: the files of " + format.name +
+                               " are of first order; with --ranks there are " + joined(others));
+    }
+}
+
 template <int D>
 void check_ranks(const mesh_options& options, const std::vector<output_format<D>>& formats) {
   const bool by_ranks =
@@ -103,8 +120,6 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   if (options.subdomains && *options.subdomains < *options.ranks && options.redistribute != by_elements)
     throw command_line_error(given + " are more than the " + std::to_string(*options.subdomains) +
                              " subdomains; a rank has one at least");
-  if (options.order == 2)
-    throw command_line_error("--order 2: files by ranks are of first order");
   const bool only_figures = formats.empty() && options.redistribute == by_elements;
   if (!by_ranks && !only_figures)
     throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)) +
@@ -148,6 +163,7 @@ std::vector<output_format<D>> make_formats(const mesh_options& options,
   if (options.formats.empty())
     add(formats, format_names(D, options.ranks.has_value()).front());
   check_ranks<D>(options, formats);
+  check_order<D>(options, formats);
   return formats;
 }
 

@@ -20,7 +20,8 @@ struct output_format {
   std::string name;
   double bytes_per_element; ///< about, with its share of nodes
   io::any_piecewise_writer<D> writer;
-  bool by_ranks = false; ///< has files of its own for each rank of a solver
+  bool by_ranks = false;    ///< has files of its own for each rank of a solver
+  bool second_order = true; ///< whether it has elements of second order
 };
 
 /// What `--format` may name, of that dimension; the first is the default. Either for files that say nothing
