@@ -25,7 +25,7 @@ def check_middles(nodes, corners, places):
     ends = np.concatenate([nodes[:, edge] for edge in edges])
     middles = np.concatenate([nodes[:, corners + k] for k in range(len(edges))])
     a, b = places[ends[:, 0]], places[ends[:, 1]]
-    if np.any(np.linalg.norm(places[middles] - (a + b) / 2, axis=1) > 0.1 * np.linalg.norm(b - a, axis=1)):
+    if np.any(np.linalg.norm(places[middles] - (a + b) / 2, axis=1) > 0.25 * np.linalg.norm(b - a, axis=1)):
         fail("a node is not in the middle of its edge")
     found = np.unique(np.column_stack((np.sort(ends, axis=1), middles)), axis=0)
     if len(np.unique(found[:, :2], axis=0)) != len(found) or len(np.unique(found[:, 2])) != len(found):
