@@ -93,23 +93,22 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
   });
   numbers.rank_of_piece = std::move(rank_of_piece);
 
-  // Of each rank: of the skeleton the points and the middles that it owns, then their next ids.
-  std::vector<std::array<global_id, 2>> next(static_cast<std::size_t>(ranks), {0, 0});
+  // Per rank: of the skeleton's points, and of the middles of its edges.
+  std::vector<std::array<global_id, 2>> owned(static_cast<std::size_t>(ranks), {0, 0}), next_id = owned;
   const std::size_t nodes = skeleton_nodes(mesh);
-  const auto next_of = [&](std::size_t v, local_id owner) -> global_id& {
-    return next[static_cast<std::size_t>(owner)][v < mesh.skeleton.points.size() ? 0 : 1];
-  };
+  const auto is_middle = [&](std::size_t v) { return std::size_t{v >= mesh.skeleton.points.size()}; };
   for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      ++next_of(v, owner);
+      ++owned[static_cast<std::size_t>(owner)][is_middle(v)];
   numbers.first_vertex = {0};
   numbers.first_element = {0};
   numbers.first_inner_of_piece.resize(mesh.counts.size());
   numbers.first_middle_of_piece.resize(mesh.counts.size());
   numbers.first_element_of_piece.resize(mesh.counts.size());
-  for (std::size_t q = 0; q < next.size(); ++q) {
+  for (std::size_t q = 0; q < owned.size(); ++q) {
     global_id vertex = numbers.first_vertex.back();
-    vertex += std::exchange(next[q][0], vertex);
+    next_id[q][0] = vertex;
+    vertex += owned[q][0];
     global_id element = numbers.first_element.back();
     for (const local_id piece : numbers.pieces_of_rank[q]) {
       const auto p = static_cast<std::size_t>(piece);
@@ -118,7 +117,8 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
       vertex += mesh.counts[p].inner_points;
       element += mesh.counts[p].elements;
     }
-    vertex += std::exchange(next[q][1], vertex);
+    next_id[q][1] = vertex;
+    vertex += owned[q][1];
     for (const local_id piece : numbers.pieces_of_rank[q]) {
       const auto p = static_cast<std::size_t>(piece);
       numbers.first_middle_of_piece[p] = vertex;
@@ -130,7 +130,7 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
   numbers.point_ids.assign(nodes, -1);
   for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      numbers.point_ids[v] = next_of(v, owner)++;
+      numbers.point_ids[v] = next_id[static_cast<std::size_t>(owner)][is_middle(v)]++;
   return numbers;
 }
 

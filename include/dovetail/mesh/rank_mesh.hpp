@@ -88,7 +88,7 @@ void for_each_node(const rank_mesh<D>& mesh, std::size_t element, const Take& ta
 
 /// The elements that the rank owns as ids of vertices: (owned elements) x `nodes_per_element`, row by row.
 /// The `cells` of `dolfinx::mesh::create_mesh`, which takes a simplex's vertices in any order; those of
-/// second order are in VTK's. O(elements).
+/// second order are in VTK's order, which is not DOLFINx's. O(elements).
 template <int D>
 std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
   std::vector<global_id> ids;
