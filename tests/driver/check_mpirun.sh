@@ -66,6 +66,14 @@ on_ranks 1 whole "${mesh[@]}" --decomposition bisection --workers 2
 fresh several
 on_ranks 3 several "${mesh[@]}" --decomposition bisection
 [[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files by bisection than with one rank"
+# And the files for the ranks of a solver, of second order.
+for_solver=("${mesh[@]}" --ranks 3 --ghosts --order 2 --format pvtu,msh-ranks)
+fresh whole
+on_ranks 1 whole "${for_solver[@]}" --workers 2
+((status == 0)) || fault "exit code is $status"
+fresh several
+on_ranks 3 several "${for_solver[@]}"
+[[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files for a solver than with one rank"
 
 # 2. An error that all meet is said once; other commands know nothing of ranks.
 one_line() {
