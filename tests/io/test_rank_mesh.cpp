@@ -32,8 +32,13 @@ std::vector<rank_mesh<D>> all_ranks(const distributed_simplicial_mesh<D>& mesh,
                                     const std::vector<local_id>& rank_of_piece, local_id ranks, bool ghosts) {
   const auto numbers = io::number_by_ranks(mesh, rank_of_piece, ranks);
   std::vector<rank_mesh<D>> all;
-  for (local_id q = 0; q < ranks; ++q)
+  for (local_id q = 0; q < ranks; ++q) {
     all.push_back(io::make_rank_mesh<D>(mesh, numbers, q, ghosts));
+    const auto counts = io::count_rank_mesh<D>(mesh, numbers, q, ghosts);
+    CHECK(counts.vertices == all.back().mesh.points.size());
+    CHECK(counts.elements == all.back().mesh.elements.size());
+    CHECK(counts.sides == all.back().sides.size());
+  }
   return all;
 }
 
@@ -284,6 +289,10 @@ TEST_CASE("only the rank's own pieces are loaded, once; for ghosts those that to
   CHECK(std::accumulate(loads.begin(), loads.end(), 0) == 1);
   (void)io::make_rank_mesh<3>(mesh, numbers, 0, true);
   CHECK(std::accumulate(loads.begin(), loads.end(), 0) == 1 + 8); // the boxes around a corner of one of 27
+  (void)io::count_rank_mesh<3>(mesh, numbers, 0);
+  CHECK(std::accumulate(loads.begin(), loads.end(), 0) == 1 + 8);
+  (void)io::count_rank_mesh<3>(mesh, numbers, 0, true);
+  CHECK(std::accumulate(loads.begin(), loads.end(), 0) == 1 + 8 + 7);
 }
 
 TEST_CASE("triangles: a plane domain, and sheets that meet in an edge") {

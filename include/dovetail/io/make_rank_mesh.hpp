@@ -6,6 +6,8 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/rank_mesh.hpp"
 
+#include <cstdint>
+
 namespace dovetail::io {
 
 /// The mesh of one rank, of second order where the distributed mesh has `mid_nodes`. Vertices that the rank
@@ -21,6 +23,19 @@ template <int D>
 rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
                             local_id rank, bool ghosts = false);
 
+/// How large the mesh of a rank is, ghosts with it.
+struct rank_counts {
+  std::uint64_t vertices = 0;
+  std::uint64_t elements = 0;
+  std::uint64_t sides = 0; ///< on CAD faces (D = 3) or curves (D = 2)
+};
+
+/// What counting in the result of `make_rank_mesh` would give. Loads no piece; for ghosts those that have
+/// them.
+template <int D>
+rank_counts count_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
+                            local_id rank, bool ghosts = false);
+
 /// A mesh numbered for ranks: what each of them needs to make its own.
 template <int D>
 struct rank_source {
@@ -29,6 +44,7 @@ struct rank_source {
   bool ghosts = false;
 
   rank_mesh<D> mesh_of(local_id rank) const { return make_rank_mesh<D>(mesh, numbers, rank, ghosts); }
+  rank_counts counts_of(local_id rank) const { return count_rank_mesh<D>(mesh, numbers, rank, ghosts); }
 };
 
 } // namespace dovetail::io

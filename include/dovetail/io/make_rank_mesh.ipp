@@ -46,9 +46,20 @@ public:
     require_used();
     list_neighbours();
     if (ghosts)
-      for (const local_id p : touching_pieces())
-        add_ghosts(load_checked(source_, p));
+      add_all_ghosts();
     return std::move(result_);
+  }
+
+  rank_counts count(bool ghosts) {
+    add_owned_vertices();
+    add_vertices_of_others();
+    list_sides();
+    if (ghosts)
+      add_all_ghosts();
+    const auto q = static_cast<std::size_t>(result_.rank);
+    const global_id owned = ranks_.first_element[q + 1] - ranks_.first_element[q];
+    return {result_.mesh.points.size(), static_cast<std::uint64_t>(owned) + result_.mesh.elements.size(),
+            result_.sides.size()};
   }
 
 private:
@@ -309,6 +320,10 @@ private:
     return pieces;
   }
 
+  void add_all_ghosts() {
+    for (const local_id p : touching_pieces())
+      add_ghosts(load_checked(source_, p));
+  }
   void add_ghosts(const simplicial_piece<D>& piece) {
     const auto p = static_cast<std::size_t>(piece.subdomain);
     const piece_nodes<D> nodes(source_, piece);
@@ -363,10 +378,20 @@ rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const ra
   return detail::rank_mesh_builder<D>(mesh, numbers, rank).build(ghosts);
 }
 
+template <int D>
+rank_counts count_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
+                            local_id rank, bool ghosts) {
+  return detail::rank_mesh_builder<D>(mesh, numbers, rank).count(ghosts);
+}
+
 #ifdef DOVETAIL_COMPILED
 template rank_mesh<2> make_rank_mesh<2>(const distributed_simplicial_mesh<2>&, const rank_numbering&,
                                         local_id, bool);
 template rank_mesh<3> make_rank_mesh<3>(const distributed_simplicial_mesh<3>&, const rank_numbering&,
+                                        local_id, bool);
+template rank_counts count_rank_mesh<2>(const distributed_simplicial_mesh<2>&, const rank_numbering&,
+                                        local_id, bool);
+template rank_counts count_rank_mesh<3>(const distributed_simplicial_mesh<3>&, const rank_numbering&,
                                         local_id, bool);
 #endif
 
