@@ -272,6 +272,12 @@ TEST_CASE("a writer that breaks its promises is refused, and leaves nothing") {
                    "subdomain 0 could not be written: "));
     CHECK(contains(failed([](auto& out) { out.others = {[] { fail(); }}; }),
                    "the skeleton could not be written: no such luck"));
+    CHECK(contains(failed([](auto& out) { out.counts = {[]() -> byte_buffer { fail(); }}; }),
+                   "the skeleton could not be written: no such luck"));
+    CHECK(failed([](auto& out) {
+            out.counts = {[] { return byte_buffer(); }};
+            out.prepare = [](const auto&) { fail(); };
+          }) == "the writer threw: no such luck");
     CHECK(failed([](auto& out) { out.finish = [](const auto&) -> report { fail(); }; }) ==
           "the writer threw: no such luck");
   }

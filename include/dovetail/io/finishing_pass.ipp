@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -58,6 +59,8 @@ public:
     for (const auto& output : outputs_) {
       for (const auto& write : output.others)
         others_.push_back(&write);
+      for (const auto& count : output.counts)
+        counts_.push_back(&count);
       most_loaded_ = std::max(most_loaded_, output.most_loaded);
       if (output.names.empty())
         continue;
@@ -79,26 +82,29 @@ public:
       else
         left.push_back(r);
     finished_mesh result;
-    result.summary.set("tasks", static_cast<double>(ranges() + others_.size()));
+    result.summary.set("tasks", static_cast<double>(ranges() + others_.size() + counts_.size()));
     result.summary.set("taken_over", static_cast<double>(ranges() - left.size()));
     for (std::size_t k = 0; k < others_.size(); ++k)
       left.push_back(ranges() + k);
 
     run_options tasks;
-    tasks.order = largest_first(left);
     tasks.limit_seconds = options.limit_seconds * static_cast<double>(most_pieces());
     tasks.on_progress = options.on_progress;
     tasks.stage = "finishing";
-    const auto outcomes = run_tasks.run(
-        left.size(), [&](std::size_t k) { return reply(left[k]); }, tasks);
-    double peak = 0;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      const auto done = accept(left[k], outcomes[k]);
+    prepare(run_tasks, tasks);
+    tasks.order = largest_first(left);
+    const auto replies = replies_of(run_tasks, left, tasks, [this](std::size_t task) {
+      byte_writer done;
+      if (task < ranges())
+        done.value(finish_range(task));
+      else
+        (*others_[task - ranges()])();
+      return done.take();
+    });
+    for (std::size_t k = 0; k < left.size(); ++k)
       if (left[k] < ranges())
-        found[left[k]] = done;
-      peak = std::max(peak, static_cast<double>(outcomes[k].peak_rss_bytes));
-    }
-    result.summary.set("peak_rss_bytes", peak);
+        found[left[k]] = byte_reader(replies[k]).template value<finished_pieces>();
+    result.summary.set("peak_rss_bytes", peak_rss_bytes_);
 
     mesh_hasher hash = skeleton_hash_;
     for (const auto& pieces : found) {
@@ -135,6 +141,26 @@ private:
     for (std::size_t r = 0; r < ranges(); ++r)
       most = std::max(most, bounds_[r + 1] - bounds_[r]);
     return most;
+  }
+
+  /// What outputs have to know before their files are begun, found by tasks of the outputs one after the
+  /// other.
+  void prepare(const any_executor& run_tasks, const run_options& options) {
+    if (counts_.empty())
+      return;
+    std::vector<std::size_t> tasks(counts_.size()); // numbered as others, since they write no pieces either
+    std::iota(tasks.begin(), tasks.end(), ranges());
+    const auto counted = replies_of(run_tasks, tasks, options,
+                                    [this](std::size_t task) { return (*counts_[task - ranges()])(); });
+    run_tasks.once([&] {
+      auto next = counted.begin();
+      for (const auto& output : outputs_) {
+        const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(output.counts.size()));
+        if (first != next)
+          output.prepare({first, next});
+      }
+      return byte_buffer();
+    });
   }
 
   /// Files without pieces, then the ranges of most elements; ties by number.
@@ -208,17 +234,26 @@ private:
     return true;
   }
 
+  /// Runs tasks, and gives what each returns; errors of theirs are thrown here.
+  std::vector<byte_buffer> replies_of(const any_executor& run_tasks, const std::vector<std::size_t>& tasks,
+                                      const run_options& options, const task_function& run_task) {
+    const auto outcomes = run_tasks.run(
+        tasks.size(), [&](std::size_t k) { return reply([&] { return run_task(tasks[k]); }); }, options);
+    std::vector<byte_buffer> replies;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      replies.push_back(accept(tasks[k], outcomes[k]));
+      peak_rss_bytes_ = std::max(peak_rss_bytes_, static_cast<double>(outcomes[k].peak_rss_bytes));
+    }
+    return replies;
+  }
+
   /// Runs in the worker, as all below.
-  byte_buffer reply(std::size_t task) const {
+  static byte_buffer reply(const std::function<byte_buffer()>& run_task) {
     byte_writer bytes;
     try {
-      finished_pieces done;
-      if (task < ranges())
-        done = finish_range(task);
-      else
-        (*others_[task - ranges()])();
+      const byte_buffer done = run_task();
       bytes.value(finishing_reply::finished);
-      bytes.value(done);
+      bytes.array(done);
     } catch (const io_error& problem) {
       bytes.value(finishing_reply::not_written);
       bytes.text(problem.what());
@@ -273,7 +308,7 @@ private:
   }
 
   /// Back in the parent.
-  finished_pieces accept(std::size_t task, const task_outcome& outcome) const {
+  byte_buffer accept(std::size_t task, const task_outcome& outcome) const {
     if (!outcome.ok)
       throw io_error((task < ranges() ? name_of(task) : std::string("the skeleton")) +
                      " could not be written: " + outcome.failure);
@@ -284,7 +319,7 @@ private:
     case finishing_reply::no_mesh:
       throw mesh_error(bytes.text());
     default:
-      return bytes.value<finished_pieces>();
+      return bytes.array<std::byte>();
     }
   }
 
@@ -298,7 +333,9 @@ private:
   const bool release_;
   std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1
   std::vector<const std::function<void()>*> others_;
-  local_id most_loaded_ = 0; ///< pieces by one of the others
+  std::vector<const std::function<byte_buffer()>*> counts_; ///< of all outputs
+  local_id most_loaded_ = 0;                                ///< pieces by one of the others
+  double peak_rss_bytes_ = 0;                               ///< of the workers so far
 };
 
 } // namespace detail

@@ -3,6 +3,7 @@
 /// when all are complete they get their final ones.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/report.hpp"
@@ -29,13 +30,17 @@ struct piece_file {
   std::function<std::uint64_t()> close;                ///< returns the bytes of the file
 };
 
-/// The files of one format in the making, in a folder for unfinished files. All but `finish` may be called
-/// in any worker, in any order.
+/// The files of one format in the making, in a folder for unfinished files. What `counts`, `open` and
+/// `others` hold may be called in any worker, in any order.
 template <int D>
 struct piecewise_output {
   std::vector<local_id>
       bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number; or no files
-  std::vector<std::string> names;                 ///< of these files
+  std::vector<std::string> names;                        ///< of these files
+  std::vector<std::function<byte_buffer()>> counts = {}; ///< called first: how much the others will write
+  /// Where there are counts, called once with what all of them returned, before all that follows: makes the
+  /// files that several of the others write to.
+  std::function<void(const std::vector<byte_buffer>& counted)> prepare = [](const auto&) {};
   std::function<piece_file<D>(std::size_t)> open; ///< file f
   std::vector<std::function<void()>> others = {}; ///< each writes files that take no pieces
   /// The most pieces that one of the others loads by itself; unless it is 0, pieces are not given up.
@@ -69,6 +74,9 @@ public:
                             const std::filesystem::path& unfinished) const {
     auto output = guarded([&] { return begin_(mesh, unfinished); });
     check(output, static_cast<local_id>(mesh.counts.size()));
+    output.prepare = [prepare = std::move(output.prepare)](const std::vector<byte_buffer>& counted) {
+      guarded([&] { prepare(counted); });
+    };
     output.finish = [finish = std::move(output.finish)](const std::filesystem::path& folder) {
       return guarded([&] { return finish(folder); });
     };
@@ -170,6 +178,12 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
   const unfinished_folder unfinished(folder);
   make_folder(unfinished.of_writer(0));
   const piecewise_output<D> output = writer.begin(mesh, unfinished.of_writer(0));
+  if (!output.counts.empty()) {
+    std::vector<byte_buffer> counted;
+    for (const auto& count : output.counts)
+      counted.push_back(count());
+    output.prepare(counted);
+  }
   for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
     const piece_file<D> file = output.open(f);
     for (local_id p = output.bounds[f]; p < output.bounds[f + 1]; ++p)
