@@ -366,6 +366,18 @@ struct rank_format : copyable_only {
 };
 // end
 
+// for shared_rank_format
+struct shared_rank_format : copyable_only {
+  using copyable_only::copyable_only;
+  std::string name() const { return {}; }
+  std::vector<std::string> files_of_all() const { return {}; }
+  void lay_out(const io::rank_source<3>&, const std::vector<io::rank_counts>&,
+               const std::vector<std::filesystem::path>&) const {}
+  void write(const io::rank_source<3>&, const rank_mesh<3>&,
+             const std::vector<std::filesystem::path>&) const {}
+};
+// end
+
 // for redistributor
 struct redistributor : copyable_only {
   using copyable_only::copyable_only;

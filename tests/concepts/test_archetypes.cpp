@@ -69,8 +69,14 @@ static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, archetype::pi
 static_assert(redistributor<archetype::redistributor> && !redistributor<archetype::writer>);
 static_assert(std::is_constructible_v<any_redistributor<3>, archetype::redistributor>);
 static_assert(rank_format<archetype::rank_format> && !rank_format<archetype::rank_format, 2>);
-using writer_by_ranks = io::rank_writer<archetype::rank_format, archetype::redistributor>;
-static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, writer_by_ranks>);
+static_assert(shared_rank_format<archetype::shared_rank_format> &&
+              !shared_rank_format<archetype::shared_rank_format, 2>);
+static_assert(!rank_format<archetype::shared_rank_format> && !shared_rank_format<archetype::rank_format>);
+template <class Format>
+using writer_by_ranks = io::rank_writer<Format, archetype::redistributor>;
+static_assert(std::is_constructible_v<io::any_piecewise_writer<3>, writer_by_ranks<archetype::rank_format>>);
+static_assert(
+    std::is_constructible_v<io::any_piecewise_writer<3>, writer_by_ranks<archetype::shared_rank_format>>);
 static_assert(!mesh_writer<archetype::reader> && !mesh_reader<archetype::writer>);
 
 static_assert(graph<archetype::path> && !weighted_graph<archetype::path>);

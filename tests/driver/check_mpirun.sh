@@ -74,6 +74,16 @@ on_ranks 1 whole "${for_solver[@]}" --workers 2
 fresh several
 on_ranks 3 several "${for_solver[@]}"
 [[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files for a solver than with one rank"
+# And of a solver's ranks, who share HDF5 files, whoever writes them.
+if "$driver" mesh --help | grep -q "vtkhdf"; then
+  fresh whole
+  on_ranks 1 whole "${mesh[@]}" --ranks 4 --ghosts --format xdmf,vtkhdf
+  ((status == 0)) || fault "exit code is $status"
+  fresh several
+  on_ranks 3 several "${mesh[@]}" --ranks 4 --ghosts --format xdmf,vtkhdf
+  [[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other HDF5 files than with one rank"
+  [[ ! -e $sandbox/several/out/unfinished ]] || fault "unfinished files are left"
+fi
 
 # 2. An error that all meet is said once; other commands know nothing of ranks.
 one_line() {

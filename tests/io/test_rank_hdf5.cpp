@@ -1,20 +1,35 @@
-// HDF5 files of parallel solvers: h5py and VTK read them (check_rank_files.py).
+// HDF5 files of parallel solvers, filled by all ranks at once: h5py and VTK read them (check_rank_files.py).
+#include "io/file_size_limit.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 
+#include "dovetail/geometry/plane_domain.hpp"
+#include "dovetail/geometry/plane_svg_path.hpp"
+#include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/hdf5_format.hpp"
 #include "dovetail/io/rank_files.hpp"
+#include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace dovetail;
 
 namespace {
+
+[[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
 
 /// The script's exit status (0: one mesh) and what it printed.
 std::pair<int, std::string> check(const std::string& format, const std::filesystem::path& folder, int ranks) {
@@ -69,10 +84,131 @@ TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
   CHECK(check("vtkhdf", folder, 4).first != 0); // there is no rank 3
 }
 
-TEST_CASE("a file that cannot be written is named, and HDF5 prints nothing") {
+TEST_CASE("VTKHDF: VTK reads triangles") {
+  if (!has_python_module("vtkmodules.vtkIOHDF"))
+    return;
+  const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z M1 1 h0.5 v0.5 h-0.5 Z"));
+  const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
+  const testing::scratch_folder folder("ranks_vtkhdf_triangles");
+  io::rank_writer<io::vtkhdf_format>{.ranks = 3}(result.mesh, folder);
+  const auto [status, log] = check("vtkhdf", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.find("measure 5.750000000") != std::string::npos);
+}
+
+TEST_CASE("each rank's share is a task, and the bytes are the same by every executor") {
+  const auto mesh = cubes.distributed();
+  const auto compare = [&](const auto& writer) {
+    CAPTURE(writer.format.name());
+    const testing::scratch_folder alone("ranks_hdf5_alone"), folder("ranks_hdf5_tasks");
+    writer(mesh, alone);
+    const auto expected = testing::content_of(alone);
+    const auto check_files = [&](const any_executor& run_tasks) {
+      const auto finished = io::finish_mesh<3>(mesh, {writer}, folder, run_tasks);
+      CHECK(finished.summary.get("tasks") == 27 + 4 + 4); // pieces, counts of ranks, shares of ranks
+    };
+    for (const auto& run_tasks :
+         {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 1}),
+          any_executor(parallel::processes{.worker_count = 4}),
+          any_executor(parallel::threads{.worker_count = 3})}) {
+      check_files(run_tasks);
+      CHECK(testing::content_of(folder) == expected);
+    }
+    parallel::run_ranks(3, [&](parallel::in_process& mine) { check_files(parallel::ranks(mine)); });
+    CHECK(testing::content_of(folder) == expected);
+  };
+  compare(io::rank_writer<io::xdmf_format>{.ranks = 4});
+  compare(io::rank_writer<io::vtkhdf_format>{.ranks = 4});
+  compare(io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = true});
+}
+
+TEST_CASE(
+    "a share is written with the pieces of its rank in memory, in any order; ghosts do not change XDMF's") {
+  auto mesh = cubes.distributed();
+  std::vector<local_id> loads;
+  mesh.load = [&loads, load = mesh.load](local_id p) {
+    loads.push_back(p);
+    return load(p);
+  };
+  const testing::scratch_folder alone("ranks_hdf5_alone"), folder("ranks_hdf5_shares");
+  const io::rank_writer<io::xdmf_format, redistribution_by::blocks> writer{.ranks = 3};
+  writer(mesh, alone);
+  const auto output = writer.begin(mesh, folder);
+  loads.clear();
+  std::vector<byte_buffer> counted;
+  for (const auto& count : output.counts)
+    counted.push_back(count());
+  output.prepare(counted);
+  CHECK(loads.empty());
+  REQUIRE(output.others.size() == 3);
+  for (const local_id q : {2, 0, 1}) {
+    loads.clear();
+    output.others[static_cast<std::size_t>(q)]();
+    CHECK(loads.size() == 9);
+    for (const local_id p : loads)
+      CHECK(p / 9 == q);
+  }
+  output.finish(folder);
+  CHECK(testing::content_of(folder) == testing::content_of(alone));
+  io::rank_writer<io::xdmf_format, redistribution_by::blocks>{.ranks = 3, .ghosts = true}(mesh, folder);
+  CHECK(testing::content_of(folder) == testing::content_of(alone));
+}
+
+TEST_CASE("on a full disk there is an error that names the file, and no file") {
+  const testing::scratch_folder folder("ranks_hdf5_full");
+  std::optional<testing::file_size_limit> limit;
+  auto mesh = cubes.distributed();
+  mesh.load = [&limit, load = mesh.load](local_id p) { // not before the file has been laid out
+    if (!limit)
+      limit.emplace(10000);
+    return load(p);
+  };
+  const auto check_refused = [&](const auto& writer, const any_executor& run_tasks) {
+    CAPTURE(writer.format.name());
+    CHECK_THROWS_WITH_AS(io::finish_mesh<3>(mesh, {writer}, folder, run_tasks),
+                         doctest::Contains("0.rank_file: File too large"), io_error);
+    limit.emplace(10000);
+    CHECK_THROWS_WITH_AS(io::finish_mesh<3>(mesh, {writer}, folder, run_tasks),
+                         doctest::Contains("0.rank_file: HDF5: File too large"), io_error);
+    limit.reset();
+    CHECK(testing::file_count(folder) == 0);
+  };
+  for (const auto& run_tasks :
+       {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 2})}) {
+    check_refused(io::rank_writer<io::xdmf_format>{.ranks = 4}, run_tasks);
+    check_refused(io::rank_writer<io::vtkhdf_format>{.ranks = 4}, run_tasks);
+  }
+}
+
+TEST_CASE("rows go where they belong, and nowhere else") {
+  const testing::scratch_folder folder("hdf5_slices");
+  const auto path = folder / "rows.h5";
+  {
+    io::detail::hdf5_file file(path);
+    file.create_in_place<local_id>("of/pairs", 3, 2);
+    file.add("given", std::vector<global_id>{5, 7});
+    file.close();
+  }
+  io::detail::hdf5_slices slices(path);
+  CHECK(slices.read<global_id>("given") == std::vector<global_id>{5, 7});
+  slices.write("of/pairs", 1, std::vector<local_id>{3, 4, 5, 6}, 2);
+  slices.write("of/pairs", 0, std::vector<local_id>{1, 2}, 2);
+  slices.write("of/pairs", 3, std::vector<local_id>{}, 2);
+  CHECK_THROWS_WITH_AS(slices.write("of/pairs", 2, std::vector<local_id>{7, 8, 9, 9}, 2),
+                       doctest::Contains("of/pairs has no room for rows 2 to 3"), io_error);
+  CHECK_THROWS_WITH_AS(slices.write("nothing", 0, std::vector<local_id>{1}), doctest::Contains("rows.h5"),
+                       io_error);
+  slices.close();
+  CHECK(io::detail::hdf5_file(path, io::detail::hdf5_file::access::read).read<local_id>("of/pairs") ==
+        std::vector<local_id>{1, 2, 3, 4, 5, 6});
+  CHECK_THROWS_WITH_AS(io::detail::hdf5_slices(folder / "none.h5"), doctest::Contains("none.h5"), io_error);
+}
+
+TEST_CASE("a file that cannot be made is named, and HDF5 prints nothing") {
   const testing::scratch_folder folder("ranks_hdf5");
   const auto mesh = cubes.distributed();
   const io::rank_source<3> source{mesh, io::number_by_ranks(mesh, std::vector<local_id>(27, 0), 1)};
-  CHECK_THROWS_WITH_AS(io::vtkhdf_format{}.write_all<3>(source, {folder / "none" / "ranks.vtkhdf"}),
+  CHECK_THROWS_WITH_AS(io::vtkhdf_format{}.lay_out<3>(source, {{}}, {folder / "none" / "ranks.vtkhdf"}),
                        doctest::Contains("ranks.vtkhdf: HDF5"), io_error);
 }

@@ -83,8 +83,8 @@ concept piecewise_mesh_writer = mesh_writer<W, D> &&
 ///
 /// Failure: throws `io_error` naming the path when a file cannot be written.
 ///
-/// Models: io::pvtu_format, io::xdmf_format and io::vtkhdf_format for D = 2 and 3, io::openfoam_format,
-/// io::mfem_format and io::rank_msh_format for D = 3.
+/// Models: io::pvtu_format for D = 2 and 3, io::openfoam_format, io::mfem_format and io::rank_msh_format for
+/// D = 3.
 template <class F, int D = 3>
 concept rank_format = std::copy_constructible<F> &&
     requires(const F& f, local_id q, const io::rank_source<D>& source, const rank_mesh<D>& mesh,
@@ -100,6 +100,39 @@ concept rank_format = std::copy_constructible<F> &&
 template <class F>
 inline constexpr bool has_second_order = requires {
   requires F::second_order;
+};
+
+/// The role `shared_rank_format<F, D>`: a file format of parallel solvers whose files hold all ranks, each of
+/// which writes its share; `io::rank_writer` makes it a `piecewise_mesh_writer`. D = 3 when it is not said.
+///
+/// Valid expressions for `const F& f`, `const io::rank_source<D>& source`,
+/// `const std::vector<io::rank_counts>& counts`, `const rank_mesh<D>& mesh`,
+/// `const std::vector<std::filesystem::path>& paths`:
+///
+/// - `f.name()`: std::string, of the format
+/// - `f.files_of_all()`: std::vector<std::string>, its files, below the folder of the mesh
+/// - `f.lay_out(source, counts, paths)`: makes the files under these names, all but the ranks' shares;
+/// `counts` has the size of each rank's mesh
+/// - `f.write(source, mesh, paths)`: writes the share of the mesh's rank into them
+///
+/// Semantics: `lay_out` is called once, and is done before the first `write`. The calls of `write` may be
+/// made in several processes at once, on several machines, in any order: no two write the same bytes. What is
+/// in the files in the end depends on the arguments alone, and not on their names, as the names given are
+/// temporary.
+///
+/// Complexity: of `write` linear in the rank's mesh; of `lay_out` in the skeleton, the pieces and the ranks.
+///
+/// Failure: throws `io_error` naming the path when a file cannot be written.
+///
+/// Models: io::xdmf_format and io::vtkhdf_format for D = 2 and 3.
+template <class F, int D = 3>
+concept shared_rank_format = std::copy_constructible<F> &&
+    requires(const F& f, const io::rank_source<D>& source, const std::vector<io::rank_counts>& counts,
+             const rank_mesh<D>& mesh, const std::vector<std::filesystem::path>& paths) {
+  { f.name() } -> std::same_as<std::string>;
+  { f.files_of_all() } -> std::same_as<std::vector<std::string>>;
+  f.lay_out(source, counts, paths);
+  f.write(source, mesh, paths);
 };
 
 /// The role `mesh_reader`: a file becomes a mesh.

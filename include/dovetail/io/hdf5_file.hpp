@@ -88,11 +88,14 @@ inline std::string hdf5_failure() {
 /// what is written alone. Throws `io_error` naming the file when HDF5 fails.
 class hdf5_file {
 public:
-  explicit hdf5_file(const std::filesystem::path& path) : path_(path) {
+  enum class access { create, read };
+
+  explicit hdf5_file(const std::filesystem::path& path, access how = access::create) : path_(path) {
     const hdf5_use use;
-    file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    file_ = how == access::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+                                  : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0)
-      fail("create");
+      fail(how == access::create ? "create" : "open");
   }
   hdf5_file(const hdf5_file&) = delete;
   hdf5_file& operator=(const hdf5_file&) = delete;
@@ -129,16 +132,14 @@ public:
     require(H5Pset_fill_value(filled.id, hdf5_type<T>(), &value));
     create(name, hdf5_type<T>(), rows, 1, filled);
   }
-  /// One without rows, for `append`.
+  /// One whose place in the file is known before anything is written to it (`place_of`).
   template <class T>
-  void create_growing(const std::string& name, std::uint64_t columns = 1) {
+  void create_in_place(const std::string& name, std::uint64_t rows, std::uint64_t columns = 1) {
     const hdf5_use use;
-    const int rank = columns == 1 ? 1 : 2;
-    const std::array<hsize_t, 2> none{0, columns}, most{H5S_UNLIMITED, columns}, chunk{4096, columns};
-    const handle space(H5Screate_simple(rank, none.data(), most.data()), H5Sclose, *this);
-    const layout chunked(*this);
-    require(H5Pset_chunk(chunked.id, rank, chunk.data()));
-    create(name, hdf5_type<T>(), space.id, chunked.id);
+    const layout placed(*this);
+    require(H5Pset_alloc_time(placed.id, H5D_ALLOC_TIME_EARLY));
+    require(H5Pset_fill_time(placed.id, H5D_FILL_TIME_NEVER));
+    create(name, hdf5_type<T>(), rows, columns, placed);
   }
   /// Writes rows from `first` on.
   template <class T>
@@ -169,21 +170,6 @@ public:
         values[i] = of_row(begin + i);
       write(name, first + begin, values);
     }
-  }
-  /// Writes behind the last row of a growing dataset.
-  template <class T>
-  void append(const std::string& name, const std::vector<T>& values, std::uint64_t columns = 1) {
-    const hdf5_use use;
-    std::array<hsize_t, 2> extent{0, columns};
-    const std::uint64_t rows = values.size() / columns;
-    {
-      const handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, *this);
-      const handle there(H5Dget_space(set.id), H5Sclose, *this);
-      require(H5Sget_simple_extent_dims(there.id, extent.data(), nullptr));
-      extent[0] += rows;
-      require(H5Dset_extent(set.id, extent.data()));
-    }
-    write(name, extent[0] - rows, rows, values.data(), columns);
   }
   /// A whole dataset at once.
   template <class T>
@@ -220,6 +206,34 @@ public:
     require(H5Tset_size(type.id, text.size()));
     require(H5Tset_strpad(type.id, H5T_STR_NULLPAD));
     add_attribute(of, name, type.id, space.id, text.data());
+  }
+
+  /// The values of a dataset, row by row.
+  template <class T>
+  std::vector<T> read(const std::string& name) const {
+    const hdf5_use use;
+    const handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, *this);
+    const handle space(H5Dget_space(set.id), H5Sclose, *this);
+    const auto count = H5Sget_simple_extent_npoints(space.id);
+    require(count);
+    std::vector<T> values(static_cast<std::size_t>(count));
+    if (count > 0)
+      require(H5Dread(set.id, hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return values;
+  }
+
+  /// Where the values of a dataset lie, which is not empty, in the file.
+  struct place {
+    std::uint64_t offset;
+    std::uint64_t bytes;
+  };
+  place place_of(const std::string& name) const {
+    const hdf5_use use;
+    const handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, *this);
+    const haddr_t offset = H5Dget_offset(set.id);
+    if (offset == HADDR_UNDEF)
+      fail("find the values of " + name + " in");
+    return {offset, H5Dget_storage_size(set.id)};
   }
 
   /// To the disk.
@@ -277,8 +291,8 @@ private:
     if (status < 0)
       fail("write");
   }
-  [[noreturn]] void fail(const char* what) const {
-    throw io_error(std::string("cannot ") + what + " " + path_.string() + ": " + hdf5_failure());
+  [[noreturn]] void fail(const std::string& what) const {
+    throw io_error("cannot " + what + " " + path_.string() + ": " + hdf5_failure());
   }
 
   std::filesystem::path path_;

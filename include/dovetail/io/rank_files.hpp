@@ -1,8 +1,9 @@
 /// @file
-/// A mesh in the files of a parallel solver: a rank's share in files of its own, each written by itself, so
-/// that nothing is gathered.
+/// A mesh in the files of a parallel solver: each rank's share is written by itself, into files of its own or
+/// at its place in one that all have, so that nothing is gathered.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/concepts.hpp"
@@ -39,11 +40,12 @@ struct rank_writer {
     return write_piecewise<D>(mesh, *this, folder);
   }
 
-  /// A task per rank, and one for the files of all. They load the pieces themselves.
+  /// A task per rank, and one for files that all ranks have in common. They load the pieces themselves. Where
+  /// ranks write into the same files, there is before a task per rank that counts what its mesh has.
   template <int D>
-    requires rank_format<Format, D> && redistributor<Redistributor, D> piecewise_output<D>
-    begin(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& unfinished)
-  const {
+    requires(rank_format<Format, D> || shared_rank_format<Format, D>)
+  &&redistributor<Redistributor, D> piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                                                              const std::filesystem::path& unfinished) const {
     if (mesh.mid_nodes && !has_second_order<Format>)
       throw usage_error("files of the format " + format.name() +
                         " are of first order: write second-order elements for ranks in the format pvtu or "
@@ -63,19 +65,39 @@ struct rank_writer {
       }
       return paths;
     };
-    for (local_id q = 0; q < source->numbers.ranks(); ++q) {
+    const local_id of_ranks = source->numbers.ranks();
+    for (local_id q = 0; q < of_ranks; ++q)
       output.most_loaded =
           std::max(output.most_loaded, static_cast<local_id>(source->numbers.pieces_of_rank[q].size()));
-      if (auto paths = add(format.files_of_rank(q)); !paths.empty())
-        output.others.push_back([source, q, format = format, paths = std::move(paths)] {
-          format.write(*source, source->mesh_of(q), paths);
+    if constexpr (shared_rank_format<Format, D>) {
+      const auto paths = add(format.files_of_all());
+      output.prepare = [source, format = format, paths](const std::vector<byte_buffer>& counted) {
+        std::vector<rank_counts> counts;
+        for (const byte_buffer& of_rank : counted)
+          counts.push_back(byte_reader(of_rank).value<rank_counts>());
+        format.lay_out(*source, counts, paths);
+      };
+      for (local_id q = 0; q < of_ranks; ++q) {
+        output.counts.push_back([source, q] {
+          byte_writer counts;
+          counts.value(source->counts_of(q));
+          return counts.take();
         });
+        output.others.push_back(
+            [source, q, format = format, paths] { format.write(*source, source->mesh_of(q), paths); });
+      }
+    } else {
+      for (local_id q = 0; q < of_ranks; ++q)
+        if (auto paths = add(format.files_of_rank(q)); !paths.empty())
+          output.others.push_back([source, q, format = format, paths = std::move(paths)] {
+            format.write(*source, source->mesh_of(q), paths);
+          });
+      if (format.files_of_rank(0).empty()) // one task has all ranks, one after the other
+        output.most_loaded = static_cast<local_id>(divided.counts.size());
+      if (auto paths = add(format.files_of_all()); !paths.empty())
+        output.others.push_back(
+            [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); });
     }
-    if (format.files_of_rank(0).empty()) // one task has all ranks, one after the other
-      output.most_loaded = static_cast<local_id>(divided.counts.size());
-    if (auto paths = add(format.files_of_all()); !paths.empty())
-      output.others.push_back(
-          [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); });
     output.finish = [source, files, format = format,
                      summary = std::move(given.summary)](const std::filesystem::path& folder) {
       return move_all(*source, files, format, summary, folder);
@@ -95,8 +117,21 @@ private:
     std::string name; ///< in the folder, perhaps below it
   };
 
-  /// Also removes what an earlier mesh of more ranks has left, and folders that are empty then: the number of
-  /// OpenFOAM's says how many processors there are.
+  /// Removes what an earlier mesh of more ranks has left, from rank q on, and folders that are empty then:
+  /// the number of OpenFOAM's says how many processors there are.
+  static void remove_ranks_from(local_id q, const Format& format, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (bool left = true; left; ++q) {
+      left = false;
+      for (const auto& name : format.files_of_rank(q)) {
+        left = std::filesystem::remove(folder / name, ignored) || left;
+        for (auto at = (folder / name).parent_path();
+             at != folder && std::filesystem::remove(at, ignored);) // not when something is in it
+          at = at.parent_path();
+      }
+    }
+  }
+
   template <int D>
   static report move_all(const rank_source<D>& source, const std::vector<file>& files, const Format& format,
                          const report& redistributed, const std::filesystem::path& folder) {
@@ -107,17 +142,8 @@ private:
       bytes += move_file(from, folder / name);
       summary.files.push_back(name);
     }
-    std::error_code ignored;
-    bool left = true;
-    for (local_id q = source.numbers.ranks(); left; ++q) {
-      left = false;
-      for (const auto& name : format.files_of_rank(q)) {
-        left = std::filesystem::remove(folder / name, ignored) || left;
-        for (auto at = (folder / name).parent_path();
-             at != folder && std::filesystem::remove(at, ignored);) // not when something is in it
-          at = at.parent_path();
-      }
-    }
+    if constexpr (!shared_rank_format<Format, D>)
+      remove_ranks_from(source.numbers.ranks(), format, folder);
     sync_to_disk(folder);
     summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
     summary.set("bytes", static_cast<double>(bytes));
