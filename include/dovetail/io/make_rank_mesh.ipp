@@ -354,7 +354,8 @@ private:
       const auto of_element = nodes.of_element(e);
       if (std::none_of(of_element.begin(), of_element.begin() + D + 1, is_held))
         continue;
-      std::transform(of_element.begin(), of_element.end(), vertices.begin(), place);
+      for (std::size_t k = 0; k < vertices.size(); ++k)
+        vertices[k] = place(of_element[k]);
       add_element(piece, e, vertices);
     }
     require_room(static_cast<global_id>(std::max(result_.mesh.points.size(), result_.mesh.elements.size())));
