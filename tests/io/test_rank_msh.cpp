@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <gmsh.h>
 #include <map>
@@ -41,12 +42,17 @@ public:
     node_count = tags.size();
     for (std::size_t i = 0; i < tags.size(); ++i)
       nodes[tags[i]] = {at[3 * i], at[3 * i + 1], at[3 * i + 2]};
+    gmsh::model::mesh::getNodes(tags, at, parameters, 3, -1, false, false);
+    const std::set<std::size_t> in_volumes(tags.begin(), tags.end());
     for (int d = 0; d < 4; ++d) {
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> of_type, corners;
       gmsh::model::mesh::getElements(types, of_type, corners, d);
       for (std::size_t t = 0; t < types.size(); ++t) {
         count[d] += of_type[t].size();
+        if (d < 3)
+          misfiled += std::count_if(corners[t].begin(), corners[t].end(),
+                                    [&](std::size_t node) { return in_volumes.count(node) > 0; });
         for (std::size_t e = 0; e < of_type[t].size(); ++e)
           if (types[t] == 4 || types[t] == 11)
             for (std::size_t nodes_each = types[t] == 4 ? 4 : 10, k = 0; k < nodes_each; ++k)
@@ -84,6 +90,7 @@ public:
   std::map<std::size_t, vec3> nodes;
   std::map<std::size_t, std::vector<std::size_t>> tetrahedra; ///< nodes in VTK's order
   std::map<int, std::size_t> count;                           ///< of elements by dimension
+  std::ptrdiff_t misfiled = 0; ///< nodes of triangles, lines and points that are filed under a volume
   std::set<std::string> names;
   std::set<int> partitions;
   std::map<int, std::map<std::size_t, int>> ghosts; ///< of a partition: elements, and whose they are
@@ -103,6 +110,7 @@ void check_files(bool binary, bool quadratic) {
     const gmsh_model one({files.back()});
     CHECK(one.complaints == "");
     CHECK(one.node_count == one.nodes.size());
+    CHECK(one.misfiled == 0);
     for (const auto& [tag, corners] : one.tetrahedra)
       for (const std::size_t v : corners)
         CHECK(one.nodes.count(v) == 1); // each rank's file stands by itself
