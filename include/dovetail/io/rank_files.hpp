@@ -41,11 +41,12 @@ struct rank_writer {
   }
 
   /// A task per rank, and one for files that all ranks have in common. They load the pieces themselves. Where
-  /// ranks write into the same files, there is before a task per rank that counts what its mesh has.
+  /// ranks write into the same files, a task per rank counts before how much that will be.
   template <int D>
-    requires(rank_format<Format, D> || shared_rank_format<Format, D>)
-  &&redistributor<Redistributor, D> piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
-                                                              const std::filesystem::path& unfinished) const {
+    requires((rank_format<Format, D> || shared_rank_format<Format, D>)&&redistributor<Redistributor, D>)
+  piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                            const std::filesystem::path& unfinished)
+  const {
     if (mesh.mid_nodes && !has_second_order<Format>)
       throw usage_error("files of the format " + format.name() +
                         " are of first order: write second-order elements for ranks in the format pvtu or "
