@@ -151,6 +151,19 @@ TEST_CASE("the place and the cause of a violation are named") {
         doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
+TEST_CASE("only the wedges of the edges asked for are measured") {
+  const std::vector<vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}}; // a tent, as below
+  const std::vector<simplex<2>> triangles{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const std::vector<std::array<local_id, 2>> subdomains{{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
+  std::vector<triangle_origin> origins(4, triangle_origin::cad);
+  origins[0] = triangle_origin::kept;
+  const std::vector<std::uint32_t> of_one_edge{2, 5}; // (0, 1), opposite the last vertex of both
+  const auto angles = measure_interface_angles({points, triangles, subdomains, origins, of_one_edge});
+  CHECK(angles.interface_faces == 1);
+  REQUIRE(angles.violations.size() == 1);
+  CHECK(angles.violations[0].edge == std::array<local_id, 2>{0, 1});
+}
+
 TEST_CASE("the cause is the coarse side where it ought to have been removed, and remeshing where not") {
   fine_skeleton skeleton; // a flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface
   skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};

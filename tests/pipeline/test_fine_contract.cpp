@@ -56,6 +56,20 @@ void check_fine(const interface_angles& angles, std::size_t allowed = 0) {
   }
 }
 
+/// Most edges lie where no wedge can be small, and are not measured: they hide nothing.
+void check_nothing_missed(const realized_model& model) {
+  const fine_skeleton& fine = model.made.fine;
+  std::vector<triangle_origin> origins;
+  for (const local_id host : fine.side_hosts)
+    origins.push_back(host == no_id ? triangle_origin::kept : triangle_origin::cad);
+  const auto all = measure_interface_angles({fine.points, fine.sides, fine.subdomains, origins});
+  const auto edges = detail::half_edges_that_matter(model.made);
+  CHECK(edges.size() < 3 * fine.sides.size() / 2);
+  CHECK(all.interface_wedge.angle_deg == model.angles.interface_wedge.angle_deg);
+  CHECK(all.surface_wedge.angle_deg == model.angles.surface_wedge.angle_deg);
+  CHECK(all.violations.size() == model.angles.violations.size());
+}
+
 } // namespace
 
 TEST_CASE("fine interfaces of real parts have no unforced angles under 30 degrees, but one on a thin part") {
@@ -87,6 +101,7 @@ TEST_CASE("fine interfaces of the built-in models have no unforced angles under 
     const any_geometry model(built.model);
     const realized_model result(model, [&plain, by = factor](vec3 p) { return by * plain(p); });
     check_fine(result.angles);
+    check_nothing_missed(result);
     detours += result.made.summary.get("detours") > 0 ? 1 : 0;
   }
   CHECK(detours > 0);
@@ -96,6 +111,7 @@ TEST_CASE("a small part in many subdomains") {
   const any_geometry model(builtin_model("combustor").model);
   const realized_model result(model, uniform_size(4.5), 24);
   check_fine(result.angles);
+  check_nothing_missed(result);
 }
 
 TEST_CASE(

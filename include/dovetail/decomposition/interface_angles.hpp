@@ -42,6 +42,9 @@ struct interface_angles_input {
   std::span<const simplex<2>> triangles;
   std::span<const std::array<local_id, 2>> subdomains; ///< oriented outwards of [0]; [1] may be no_id
   std::span<const triangle_origin> origins;
+  /// Of the edges whose wedges are measured: 3 t + k for side k of triangle t, all of an edge or none. All
+  /// edges when it is empty.
+  std::span<const std::uint32_t> half_edges = {};
 };
 
 /// An angle under the threshold.

@@ -38,13 +38,22 @@ public:
 
   interface_angles run() {
     measure_faces();
+    const bool all = in_.half_edges.empty();
+    const auto half_edge = [&](std::size_t i) {
+      return all ? static_cast<std::uint32_t>(i) : in_.half_edges[i];
+    };
+    std::vector<std::uint32_t> around;
     for_each_group<2>(
-        in_.triangles.size() * 3, in_.points.size(),
-        [&](std::size_t h) {
+        all ? in_.triangles.size() * 3 : in_.half_edges.size(), in_.points.size(),
+        [&](std::size_t i) {
+          const std::uint32_t h = half_edge(i);
           return sorted_vertices(pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]));
         },
-        [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
-          measure_wedges(edge, half_edges);
+        [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> members) {
+          around.clear();
+          for (const std::uint32_t i : members)
+            around.push_back(half_edge(i));
+          measure_wedges(edge, around);
         });
     sort_by_angle(found_.violations);
     return std::move(found_);
@@ -78,8 +87,7 @@ private:
         continue;
       ++found_.interface_faces;
       const auto p = corners(in_.points, in_.triangles[t]);
-      const auto angles = wedge_angles(p);
-      const double smallest = *std::min_element(angles.begin(), angles.end());
+      const double smallest = smallest_corner_angle(p);
       if (smallest < found_.face_angle.angle_deg)
         found_.face_angle = {smallest, {id, no_id}, {no_id, no_id}};
       const vec3 centroid = (p[0] + p[1] + p[2]) / 3.0;

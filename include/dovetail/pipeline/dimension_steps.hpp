@@ -86,6 +86,24 @@ inline interface_angles coarse_interface_angles(const simplicial_background<2>& 
                                options.surface_angle_deg);
 }
 
+/// Of the edges at which a wedge may be small: not those inside of a plane interface face, nor those inside
+/// of a CAD face.
+inline std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skeleton) {
+  const auto& first = skeleton.patches.first_triangle;
+  const std::size_t regions = skeleton.coarse.regions.size();
+  std::vector<std::uint32_t> matter;
+  for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+    const bool all = p >= regions && is_curved(skeleton.coarse.faces[p - regions], skeleton.coarse.lines);
+    for (local_id t = first[p]; t < first[p + 1]; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto ends = pick(skeleton.fine.sides[static_cast<std::size_t>(t)], numbering::sides<2>[k]);
+        if (all || std::max(ends[0], ends[1]) < skeleton.patches.line_points)
+          matter.push_back(static_cast<std::uint32_t>(3 * static_cast<std::size_t>(t) + k));
+      }
+  }
+  return matter;
+}
+
 inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
                                               const side_table<3>& sides,
                                               std::span<const side_state> side_states, const any_sizing& size,
@@ -99,9 +117,10 @@ inline interface_angles fine_interface_angles(const realized<3>& skeleton, const
               side_states[side] == side_state::refused ? triangle_origin::refused : triangle_origin::kept);
   }
   const fine_skeleton& fine = skeleton.fine;
-  auto angles = measure_interface_angles(
-      {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)},
-      options.interface_angle_deg);
+  const std::vector<std::uint32_t> half_edges = half_edges_that_matter(skeleton);
+  auto angles = measure_interface_angles({span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains),
+                                          span_of(origins), span_of(half_edges)},
+                                         options.interface_angle_deg);
   find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
               size, options.interface_angle_deg);
   return angles;

@@ -30,6 +30,7 @@ struct patch_failure {
 /// The patches of a fine skeleton; the regions come first and the interface faces behind them.
 struct remeshed_patches {
   std::vector<local_id> first_triangle; ///< of each patch, in the skeleton; and the end
+  local_id line_points = 0;             ///< of the skeleton: the first ones
   std::vector<content_key> keys;
   std::vector<patch_failure> failures; ///< the skeleton is incomplete when there are any
 };

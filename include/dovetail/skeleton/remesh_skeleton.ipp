@@ -105,6 +105,7 @@ private:
     reserve(fine);
     append(fine.points, lines_.points); // boundaries are still made of them
     append(fine.point_hosts, lines_.hosts);
+    result.patches.line_points = static_cast<local_id>(lines_.points.size());
     report deviation;
     meshed_.for_each(store_, [&](std::size_t p, const patch_mesh& mesh) {
       if (is_region(p))

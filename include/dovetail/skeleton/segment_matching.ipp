@@ -2,9 +2,11 @@
 /// What `segment_matching.hpp` declares.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/parallel/run_task.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
@@ -148,17 +150,34 @@ private:
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed
 };
 
+/// Growing. In tasks: a large skeleton has millions of triangles.
 inline std::vector<local_id> faces_with_small_angles(const coarse_skeleton& skeleton,
-                                                     const remeshed_skeleton& made, double threshold_deg) {
+                                                     const remeshed_skeleton& made, double threshold_deg,
+                                                     const any_executor& run, const progress& on_progress) {
+  constexpr std::size_t faces_per_task = 2000; // some ten milliseconds
+  const auto is_small = [&](const simplex<2>& t) {
+    return smallest_corner_angle(corners(span_of(made.fine.points), t)) < threshold_deg;
+  };
+  const std::size_t count = skeleton.faces.size();
+  const auto outcomes = run.run(
+      (count + faces_per_task - 1) / faces_per_task,
+      [&](std::size_t task) {
+        std::vector<local_id> small;
+        for (std::size_t f = task * faces_per_task; f < std::min(count, (task + 1) * faces_per_task); ++f) {
+          const auto first =
+              made.patches.first_triangle.begin() + static_cast<std::ptrdiff_t>(skeleton.regions.size() + f);
+          if (std::any_of(made.fine.sides.begin() + first[0], made.fine.sides.begin() + first[1], is_small))
+            small.push_back(static_cast<local_id>(f));
+        }
+        byte_writer out;
+        out.array(small);
+        return out.take();
+      },
+      run_options{.on_progress = on_progress, .stage = "matching"});
   std::vector<local_id> faces;
-  for (std::size_t f = 0; f < skeleton.faces.size(); ++f) {
-    const auto first =
-        made.patches.first_triangle.begin() + static_cast<std::ptrdiff_t>(skeleton.regions.size() + f);
-    if (std::any_of(made.fine.sides.begin() + first[0], made.fine.sides.begin() + first[1],
-                    [&](const simplex<2>& t) {
-                      return smallest_corner_angle(corners(span_of(made.fine.points), t)) < threshold_deg;
-                    }))
-      faces.push_back(static_cast<local_id>(f));
+  for (const task_outcome& outcome : outcomes) {
+    require_done(outcome, "the search for small angles");
+    append(faces, byte_reader(outcome.result).array<local_id>());
   }
   return faces;
 }
@@ -173,7 +192,7 @@ DOVETAIL_INLINE std::size_t match_segments(const any_geometry& model, std::span<
                                            const progress& on_progress) {
   if (!remeshed.patches.failures.empty())
     return 0;
-  auto faces = detail::faces_with_small_angles(skeleton, remeshed, threshold_deg);
+  auto faces = detail::faces_with_small_angles(skeleton, remeshed, threshold_deg, run, on_progress);
   if (faces.empty())
     return 0;
   detail::segment_matcher(
