@@ -70,7 +70,7 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
   }
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
   add_by_ranks(D == 3 ? 65.0 : 55.0, io::xdmf_format{});
-  add_by_ranks(D == 3 ? 90.0 : 80.0, io::vtkhdf_format{});
+  add_by_ranks(options.order == 2 ? 170.0 : D == 3 ? 90.0 : 80.0, io::vtkhdf_format{});
 #endif
   return known;
 }

@@ -82,6 +82,12 @@ def check_ranks(ranks):
           f"{measures.sum():.9f}, {copies} copies, {ghosts} ghosts")
 
 
+def check_types(grid, nodes):
+    """VTK's of simplices, by the number of nodes."""
+    if {grid.GetCellType(i) for i in range(len(nodes))} != {{3: 5, 4: 10, 6: 22, 10: 24}[nodes.shape[1]]}:
+        fail("types of cells")
+
+
 def check_pvtu(folder, count):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
@@ -90,8 +96,7 @@ def check_pvtu(folder, count):
         points, cells = grid.GetPointData(), grid.GetCellData()
         offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
         nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(len(offsets) - 1, -1)
-        if {grid.GetCellType(i) for i in range(len(nodes))} != {{3: 5, 4: 10, 6: 22, 10: 24}[nodes.shape[1]]}:
-            fail("types of cells")
+        check_types(grid, nodes)
         return {"points": vtk_to_numpy(grid.GetPoints().GetData()),
                 "ids": vtk_to_numpy(points.GetGlobalIds()),
                 "foreign": vtk_to_numpy(points.GetArray("vtkGhostType")) == 1,
@@ -179,6 +184,7 @@ def check_vtkhdf(folder, count):
              "ghost": vtk_to_numpy(cells.GetArray("vtkGhostType")) == 1}
     if vtk_to_numpy(points.GetArray("owner")).max() != count - 1:
         fail("owners")
+    check_types(grid, whole["cells"])
     check_ranks([whole])  # VTK reads all partitions into one
 
 

@@ -1,4 +1,5 @@
 // HDF5 files of parallel solvers, filled by all ranks at once: h5py and VTK read them (check_rank_files.py).
+#include "io/bent_edges.hpp"
 #include "io/file_size_limit.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
@@ -82,6 +83,21 @@ TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
   CHECK(log.starts_with(one_mesh));
   CHECK(log.find(" 0 ghosts") == std::string::npos);
   CHECK(check("vtkhdf", folder, 4).first != 0); // there is no rank 3
+}
+
+TEST_CASE("VTKHDF of second order: VTK reads nodes in the middle of edges, with and without ghosts") {
+  if (!has_python_module("vtkmodules.vtkIOHDF"))
+    return;
+  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  for (const bool ghosts : {false, true}) {
+    const testing::scratch_folder folder("ranks_vtkhdf_quadratic");
+    io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
+    const auto [status, log] = check("vtkhdf", folder, 4);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((log.find(" 0 ghosts") == std::string::npos) == ghosts);
+  }
 }
 
 TEST_CASE("VTKHDF: VTK reads triangles") {

@@ -7,6 +7,8 @@
 #include "dovetail/io/face_groups.hpp"
 #include "dovetail/io/hdf5_file.hpp"
 #include "dovetail/io/hdf5_slices.hpp"
+#include "dovetail/io/vtk_xml_output.hpp"
+#include "dovetail/mesh/mid_nodes.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -110,32 +112,36 @@ private:
 static_assert(shared_rank_format<xdmf_format, 2> && shared_rank_format<xdmf_format, 3>);
 
 /// `<stem>.vtkhdf`: VTK's HDF format, version [1, 0], a partition per rank with the arrays of `pvtu_format`.
+/// Elements of second order are those of VTK.
 struct vtkhdf_format {
+  static constexpr bool second_order = true;
   std::string stem = "ranks";
 
   std::string name() const { return "vtkhdf"; }
   std::vector<std::string> files_of_all() const { return {stem + ".vtkhdf"}; }
   template <int D>
-  void lay_out(const rank_source<D>&, const std::vector<rank_counts>& counts,
+  void lay_out(const rank_source<D>& source, const std::vector<rank_counts>& counts,
                const std::vector<std::filesystem::path>& paths) const {
-    std::vector<std::int64_t> points, cells, corners;
+    const std::uint64_t nodes = nodes_per_element(source.mesh);
+    std::vector<std::int64_t> points, cells, connected;
     std::uint64_t all_points = 0, all_cells = 0;
     for (const rank_counts& rank : counts) {
       points.push_back(static_cast<std::int64_t>(rank.vertices));
       cells.push_back(static_cast<std::int64_t>(rank.elements));
-      corners.push_back((D + 1) * cells.back());
+      connected.push_back(static_cast<std::int64_t>(nodes * rank.elements));
       all_points += rank.vertices;
       all_cells += rank.elements;
     }
     detail::hdf5_file file(paths.front());
     file.add("VTKHDF/NumberOfPoints", points);
     file.add("VTKHDF/NumberOfCells", cells);
-    file.add("VTKHDF/NumberOfConnectivityIds", corners);
+    file.add("VTKHDF/NumberOfConnectivityIds", connected);
     file.attribute("VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
     file.attribute("VTKHDF", "Type", std::string("UnstructuredGrid"));
     file.create_in_place<double>("VTKHDF/Points", all_points, 3);
-    file.create_constant<std::uint8_t>("VTKHDF/Types", all_cells, D == 3 ? 10 : 5);
-    file.create_in_place<std::int64_t>("VTKHDF/Connectivity", (D + 1) * all_cells);
+    file.create_constant<std::uint8_t>("VTKHDF/Types", all_cells,
+                                       vtk_cell_type(D, source.mesh.mid_nodes != nullptr));
+    file.create_in_place<std::int64_t>("VTKHDF/Connectivity", nodes * all_cells);
     file.create_in_place<std::int64_t>("VTKHDF/Offsets", all_cells + counts.size());
     for (const char* name : {"GlobalNodeIds", "mesh_node"})
       file.create_in_place<global_id>(of_points(name), all_points);
@@ -165,9 +171,8 @@ struct vtkhdf_format {
       return ghost;
     };
     std::vector<std::int64_t> connectivity, offsets{0};
-    for (const auto& element : rank.mesh.elements) {
-      for (const local_id v : element)
-        connectivity.push_back(v);
+    for (std::size_t e = 0; e < rank.mesh.elements.size(); ++e) {
+      for_each_node(rank, e, [&](local_id v) { connectivity.push_back(v); });
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     }
     file.write("VTKHDF/Points", point, rank.mesh.points.size(),
@@ -176,7 +181,7 @@ struct vtkhdf_format {
     file.write(of_points("mesh_node"), point, rank.vertex_numbers);
     file.write(of_points("owner"), point, rank.vertex_owners);
     file.write(of_points("vtkGhostType"), point, is_of_another(rank.vertex_owners));
-    file.write("VTKHDF/Connectivity", (D + 1) * cell, connectivity);
+    file.write("VTKHDF/Connectivity", nodes_per_element(rank) * cell, connectivity);
     file.write("VTKHDF/Offsets", cell + static_cast<std::uint64_t>(rank.rank), offsets);
     file.write(of_cells("GlobalCellIds"), cell, rank.element_ids);
     file.write(of_cells("mesh_element"), cell, rank.element_numbers);

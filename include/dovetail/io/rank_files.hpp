@@ -49,8 +49,8 @@ struct rank_writer {
   const {
     if (mesh.mid_nodes && !has_second_order<Format>)
       throw usage_error("files of the format " + format.name() +
-                        " are of first order: write second-order elements for ranks in the format pvtu or "
-                        "msh-ranks, or these of the mesh without middles of edges");
+                        " are of first order: write second-order elements for ranks in the format pvtu, "
+                        "vtkhdf or msh-ranks, or these of the mesh without middles of edges");
     redistribution<D> given = redistribute(mesh, ranks);
     const auto& divided = given.divided(mesh);
     const auto held = std::make_shared<const held_source<D>>(held_source<D>{
