@@ -370,6 +370,7 @@ std::optional<std::string> unknown_command(const CLI::App& app, int argc, char**
 } // namespace
 
 int run_command_line(int argc, char** argv) {
+  prepare_formats();
   const mpirun_rank process = rank_of_mpirun();
   const bool shared = process.size > 1 && argc > 1 && std::string_view(argv[1]) == "mesh";
   const bool speaks = !shared || process.rank == 0; // or all would say the same

@@ -53,24 +53,24 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
   if constexpr (D == 3)
     known.push_back({"msh-partitioned", msh_bytes, io::partitioned_msh_writer{}});
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
-  io::let_hdf5_close_nothing_at_exit();
   known.push_back({"hdf5", hdf5_bytes, io::hdf5_writer{.files = options.files}});
 #endif
-  const auto add_by_ranks = [&](double bytes_per_element, auto format) {
-    const io::rank_writer<decltype(format), any_redistributor<D>> writer{options.ranks.value_or(1), format,
-                                                                         redistribute, options.ghosts};
-    known.push_back({format.name(), bytes_per_element, writer, true, has_second_order<decltype(format)>});
+  const auto add_by_ranks = [&](double bytes_per_element, auto format, bool has_ghosts = false) {
+    const io::rank_writer<decltype(format), any_redistributor<D>> writer{
+        options.ranks.value_or(1), format, redistribute, options.ghosts && has_ghosts};
+    known.push_back({format.name(), bytes_per_element, writer, true, has_second_order<decltype(format)>,
+                     has_ghosts, options.redistribute == by_elements ? 2 : 1});
   };
   const double pvtu_bytes = options.order == 2 ? 150 : D == 3 ? 65 : 60;
-  add_by_ranks(pvtu_bytes, io::pvtu_format{});
+  add_by_ranks(pvtu_bytes, io::pvtu_format{}, true);
   if constexpr (D == 3) {
-    add_by_ranks(options.order == 2 ? 150 : 50, io::rank_msh_format{});
+    add_by_ranks(options.order == 2 ? 150 : 50, io::rank_msh_format{}, true);
     add_by_ranks(85.0, io::openfoam_format{});
     add_by_ranks(55.0, io::mfem_format{});
   }
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
   add_by_ranks(D == 3 ? 65.0 : 55.0, io::xdmf_format{});
-  add_by_ranks(options.order == 2 ? 170.0 : D == 3 ? 90.0 : 80.0, io::vtkhdf_format{});
+  add_by_ranks(options.order == 2 ? 170.0 : D == 3 ? 90.0 : 80.0, io::vtkhdf_format{}, true);
 #endif
   return known;
 }
@@ -86,20 +86,26 @@ std::vector<std::string> names_of_formats(bool by_ranks) {
   return names;
 }
 
+/// The names of the formats by ranks that have something.
+template <int D, class Has>
+std::string formats_by_ranks(const Has& has) {
+  std::vector<std::string> names;
+  for (const auto& format : known_formats<D>({}, redistribution_by::blocks{}))
+    if (format.by_ranks && has(format))
+      names.push_back(format.name);
+  return joined(names);
+}
+
 /// Files that say nothing of ranks have elements of either order.
 template <int D>
 void check_order(const mesh_options& options, const std::vector<output_format<D>>& formats) {
   if (options.order == 1)
     return;
   for (const auto& format : formats)
-    if (!format.second_order) {
-      std::vector<std::string> others;
-      for (const auto& other : known_formats<D>({}, redistribution_by::blocks{}))
-        if (other.by_ranks && other.second_order)
-          others.push_back(other.name);
+    if (!format.second_order)
       throw command_line_error("--order 2: the files of " + format.name +
-                               " are of first order; with --ranks there are " + joined(others));
-    }
+                               " are of first order; with --ranks there are " +
+                               formats_by_ranks<D>([](const auto& other) { return other.second_order; }));
 }
 
 template <int D>
@@ -124,9 +130,18 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   if (!by_ranks && !only_figures)
     throw command_line_error("--ranks goes with one of the formats " + joined(names_of_formats<D>(true)) +
                              ", or with none and --redistribute " + by_elements);
+  if (options.ghosts && std::none_of(formats.begin(), formats.end(), [](const auto& f) { return f.ghosts; }))
+    throw command_line_error("--ghosts: none of the formats has elements of other ranks; these have: " +
+                             formats_by_ranks<D>([](const auto& other) { return other.ghosts; }));
 }
 
 } // namespace
+
+void prepare_formats() {
+#ifdef DOVETAIL_DRIVER_WITH_HDF5
+  io::let_hdf5_close_nothing_at_exit();
+#endif
+}
 
 std::vector<std::string> format_names(int dimension, bool by_ranks) {
   return dimension == 3 ? names_of_formats<3>(by_ranks) : names_of_formats<2>(by_ranks);
@@ -170,9 +185,14 @@ std::vector<output_format<D>> make_formats(const mesh_options& options,
 template <int D>
 double bytes_per_element(const std::vector<output_format<D>>& formats) {
   double bytes = 0;
-  for (const auto& format : formats)
+  int meshes_in_spool = 0;
+  for (const auto& format : formats) {
     bytes += format.bytes_per_element;
-  return std::max(bytes, spool_bytes_per_element); // the spool shrinks while the last format grows
+    meshes_in_spool = std::max(meshes_in_spool, format.meshes_in_spool);
+  }
+  if (meshes_in_spool == 0) // it shrinks while the last format grows
+    return std::max(bytes, spool_bytes_per_element);
+  return bytes + meshes_in_spool * spool_bytes_per_element;
 }
 
 template <int D>

@@ -22,7 +22,12 @@ struct output_format {
   io::any_piecewise_writer<D> writer;
   bool by_ranks = false;    ///< has files of its own for each rank of a solver
   bool second_order = true; ///< whether it has elements of second order
+  bool ghosts = false;      ///< whether it has elements of other ranks
+  int meshes_in_spool = 0;  ///< while it is written; 0: these go as the files grow
 };
+
+/// To be called once, before any file is written.
+void prepare_formats();
 
 /// What `--format` may name, of that dimension; the first is the default. Either for files that say nothing
 /// of ranks, or for files by ranks.

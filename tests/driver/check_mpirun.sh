@@ -68,6 +68,9 @@ on_ranks 3 several "${mesh[@]}" --decomposition bisection
 [[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files by bisection than with one rank"
 # And the files for the ranks of a solver, of second order.
 for_solver=("${mesh[@]}" --ranks 3 --ghosts --order 2 --format pvtu,msh-ranks)
+if "$driver" mesh --help | grep -q "vtkhdf"; then
+  for_solver[-1]+=,vtkhdf
+fi
 fresh whole
 on_ranks 1 whole "${for_solver[@]}" --workers 2
 ((status == 0)) || fault "exit code is $status"

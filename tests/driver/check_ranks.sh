@@ -114,6 +114,8 @@ expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner" mesh 
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
 expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
+expect_usage_error "--ghosts: none of the formats has elements of other ranks; these have: pvtu, msh-ranks" \
+  mesh nothing.off --ranks 2 --ghosts --format openfoam,mfem
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
 expect_usage_error "--ranks: 5 are more than the 4 subdomains" mesh nothing.off --ranks 5 --subdomains 4
 expect_usage_error "--ranks goes with one of the formats pvtu" mesh nothing.off --ranks 2 --format vtu

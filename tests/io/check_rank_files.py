@@ -148,10 +148,11 @@ def check_xdmf(folder, count):
             of_cells = {tuple(sorted(c)) for cell in of_rank for c in itertools.combinations(cell, sides.shape[1])}
             if not {tuple(sorted(side)) for side in sides[first_side[q]:first_side[q + 1]]} <= of_cells:
                 fail(f"rank {q} has sides of no element of it")
-        names = file["names/patches"].asstr()[:]
-        print("sides by patch:", {names[p]: int(n) for p, n in
-                                  zip(*np.unique(file["sides/patch"][:], return_counts=True))},
-              "regions:", file["names/regions"].asstr()[:].tolist())
+        if "sides/patch" in file:  # not of triangles
+            names = file["names/patches"].asstr()[:]
+            print("sides by patch:", {names[p]: int(n) for p, n in
+                                      zip(*np.unique(file["sides/patch"][:], return_counts=True))})
+        print("regions:", file["names/regions"].asstr()[:].tolist())
         if len(np.unique(file["vertices/mesh_node"][:])) != len(points):
             fail("numbers of vertices")
     ranks = []
@@ -186,6 +187,43 @@ def check_vtkhdf(folder, count):
         fail("owners")
     check_types(grid, whole["cells"])
     check_ranks([whole])  # VTK reads all partitions into one
+
+
+def check_agreement(folder, count):
+    """PVTU, XDMF and VTKHDF of one mesh say the same of each element and vertex, and that of the subdomains' own VTU."""
+    import h5py
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+    def grid(reader, name):
+        reader.SetFileName(f"{folder}/{name}")
+        reader.Update()
+        found = reader.GetOutput()
+        points, cells = found.GetPointData(), found.GetCellData()
+        return (lambda name: vtk_to_numpy(points.GetArray(name))), (lambda name: vtk_to_numpy(cells.GetArray(name)))
+
+    with h5py.File(f"{folder}/ranks.h5") as file:
+        nodes = file["vertices/mesh_node"][:]
+        elements = {name: file[f"cells/{name}"][:] for name in ("mesh_element", "subdomain", "region")}
+        first_vertex = file["ranks/first_vertex"][:]
+        sides = np.unique(file["sides/cad"][:], return_counts=True)
+    for reader, name in ((vtkXMLPUnstructuredGridReader(), "ranks.pvtu"), (vtkHDFReader(), "ranks.vtkhdf")):
+        of_points, of_cells = grid(reader, name)
+        ids = of_points("GlobalNodeIds")
+        owners = np.searchsorted(first_vertex, ids, side="right") - 1
+        if not np.array_equal(of_points("mesh_node"), nodes[ids]):
+            fail(f"mesh_node of {name} and ranks.h5")
+        if not np.array_equal(of_points("owner"), owners) or owners.max() != count - 1:
+            fail(f"owners of {name} and ranks.h5")
+        for array, values in elements.items():
+            if not np.array_equal(of_cells(array), values[of_cells("GlobalCellIds")]):
+                fail(f"{array} of {name} and ranks.h5")
+    _, of_cells = grid(vtkXMLPUnstructuredGridReader(), "mesh.pvtu")
+    for array in ("subdomain", "region"):
+        if not np.array_equal(of_cells(array)[elements["mesh_element"]], elements[array]):
+            fail(f"{array} of mesh.pvtu and ranks.h5")
+    print("sides by cad:", dict(zip(map(int, sides[0]), map(int, sides[1]))))
 
 
 def read_mfem(path):

@@ -8,7 +8,9 @@
 #include "dovetail/geometry/plane_svg_path.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/hdf5_format.hpp"
+#include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
+#include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/ranks.hpp"
@@ -21,6 +23,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -70,6 +73,50 @@ TEST_CASE("plain arrays with an XDMF file: h5py reads one mesh") {
   spoilt.replace(spoilt.find("343 3"), 5, "342 3");
   testing::write_content(folder / "ranks.xdmf", spoilt);
   CHECK(check("xdmf", folder, 4).first != 0);
+}
+
+TEST_CASE("plain arrays of triangles: h5py reads one mesh") {
+  if (!has_python_module("h5py"))
+    return;
+  const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z"));
+  const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
+  const testing::scratch_folder folder("ranks_xdmf_triangles");
+  io::rank_writer<io::xdmf_format>{.ranks = 3}(result.mesh, folder);
+  const auto [status, log] = check("xdmf", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.find("measure 6.000000000") != std::string::npos);
+}
+
+TEST_CASE("what the arrays say of each vertex, element and side is the same in all formats") {
+  if (!has_python_module("h5py, vtkmodules.vtkIOHDF, vtkmodules.vtkIOXML"))
+    return;
+  const auto mesh = cubes.distributed();
+  const testing::scratch_folder folder("ranks_agree");
+  io::vtu_writer{}(mesh, folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(mesh, folder);
+  io::rank_writer<io::xdmf_format>{.ranks = 3}(mesh, folder);
+  io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(mesh, folder);
+  const auto [status, log] = check("agreement", folder, 3);
+  INFO(log);
+  CHECK(status == 0);
+  std::map<local_id, int> sides;
+  for (const local_id host : mesh.skeleton.side_hosts)
+    if (host != no_id)
+      ++sides[host];
+  std::string counted;
+  for (const auto& [host, count] : sides)
+    counted += (counted.empty() ? "" : ", ") + std::to_string(host) + ": " + std::to_string(count);
+  CHECK(log.find("sides by cad: {" + counted + "}") != std::string::npos);
+  for (const char* array : {"cells/region", "cells/subdomain", "cells/mesh_element", "vertices/mesh_node"}) {
+    CAPTURE(array);
+    const testing::scratch_folder spoilt("ranks_spoilt");
+    std::filesystem::copy(folder, spoilt, std::filesystem::copy_options::recursive);
+    const std::string reverse = "import h5py; f = h5py.File('" + (spoilt / "ranks.h5").string() +
+                                "', 'r+'); f['" + array + "'][:] = f['" + array + "'][:][::-1]";
+    REQUIRE(std::system(("/usr/bin/python3 -c \"" + reverse + "\"").c_str()) == 0);
+    CHECK(check("agreement", spoilt, 3).first != 0);
+  }
 }
 
 TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {

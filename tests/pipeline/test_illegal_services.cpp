@@ -271,9 +271,9 @@ TEST_CASE("a writer that breaks its promises is refused, and leaves nothing") {
     CHECK(contains(failed([](auto& out) { out.open = [](std::size_t) { return io::piece_file<2>{}; }; }),
                    "subdomain 0 could not be written: "));
     CHECK(contains(failed([](auto& out) { out.others = {[] { fail(); }}; }),
-                   "the skeleton could not be written: no such luck"));
+                   "a file of more than one subdomain could not be written: no such luck"));
     CHECK(contains(failed([](auto& out) { out.counts = {[]() -> byte_buffer { fail(); }}; }),
-                   "the skeleton could not be written: no such luck"));
+                   "a file of more than one subdomain could not be written: no such luck"));
     CHECK(failed([](auto& out) {
             out.counts = {[] { return byte_buffer(); }};
             out.prepare = [](const auto&) { fail(); };

@@ -96,7 +96,7 @@ concept rank_format = std::copy_constructible<F> &&
   f.write_all(source, paths);
 };
 
-/// Whether a `rank_format` writes second-order elements.
+/// Whether a `rank_format` or `shared_rank_format` writes second-order elements.
 template <class F>
 inline constexpr bool has_second_order = requires {
   requires F::second_order;
@@ -118,7 +118,7 @@ inline constexpr bool has_second_order = requires {
 /// Semantics: `lay_out` is called once, and is done before the first `write`. The calls of `write` may be
 /// made in several processes at once, on several machines, in any order: no two write the same bytes. What is
 /// in the files in the end depends on the arguments alone, and not on their names, as the names given are
-/// temporary.
+/// temporary. Meshes of second order are given to a format only if it says so (`has_second_order<F>`).
 ///
 /// Complexity: of `write` linear in the rank's mesh; of `lay_out` in the skeleton, the pieces and the ranks.
 ///

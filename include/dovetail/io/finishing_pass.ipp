@@ -310,7 +310,7 @@ private:
   /// Back in the parent.
   byte_buffer accept(std::size_t task, const task_outcome& outcome) const {
     if (!outcome.ok)
-      throw io_error((task < ranges() ? name_of(task) : std::string("the skeleton")) +
+      throw io_error((task < ranges() ? name_of(task) : std::string("a file of more than one subdomain")) +
                      " could not be written: " + outcome.failure);
     byte_reader bytes(outcome.result);
     switch (bytes.value<finishing_reply>()) {

@@ -19,8 +19,9 @@
 namespace dovetail::io::detail {
 
 /// A file that `hdf5_file` has made and closed. Writes rows of the datasets that were created in place, while
-/// others, perhaps on other machines, write other rows. Nothing is locked, since HDF5 has no part in it: the
-/// values go where the file says that they lie. Throws `io_error` naming the file.
+/// others, perhaps on other machines, write other rows. HDF5 only says where these lie: it holds the file
+/// open for reading, locked as all readers do, and the values are written past it. Throws `io_error` naming
+/// the file.
 class hdf5_slices {
 public:
   explicit hdf5_slices(const std::filesystem::path& path)

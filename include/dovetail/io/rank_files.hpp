@@ -49,8 +49,8 @@ struct rank_writer {
   const {
     if (mesh.mid_nodes && !has_second_order<Format>)
       throw usage_error("files of the format " + format.name() +
-                        " are of first order: write second-order elements for ranks in the format pvtu, "
-                        "vtkhdf or msh-ranks, or these of the mesh without middles of edges");
+                        " are of first order: write them of the mesh without middles of edges, or others, of "
+                        "the format pvtu for example");
     redistribution<D> given = redistribute(mesh, ranks);
     const auto& divided = given.divided(mesh);
     const auto held = std::make_shared<const held_source<D>>(held_source<D>{
@@ -61,7 +61,8 @@ struct rank_writer {
     const auto add = [&](const std::vector<std::string>& names) {
       std::vector<std::filesystem::path> paths;
       for (const auto& name : names) {
-        files.push_back({unfinished / (std::to_string(files.size()) + ".rank_file"), name});
+        const auto of_user = std::filesystem::path(name).filename().string(); // whom errors tell about it
+        files.push_back({unfinished / (of_user + "." + std::to_string(files.size()) + ".rank_file"), name});
         paths.push_back(files.back().unfinished);
       }
       return paths;
