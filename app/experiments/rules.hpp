@@ -14,7 +14,7 @@ namespace dovetail::app::experiments {
 inline std::vector<experiment_run> rule_runs() {
   std::vector<experiment_run> runs;
   for (const std::string mesher : {"tetgen", "hxt"})
-    for (const std::string improver : {"none", "native", "fine"})
+    for (const std::string improver : {"none", "native"})
       for (const std::string background : {"none", "native"})
         for (const std::string rule : {"none", "paper"})
           runs.push_back(
