@@ -164,6 +164,9 @@ run_result run_maker::make(const experiment_run& run) {
       run.table.empty()
           ? wanted_run{.elements = run.elements / options_.scale, .workers = workers_, .subdomains = 0}
           : run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
+  if (constexpr double fewest = 100; wanted.elements < fewest)
+    throw command_line_error("--scale: " + number_text(options_.scale) + " leaves " +
+                             number_text(wanted.elements) + " elements of a mesh; give a smaller one");
   const place_of_run place = place_of(run, wanted);
   run_result result{.run = &run, .measured = read_json(place.file("report.json"))};
   result.record = read_json(place.file("run.json"));
