@@ -95,7 +95,7 @@ grep -q "the same command goes on" "$sandbox/stderr" || fault "no word on going 
 expect_usage_error "there is no experiment 'table1'; there are: table2, .*all" experiment table1
 expect_usage_error "NAME is required" experiment
 expect_usage_error "--scale" experiment table2 --scale 0
-expect_usage_error "--scale: 1e+08 leaves 0.28 elements of a mesh" experiment table2 --scale 1e8 --out "$sandbox/too_small"
+expect_usage_error "--scale: 1e.08 leaves 0.28 elements of a mesh" experiment table2 --scale 1e8 --out "$sandbox/too_small"
 expect_error "nowhere.step" experiment table2 --input nowhere.step
 
 finish
