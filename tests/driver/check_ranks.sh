@@ -114,6 +114,17 @@ expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner" mesh 
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
 expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
+# A mesh stays in the spool while files by ranks are written, twice when it is cut anew: there is room for fewer elements.
+room() {
+  run_driver mesh "$inputs/cube.off" --size 0.0003 --out out "$@"
+  sed -nE 's/.*the disk has room for about ([0-9.]+) ?([kMGT]?);.*/\1 \2/p' "$sandbox/stderr" |
+    awk '{ print $1 * 1000 ^ index("kMGT", $2) }'
+}
+by_pieces=$(room --ranks 4 --format msh-ranks)
+by_elements=$(room --ranks 4 --format msh-ranks --redistribute by-elements)
+awk -v msh="$(room --format msh)" -v pieces="$by_pieces" -v elements="$by_elements" \
+  'BEGIN { exit !(elements > 0 && elements < 0.9 * pieces && pieces < 0.9 * msh) }' ||
+  fault "room for $by_pieces elements, and for $by_elements when they are cut anew"
 expect_usage_error "--ghosts: none of the formats has elements of other ranks; these have: pvtu, msh-ranks" \
   mesh nothing.off --ranks 2 --ghosts --format openfoam,mfem
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
