@@ -165,8 +165,8 @@ private:
   byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
     const bool climbs = rung < ladder_.size();
     return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
-                         faster_in(size_.near(place(input)), place_of(input)), piece.reasons,
-                         piece.timed_out);
+                         faster_in(size_.near(place(input)), box_around(input.boundary.boundary.points)),
+                         piece.reasons, piece.timed_out);
   }
 
   void run_round(std::size_t rung) {
