@@ -171,10 +171,7 @@ def check_vtkhdf(folder, count):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOHDF import vtkHDFReader
 
-    reader = vtkHDFReader()
-    reader.SetFileName(f"{folder}/ranks.vtkhdf")
-    reader.Update()
-    grid = reader.GetOutput()
+    grid = read_by_vtk(vtkHDFReader(), f"{folder}/ranks.vtkhdf")
     points, cells = grid.GetPointData(), grid.GetCellData()
     offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     whole = {"points": vtk_to_numpy(grid.GetPoints().GetData()),
@@ -196,12 +193,10 @@ def check_agreement(folder, count):
     from vtkmodules.vtkIOHDF import vtkHDFReader
     from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
-    def grid(reader, name):
-        reader.SetFileName(f"{folder}/{name}")
-        reader.Update()
-        found = reader.GetOutput()
-        points, cells = found.GetPointData(), found.GetCellData()
-        return (lambda name: vtk_to_numpy(points.GetArray(name))), (lambda name: vtk_to_numpy(cells.GetArray(name)))
+    def arrays(reader, name):
+        grid = read_by_vtk(reader, f"{folder}/{name}")
+        points, cells = grid.GetPointData(), grid.GetCellData()
+        return (lambda array: vtk_to_numpy(points.GetArray(array))), (lambda array: vtk_to_numpy(cells.GetArray(array)))
 
     with h5py.File(f"{folder}/ranks.h5") as file:
         nodes = file["vertices/mesh_node"][:]
@@ -209,7 +204,7 @@ def check_agreement(folder, count):
         first_vertex = file["ranks/first_vertex"][:]
         sides = np.unique(file["sides/cad"][:], return_counts=True)
     for reader, name in ((vtkXMLPUnstructuredGridReader(), "ranks.pvtu"), (vtkHDFReader(), "ranks.vtkhdf")):
-        of_points, of_cells = grid(reader, name)
+        of_points, of_cells = arrays(reader, name)
         ids = of_points("GlobalNodeIds")
         owners = np.searchsorted(first_vertex, ids, side="right") - 1
         if not np.array_equal(of_points("mesh_node"), nodes[ids]):
@@ -219,7 +214,7 @@ def check_agreement(folder, count):
         for array, values in elements.items():
             if not np.array_equal(of_cells(array), values[of_cells("GlobalCellIds")]):
                 fail(f"{array} of {name} and ranks.h5")
-    _, of_cells = grid(vtkXMLPUnstructuredGridReader(), "mesh.pvtu")
+    _, of_cells = arrays(vtkXMLPUnstructuredGridReader(), "mesh.pvtu")
     for array in ("subdomain", "region"):
         if not np.array_equal(of_cells(array)[elements["mesh_element"]], elements[array]):
             fail(f"{array} of mesh.pvtu and ranks.h5")
