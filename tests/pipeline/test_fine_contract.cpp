@@ -7,6 +7,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
+#include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
@@ -70,6 +71,13 @@ void check_nothing_missed(const realized_model& model) {
   CHECK(all.violations.size() == model.angles.violations.size());
 }
 
+/// Weights that several tasks have integrated are those of one.
+void check_weights(const realized_model& model) {
+  const auto& volume = model.background.mesh.volume;
+  REQUIRE(volume.elements.size() > 10'000); // those of a task
+  CHECK(model.divided.weights == predict_elements<3>(volume, model.background.size).per_element);
+}
+
 } // namespace
 
 TEST_CASE("fine interfaces of real parts have no unforced angles under 30 degrees, but one on a thin part") {
@@ -102,6 +110,7 @@ TEST_CASE("fine interfaces of the built-in models have no unforced angles under 
     const realized_model result(model, [&plain, by = factor](vec3 p) { return by * plain(p); });
     check_fine(result.angles);
     check_nothing_missed(result);
+    check_weights(result);
     detours += result.made.summary.get("detours") > 0 ? 1 : 0;
   }
   CHECK(detours > 0);
