@@ -64,3 +64,20 @@ TEST_CASE("What is made once is made by rank 0 and known to all, and so is its e
   const any_executor alone = parallel::ranks(parallel::self{});
   CHECK(contract::decoded(alone.once([] { return contract::encoded(7); })) == 7);
 }
+
+TEST_CASE("As many ranks of a machine take tasks as it has processors for, each in its turn") {
+  const std::vector<std::int32_t> two = {4, 5};
+  const std::vector<detail::rank_place> one_machine(5, {"a", two, 1});
+  CHECK(detail::ranks_at_work(one_machine, 0) == std::vector{0, 1});
+  CHECK(detail::ranks_at_work(one_machine, 3) == std::vector{3, 4});
+  CHECK(detail::ranks_at_work(one_machine, 4) == std::vector{0, 4});
+
+  const std::vector<detail::rank_place> bound = {{"a", {0}, 1}, {"a", {1}, 1}, {"a", {2}, 1}};
+  CHECK(detail::ranks_at_work(bound, 7) == std::vector{0, 1, 2}); // each has a processor of its own
+
+  const std::vector<detail::rank_place> mixed = {
+      {"a", two, 1}, {"b", two, 2}, {"a", two, 1}, {"b", two, 2}, {"a", two, 7}};
+  CHECK(detail::ranks_at_work(mixed, 0) == std::vector{0, 1, 2});
+  CHECK(detail::ranks_at_work(mixed, 1) == std::vector{2, 3});
+  CHECK(detail::ranks_at_work(mixed, 2) == std::vector{1, 4}); // one at least
+}

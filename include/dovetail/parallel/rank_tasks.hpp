@@ -14,19 +14,21 @@
 
 namespace dovetail::detail {
 
-/// The feed of one rank. Each has `in_hand` tasks of its own in the beginning, dealt in turn without a word;
-/// rank 0 grants the others, in the order of the run, one for each request, and each task that is done is one
-/// request: so it knows when all is done. 12 bytes each way and task.
+/// The feed of one rank. Each that works has `in_hand` tasks of its own in the beginning, dealt in turn
+/// without a word; rank 0 grants the others, in the order of the run, one for each request, and each task
+/// that is done is one request: so it knows when all is done. 12 bytes each way and task.
 class rank_tasks final : public task_feed {
 public:
-  /// Collective. `in_hand`: the same on all ranks, enough that no worker waits for an answer.
-  rank_tasks(any_communicator network, std::size_t count, std::size_t in_hand)
+  /// Collective, with the same arguments on all ranks. `working`: the ranks that take tasks; `in_hand`:
+  /// enough that no worker waits for an answer.
+  rank_tasks(any_communicator network, std::size_t count, std::size_t in_hand,
+             const std::vector<int>& working)
       : network_(std::move(network)), requests_(network_.next_tag()), grants_(network_.next_tag()),
         count_(count) {
-    const auto ranks = static_cast<std::size_t>(network_.size());
-    next_ = std::min(count, in_hand * ranks);
-    for (auto place = static_cast<std::size_t>(network_.rank()); place < next_; place += ranks)
-      granted_.push_back(place);
+    next_ = std::min(count, in_hand * working.size());
+    for (std::size_t place = 0; place < next_; ++place)
+      if (working[place % working.size()] == network_.rank())
+        granted_.push_back(place);
     mine_ = granted_.size();
   }
 

@@ -4,8 +4,10 @@
 
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
+#include "dovetail/parallel/rank_places.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,7 +15,8 @@ namespace dovetail::parallel {
 
 /// A model of `executor`. All ranks go through the same program and call `run` with the same tasks; each task
 /// is run on one of them, by request, and its outcome is known on all, so that they go on alike. What a task
-/// keeps in an entity store on a disk that all ranks see is not sent.
+/// keeps in an entity store on a disk that all ranks see is not sent. Of a machine with fewer processors than
+/// workers only so many ranks take tasks in one run, others in the next.
 ///
 /// With `worker_count` above 0 a rank runs its tasks in so many forked processes, as `processes` does, and
 /// may have no other threads: then the network is `relayed`, not `mpi`. With 0 it runs them itself, one at a
@@ -35,6 +38,8 @@ private:
   any_communicator network_;
   int worker_count_;
   int workers_ = 0;
+  std::vector<detail::rank_place> places_;
+  std::shared_ptr<std::size_t> runs_ = std::make_shared<std::size_t>(0); ///< so far, of all copies
 };
 
 } // namespace dovetail::parallel

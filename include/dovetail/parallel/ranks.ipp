@@ -74,7 +74,9 @@ DOVETAIL_INLINE ranks::ranks(any_communicator network, int worker_count)
     : network_(std::move(network)), worker_count_(worker_count) {
   if (worker_count > 0 && network_.shares_process() && network_.size() > 1)
     throw usage_error("ranks that are threads of one process cannot fork workers");
-  workers_ = static_cast<int>(network_.exclusive_scan(std::max(1, worker_count)).in_all);
+  places_ = detail::all_places(network_, std::max(1, worker_count));
+  for (const detail::rank_place& place : places_)
+    workers_ += place.workers;
 }
 
 DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const task_function& task,
@@ -85,7 +87,8 @@ DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const ta
     return {};
   options.on_progress(options.stage, 0, count);
   const int per_rank = (workers_ + network_.size() - 1) / network_.size();
-  detail::rank_tasks feed(network_, count, static_cast<std::size_t>(2 * per_rank));
+  detail::rank_tasks feed(network_, count, static_cast<std::size_t>(2 * per_rank),
+                          detail::ranks_at_work(places_, (*runs_)++));
   auto mine =
       worker_count_ > 0
           ? detail::process_pool(count, task, options, static_cast<std::size_t>(worker_count_), &feed).run()

@@ -1,0 +1,90 @@
+/// @file
+/// Where the ranks of a run are, and which of them work at a time. Linux.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
+#include "dovetail/parallel/available_processors.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Of one rank.
+struct rank_place {
+  std::string machine;                  ///< the same for ranks of one machine, whatever container they are in
+  std::vector<std::int32_t> processors; ///< that it may use
+  std::int32_t workers = 1;
+};
+
+/// That of the calling rank. Ranks that are threads of one process count as machines: they stand for such.
+inline rank_place own_place(const any_communicator& network, int workers) {
+  rank_place here;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> here.machine;
+  if (network.shares_process())
+    here.machine += " " + std::to_string(network.rank());
+  here.processors = parallel::bound_processors();
+  here.workers = static_cast<std::int32_t>(workers);
+  return here;
+}
+
+/// Those of all ranks. Collective.
+inline std::vector<rank_place> all_places(any_communicator network, int workers) {
+  const rank_place own = own_place(network, workers);
+  byte_writer to;
+  to.text(own.machine);
+  to.array(own.processors);
+  to.value(own.workers);
+  std::vector<rank_place> places;
+  for (const byte_buffer& theirs : network.all_gather(to.take())) {
+    byte_reader from(theirs);
+    rank_place& place = places.emplace_back();
+    place.machine = from.text();
+    place.processors = from.array<std::int32_t>();
+    place.workers = from.value<std::int32_t>();
+  }
+  return places;
+}
+
+/// The ranks of one machine that work in a run of tasks: as many as it has processors for their workers, at
+/// least one; others the next time. Workers that take turns on a processor cost each other its caches: seven
+/// ranks on two processors meshed a third more slowly than two.
+inline std::vector<int> ranks_in_turn(const std::vector<int>& ranks, const std::vector<rank_place>& places,
+                                      std::size_t turn) {
+  std::vector<std::int32_t> processors;
+  for (const int r : ranks)
+    append(processors, places[static_cast<std::size_t>(r)].processors);
+  sort_unique(processors);
+  auto free = static_cast<std::int64_t>(processors.size());
+  std::vector<int> chosen;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    const int r = ranks[(turn + i) % ranks.size()];
+    free -= places[static_cast<std::size_t>(r)].workers;
+    if (free < 0 && !chosen.empty())
+      break;
+    chosen.push_back(r);
+  }
+  return chosen;
+}
+
+/// The ranks that work in a run of tasks, growing: all where each machine has a processor for each worker.
+inline std::vector<int> ranks_at_work(const std::vector<rank_place>& places, std::size_t turn) {
+  std::map<std::string, std::vector<int>> of_machine;
+  for (std::size_t r = 0; r < places.size(); ++r)
+    of_machine[places[r].machine].push_back(static_cast<int>(r));
+  std::vector<int> working;
+  for (const auto& [machine, ranks] : of_machine)
+    append(working, ranks_in_turn(ranks, places, turn));
+  std::sort(working.begin(), working.end());
+  return working;
+}
+
+} // namespace dovetail::detail
