@@ -192,16 +192,16 @@ private:
     move_sides(s, [&](std::size_t k) { return made.cut.above[k] != 0 ? above : s; });
     const auto first_own = static_cast<local_id>(fine_.points.size());
     const auto known = static_cast<local_id>(whole.skeleton_points.size());
-    append(fine_.points, made.spanning.inner_points);
-    fine_.point_hosts.resize(fine_.points.size(), {3, materials_[index(s)]});
+    append(fine_.points.own(), made.spanning.inner_points);
+    fine_.point_hosts.own().resize(fine_.points.size(), {3, materials_[index(s)]});
     for (simplex<2> triangle : made.spanning.triangles) {
       for (local_id& v : triangle)
         v = v < known ? whole.skeleton_points[index(v)] : first_own + v - known;
       for (const local_id side_of : {s, above})
         sides_[index(side_of)].push_back(static_cast<local_id>(fine_.sides.size()));
-      fine_.sides.push_back(triangle);
-      fine_.subdomains.push_back({s, above});
-      fine_.side_hosts.push_back(no_id);
+      fine_.sides.own().push_back(triangle);
+      fine_.subdomains.own().push_back({s, above});
+      fine_.side_hosts.own().push_back(no_id);
     }
     summary_.add("cuts", 1);
     summary_.add("interface_faces", static_cast<double>(made.spanning.triangles.size()));
@@ -247,7 +247,7 @@ private:
         stays_whole_.resize(index(to) + 1, 0);
         materials_.resize(index(to) + 1, materials_[index(s)]);
       }
-      auto& pair = fine_.subdomains[index(listed[k])];
+      auto& pair = fine_.subdomains.own()[index(listed[k])];
       (pair[0] == s ? pair[0] : pair[1]) = to;
       sides_[index(to)].push_back(listed[k]);
     }

@@ -11,6 +11,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,7 +94,7 @@ namespace detail {
 
 /// Area of a triangle or length of an edge.
 template <int D>
-double measure_of_side(const std::vector<vec3>& points, const simplex<D - 1>& side) {
+double measure_of_side(std::span<const vec3> points, const simplex<D - 1>& side) {
   const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(side[k])]; };
   if constexpr (D == 3)
     return 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct moving_middles {
 };
 
 inline std::vector<vec3> straight_middles(const std::vector<simplex<1>>& edges,
-                                          const std::vector<vec3>& points) {
+                                          std::span<const vec3> points) {
   std::vector<vec3> middles;
   middles.reserve(edges.size());
   for (const auto& [a, b] : edges)

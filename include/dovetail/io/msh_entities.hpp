@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ inline local_id partition_tag(local_id subdomain) {
 }
 
 /// Collects boxes, points, edges and triangles per entity. O(skeleton).
-inline void collect_members(msh_entities& out, const std::vector<vec3>& points) {
+inline void collect_members(msh_entities& out, std::span<const vec3> points) {
   const auto& entities = out.entities;
   for (std::size_t d = 0; d < 4; ++d) {
     out.boxes[d].resize(entities.of_dimension[d].size());

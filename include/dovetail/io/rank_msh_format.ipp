@@ -55,9 +55,9 @@ inline rank_skeleton skeleton_of_ranks(const rank_source<3>& source) {
       }
     if (volumes[0] == volumes[1] && from.skeleton.side_hosts[s] == no_id)
       continue;
-    skeleton.sides.push_back(from.skeleton.sides[s]);
-    skeleton.subdomains.push_back(volumes);
-    skeleton.side_hosts.push_back(from.skeleton.side_hosts[s]);
+    skeleton.sides.own().push_back(from.skeleton.sides[s]);
+    skeleton.subdomains.own().push_back(volumes);
+    skeleton.side_hosts.own().push_back(from.skeleton.side_hosts[s]);
   }
   result.mesh.mid_nodes = from.mid_nodes;
   result.mesh.material_names = from.material_names;

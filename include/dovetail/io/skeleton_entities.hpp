@@ -76,7 +76,7 @@ inline local_id material_of(const distributed_mesh& mesh, local_id subdomain) {
 /// The skeleton's triangles, each turned to face away from the one of its two subdomains that has the lower
 /// material, then the lower number: so the triangles of an entity face the same way.
 inline std::vector<simplex<2>> turn_to_lower(const distributed_mesh& mesh) {
-  auto triangles = mesh.skeleton.sides;
+  std::vector<simplex<2>> triangles(mesh.skeleton.sides.begin(), mesh.skeleton.sides.end());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [behind, front] = mesh.skeleton.subdomains[t];
     if (front != no_id &&

@@ -9,6 +9,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/core/shared_array.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -31,13 +32,13 @@ namespace dovetail {
 /// triangle; one on a CAD curve inside a piece names that piece twice.
 template <int D>
 struct simplicial_skeleton {
-  std::vector<vec3> points;
+  shared_array<vec3> points;
   /// The lowest-dimensional CAD entity of each point: {3, solid} on inner interfaces, {2, CAD face} on lines
   /// that are not on CAD curves.
-  std::vector<host> point_hosts;
-  std::vector<simplex<D - 1>> sides;
-  std::vector<std::array<local_id, 2>> subdomains; ///< per side
-  std::vector<local_id> side_hosts;    ///< per side: its CAD face (D = 3) or curve (D = 2), or no_id inside
+  shared_array<host> point_hosts;
+  shared_array<simplex<D - 1>> sides;
+  shared_array<std::array<local_id, 2>> subdomains; ///< per side
+  shared_array<local_id> side_hosts;   ///< per side: its CAD face (D = 3) or curve (D = 2), or no_id inside
   std::vector<simplex<1>> curve_edges; ///< mesh edges on CAD curves (D = 3; in D = 2 they are sides)
   std::vector<local_id> curves;        ///< the CAD curve of each such edge
 };

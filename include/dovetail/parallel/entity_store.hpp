@@ -9,6 +9,7 @@
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,10 @@ public:
 
   /// Whether all ranks have what one has kept. Otherwise each rank releases its own.
   bool is_common() const { return disk_ && disk_->is_common(); }
+  /// A place on the disk for a file that lasts as long as the run at most; nothing without a disk.
+  std::optional<std::filesystem::path> place_of_file(const std::string& name) const {
+    return disk_ ? std::optional(disk_->path_of(kind_ + "_" + name) += ".part") : std::nullopt;
+  }
   /// Gives each rank those of the entities that others have and its spool has not. Collective.
   void exchange(const any_communicator& network, std::span<const content_key> keys) const {
     if (!disk_ || disk_->is_common() || network.size() == 1)

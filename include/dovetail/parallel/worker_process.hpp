@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/parallel/owned_descriptor.hpp"
 #include "dovetail/parallel/run_task.hpp"
 #include "dovetail/parallel/task_board.hpp"
 
@@ -30,28 +31,6 @@
 #include <unistd.h>
 
 namespace dovetail::detail {
-
-/// A file descriptor that closes itself.
-class owned_descriptor {
-public:
-  explicit owned_descriptor(int descriptor = -1) : descriptor_(descriptor) {}
-  owned_descriptor(owned_descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  owned_descriptor& operator=(owned_descriptor&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
-  }
-  ~owned_descriptor() { close(); }
-
-  int get() const { return descriptor_; }
-  void close() {
-    if (descriptor_ >= 0)
-      ::close(descriptor_);
-    descriptor_ = -1;
-  }
-
-private:
-  int descriptor_;
-};
 
 /// What a worker sends before the bytes of its result, or of its failure's text.
 struct result_header {

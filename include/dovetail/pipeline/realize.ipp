@@ -53,8 +53,8 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
 inline realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
                                       const side_table<2>& sides,
                                       const std::vector<local_id>& subdomain_of_element,
-                                      const refined_sizing& size, skeleton_store& made,
-                                      const any_parameters<2>& given) {
+                                      std::span<const local_id>, const refined_sizing& size,
+                                      skeleton_store& made, const any_parameters<2>& given) {
   auto result = realize_lines<2>(model, mesh.surface, mesh.surface.mesh.points,
                                  own_subdomains(subdomain_of_element), {}, size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
@@ -66,6 +66,7 @@ inline realized<2> realize_boundaries(const any_geometry& model, const simplicia
 inline realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
                                       const side_table<3>& sides,
                                       const std::vector<local_id>& subdomain_of_element,
+                                      std::span<const local_id> material_of_subdomain,
                                       const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<3>& given) {
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
@@ -74,7 +75,8 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
                                  interface_faces(mesh, sides, subdomain_of_element), size, made, given);
   const auto fill = [&] {
     return remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size,
-                           given.mesh_surface, given.run_tasks, made.patches, given.options.on_progress);
+                           given.mesh_surface, material_of_subdomain, given.run_tasks, made.patches,
+                           given.options.on_progress);
   };
   auto remeshed = fill();
   const stopwatch matching_clock;
@@ -125,15 +127,12 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const any_parameters<D>& given) {
   const stopwatch clock;
-  auto result = detail::realize_boundaries(model, mesh, sides, subdomain_of_element, size, made, given);
-  result.material_of_subdomain.assign(subdomains, 0);
+  std::vector<local_id> material_of_subdomain(subdomains, 0);
   for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
-    result.material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] =
-        detail::material_of(mesh, e);
-  for (std::size_t t = 0; t < result.fine.sides.size(); ++t) // inner points lie in the solid beside them
-    for (const local_id v : result.fine.sides[t])
-      if (host& on = result.fine.point_hosts[static_cast<std::size_t>(v)]; on.dimension == 3)
-        on.id = result.material_of_subdomain[static_cast<std::size_t>(result.fine.subdomains[t][0])];
+    material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] = detail::material_of(mesh, e);
+  auto result = detail::realize_boundaries(model, mesh, sides, subdomain_of_element, material_of_subdomain,
+                                           size, made, given);
+  result.material_of_subdomain = std::move(material_of_subdomain);
   result.subdomain_of_element = std::move(subdomain_of_element);
   result.summary.seconds = clock.seconds();
   return result;

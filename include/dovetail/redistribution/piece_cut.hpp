@@ -131,21 +131,21 @@ new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
   for (std::size_t v = 0; v < made.number.size(); ++v)
     if (made.number[v] != no_id) {
       made.number[v] = static_cast<local_id>(fine.points.size());
-      fine.points.push_back(old.points[v]);
-      fine.point_hosts.push_back(old.point_hosts[v]);
+      fine.points.own().push_back(old.points[v]);
+      fine.point_hosts.own().push_back(old.point_hosts[v]);
     }
   for (const auto& cut : cuts) {
     made.first_of_cut.push_back(static_cast<local_id>(fine.points.size()));
-    append(fine.points, cut.places);
-    append(fine.point_hosts, cut.hosts);
+    append(fine.points.own(), cut.places);
+    append(fine.point_hosts.own(), cut.hosts);
   }
   const auto add = [&](simplex<D - 1> side, local_id first_own, const std::array<local_id, 2>& subdomains,
                        local_id on, bool avoided) {
     for (local_id& v : side)
       v = v < 0 ? first_own - v - 1 : made.number[static_cast<std::size_t>(v)];
-    fine.sides.push_back(side);
-    fine.subdomains.push_back(subdomains);
-    fine.side_hosts.push_back(on);
+    fine.sides.own().push_back(side);
+    fine.subdomains.own().push_back(subdomains);
+    fine.side_hosts.own().push_back(on);
     made.avoided.push_back(avoided ? 1 : 0);
   };
   for (const std::size_t s : kept) {

@@ -15,6 +15,7 @@
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/surface_region.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
@@ -76,13 +77,16 @@ struct region_set {
 struct region_store {
   struct known_mesh {
     std::size_t inner_points = 0, triangles = 0;
+    bool is_faulty = false; ///< folded over, or no mesh at all as its boundary crosses itself
+    surface_deviation deviation = {};
     std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
   };
 
+  std::shared_ptr<entity_store> entities;
   batched_entities meshes;
   std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
 
-  explicit region_store(std::shared_ptr<entity_store> store) : meshes(std::move(store)) {}
+  explicit region_store(std::shared_ptr<entity_store> store) : entities(std::move(store)), meshes(entities) {}
 };
 
 /// Meshes of a `region_set`, in a store.
@@ -96,6 +100,12 @@ struct meshed_regions {
   void for_each(const region_store& store, const Use& use) const {
     for_each(
         store, [](std::size_t) { return true; }, use);
+  }
+  /// The same for the regions from `begin` to before `end`.
+  template <class Use>
+  void for_each(const region_store& store, std::size_t begin, std::size_t end, const Use& use) const {
+    for_each(
+        store, [=](std::size_t r) { return r >= begin && r < end; }, use);
   }
   /// The same for the regions that are `wanted(region)`.
   template <class Wanted, class Use>
@@ -132,14 +142,12 @@ meshed_regions mesh_regions(const any_geometry& model, region_set& set, const an
                             const refined_sizing& size, const any_executor& run, region_store& store,
                             const mesh_regions_options& options);
 
-/// Appends a region's own points to `points`, and calls `visit(triangle, own)` for its triangles: oriented
-/// along the face, named by labels and by the places in `points`, and as they are named within the region.
+/// Calls `visit(triangle, own)` for a region's triangles: oriented along the face, named by labels and, from
+/// `first_inner` on, by the region's own points, and as they are named within the region.
 template <class Visit>
-void append_triangles(std::span<const local_id> labels, bool reversed, const patch_mesh& made,
-                      std::vector<vec3>& points, const Visit& visit) {
+void for_each_triangle(std::span<const local_id> labels, bool reversed, const patch_mesh& made,
+                       std::size_t first_inner, const Visit& visit) {
   const std::size_t frozen = labels.size();
-  const std::size_t first_inner = points.size();
-  append(points, made.inner_points);
   for (simplex<2> own : made.triangles) {
     if (reversed)
       std::swap(own[1], own[2]);
@@ -152,22 +160,24 @@ void append_triangles(std::span<const local_id> labels, bool reversed, const pat
   }
 }
 
-/// The same for `visit(triangle, uv)`, with the parameters of the corners where the mesh has them.
+/// Appends a region's own points to `points`, and calls `visit(triangle, uv)` for its triangles, with the
+/// parameters of the corners where the mesh has them.
 template <class Visit>
 void append_region(const surface_region& region, const patch_mesh& made, std::vector<vec3>& points,
                    const Visit& visit) {
   const patch_boundary& boundary = region.boundary;
-  const std::size_t frozen = boundary.labels.size();
-  append_triangles(boundary.labels, region.reversed, made, points,
-                   [&](const simplex<2>& triangle, const simplex<2>& own) {
-                     std::array<vec2, 3> uv{};
-                     for (std::size_t k = 0; k < 3; ++k)
-                       if (const auto v = static_cast<std::size_t>(own[k]); v < frozen)
-                         uv[k] = boundary.uv[v];
-                       else if (!made.inner_uv.empty())
-                         uv[k] = made.inner_uv[v - frozen];
-                     visit(triangle, uv);
-                   });
+  const std::size_t frozen = boundary.labels.size(), first_inner = points.size();
+  append(points, made.inner_points);
+  for_each_triangle(boundary.labels, region.reversed, made, first_inner,
+                    [&](const simplex<2>& triangle, const simplex<2>& own) {
+                      std::array<vec2, 3> uv{};
+                      for (std::size_t k = 0; k < 3; ++k)
+                        if (const auto v = static_cast<std::size_t>(own[k]); v < frozen)
+                          uv[k] = boundary.uv[v];
+                        else if (!made.inner_uv.empty())
+                          uv[k] = made.inner_uv[v - frozen];
+                      visit(triangle, uv);
+                    });
 }
 
 } // namespace dovetail

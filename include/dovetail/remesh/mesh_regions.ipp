@@ -204,7 +204,10 @@ private:
         [&](std::size_t r, const patch_mesh& mesh) {
           const auto labels = std::as_const(result_.labels)[r];
           store_.known[result_.keys[r]] = {
-              mesh.inner_points.size(), mesh.triangles.size(),
+              mesh.inner_points.size(),
+              mesh.triangles.size(),
+              !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
+              {mesh.summary.get("points"), mesh.summary.get("centres")},
               chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
         });
   }

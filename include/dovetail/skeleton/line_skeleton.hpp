@@ -25,9 +25,9 @@ inline void append_line_edges(const numbered_lines& lines, local_id line, local_
   const skeleton_line& key = lines.keys[l];
   const auto numbers = lines.along(line, from);
   for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
-    skeleton.sides.push_back({numbers[i], numbers[i + 1]});
-    skeleton.subdomains.push_back(parts);
-    skeleton.side_hosts.push_back(key.on.dimension == 1 ? key.on.id : no_id);
+    skeleton.sides.own().push_back({numbers[i], numbers[i + 1]});
+    skeleton.subdomains.own().push_back(parts);
+    skeleton.side_hosts.own().push_back(key.on.dimension == 1 ? key.on.id : no_id);
   }
 }
 
@@ -70,7 +70,7 @@ class chord_rule {
 public:
   chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine, const numbered_lines& lines,
              const surface_mesh& surface)
-      : edges_(fine.sides), regions_at_(fine.points.size()) {
+      : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
     for (simplex<1>& edge : edges_)
       edge = sorted_vertices(edge);
     sort_unique(edges_);

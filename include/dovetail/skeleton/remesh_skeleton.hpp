@@ -41,14 +41,16 @@ struct remeshed_skeleton {
   report summary;
 };
 
-/// Remeshes what lies between remeshed lines to the sizing field. `made` carries
-/// patches from one call to the next as long as the model, the plain field and the mesher are the same.
-/// "patches_made" in the summary are those that were not in it. About linear in the triangles made. Faults
-/// come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at all.
+/// Remeshes what lies between remeshed lines to the sizing field. The result is on all ranks, in memory that
+/// they share where they have one spool. `made` carries patches from one call to the next as long as the
+/// model, the plain field and the mesher are the same. "patches_made" in the summary are those that were not
+/// in it. About linear in the triangles made. Faults come back as `failures`; throws `mesher_error` when a
+/// patch cannot be evaluated at all.
 remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
                                   std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
                                   const numbered_lines& lines, const refined_sizing& size,
-                                  const any_surface_mesher& mesher, const any_executor& run,
+                                  const any_surface_mesher& mesher,
+                                  std::span<const local_id> material_of_subdomain, const any_executor& run,
                                   region_store& made, const progress& on_progress = {});
 
 } // namespace dovetail

@@ -9,6 +9,7 @@
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
+#include "dovetail/skeleton/skeleton_assembly.hpp"
 
 #include <set>
 
@@ -21,9 +22,11 @@ public:
   skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
                     std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
                     const numbered_lines& lines, const refined_sizing& size, const any_surface_mesher& mesher,
-                    const any_executor& run, region_store& made, const progress& on_progress)
+                    std::span<const local_id> material_of_subdomain, const any_executor& run,
+                    region_store& made, const progress& on_progress)
       : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), lines_(lines),
-        size_(size), mesher_(mesher), run_(run), store_(made), on_progress_(on_progress) {}
+        size_(size), mesher_(mesher), material_of_subdomain_(material_of_subdomain), run_(run), store_(made),
+        on_progress_(on_progress) {}
 
   remeshed_skeleton run() {
     const std::size_t made_before = store_.meshes.made();
@@ -100,44 +103,32 @@ private:
   }
 
   remeshed_skeleton assemble() {
+    const patches_to_join patches{skeleton_,
+                                  lines_,
+                                  meshed_,
+                                  store_,
+                                  [this](std::size_t p) { return is_reversed(p); },
+                                  material_of_subdomain_};
+    const skeleton_assembly assembly(patches);
     remeshed_skeleton result;
-    fine_skeleton& fine = result.fine;
-    reserve(fine);
-    append(fine.points, lines_.points); // boundaries are still made of them
-    append(fine.point_hosts, lines_.hosts);
+    result.fine = assembly.run(run_, on_progress_);
     result.patches.line_points = static_cast<local_id>(lines_.points.size());
+    for (const std::size_t first : assembly.first_triangles())
+      result.patches.first_triangle.push_back(static_cast<local_id>(first));
     report deviation;
-    meshed_.for_each(store_, [&](std::size_t p, const patch_mesh& mesh) {
-      if (is_region(p))
-        note_deviation(deviation, "face " + std::to_string(skeleton_.regions[p].cad_face),
-                       {mesh.summary.get("points"), mesh.summary.get("centres")});
-      if (!mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty())
-        result.patches.failures.push_back(failure_of(p, mesh));
-      append_patch(p, mesh, result);
-    });
-    result.patches.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
-    for (std::size_t l = 0; l < lines_.keys.size(); ++l)
-      if (lines_.keys[l].on.dimension == 1)
-        append_curve_edges(static_cast<local_id>(l), fine);
+    for (std::size_t p = 0; p < skeleton_.regions.size(); ++p)
+      note_deviation(deviation, "face " + std::to_string(skeleton_.regions[p].cad_face), known(p).deviation);
+    meshed_.for_each(
+        store_, [&](std::size_t p) { return known(p).is_faulty; },
+        [&](std::size_t p, const patch_mesh& mesh) {
+          result.patches.failures.push_back(failure_of(p, mesh));
+        });
     result.patches.keys = std::move(meshed_.keys);
     result.summary.children.push_back(std::move(deviation));
     return result;
   }
 
-  /// Exactly: what grows by doubling holds up to twice as much, and both copies as it grows.
-  void reserve(fine_skeleton& fine) const {
-    std::size_t points = lines_.points.size(), triangles = 0;
-    for (const content_key key : meshed_.keys) {
-      const region_store::known_mesh& mesh = store_.known.at(key);
-      points += mesh.inner_points;
-      triangles += mesh.triangles;
-    }
-    fine.points.reserve(points);
-    fine.point_hosts.reserve(points);
-    fine.sides.reserve(triangles);
-    fine.subdomains.reserve(triangles);
-    fine.side_hosts.reserve(triangles);
-  }
+  const region_store::known_mesh& known(std::size_t p) const { return store_.known.at(meshed_.keys[p]); }
 
   patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {
     patch_failure failure;
@@ -175,34 +166,6 @@ private:
     return failure;
   }
 
-  void append_patch(std::size_t p, const patch_mesh& mesh, remeshed_skeleton& result) const {
-    fine_skeleton& fine = result.fine;
-    result.patches.first_triangle.push_back(static_cast<local_id>(fine.sides.size()));
-    auto subdomains = is_region(p) ? skeleton_.regions[p].subdomains : face_of(p).subdomains;
-    const bool bounds_nothing_behind = subdomains[0] == no_id;
-    if (bounds_nothing_behind)
-      std::swap(subdomains[0], subdomains[1]);
-    const local_id face = is_region(p) ? skeleton_.regions[p].cad_face : no_id;
-    append_triangles(meshed_.labels[p], is_reversed(p), mesh, fine.points,
-                     [&](simplex<2> triangle, const simplex<2>&) {
-                       if (bounds_nothing_behind)
-                         std::swap(triangle[1], triangle[2]);
-                       fine.sides.push_back(triangle);
-                       fine.subdomains.push_back(subdomains);
-                       fine.side_hosts.push_back(face);
-                     });
-    fine.point_hosts.resize(fine.points.size(),
-                            is_region(p) ? host{2, skeleton_.regions[p].cad_face} : host{});
-  }
-
-  void append_curve_edges(local_id line, fine_skeleton& fine) const {
-    const auto numbers = lines_.along(line, lines_.keys[at(line)].vertices[0]);
-    for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
-      fine.curve_edges.push_back({numbers[i], numbers[i + 1]});
-      fine.curves.push_back(lines_.keys[at(line)].on.id);
-    }
-  }
-
   const any_geometry& model_;
   const surface_mesh& surface_;
   std::span<const vec3> coarse_points_;
@@ -210,6 +173,7 @@ private:
   const numbered_lines& lines_;
   const refined_sizing& size_;
   const any_surface_mesher& mesher_;
+  std::span<const local_id> material_of_subdomain_;
   const any_executor& run_;
   region_store& store_;
   const progress& on_progress_;
@@ -218,14 +182,13 @@ private:
 
 } // namespace detail
 
-DOVETAIL_INLINE remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
-                                                  std::span<const vec3> coarse_points,
-                                                  const coarse_skeleton& skeleton,
-                                                  const numbered_lines& lines, const refined_sizing& size,
-                                                  const any_surface_mesher& mesher, const any_executor& run,
-                                                  region_store& made, const progress& on_progress) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher, run, made,
-                                   on_progress)
+DOVETAIL_INLINE remeshed_skeleton
+remesh_skeleton(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
+                const coarse_skeleton& skeleton, const numbered_lines& lines, const refined_sizing& size,
+                const any_surface_mesher& mesher, std::span<const local_id> material_of_subdomain,
+                const any_executor& run, region_store& made, const progress& on_progress) {
+  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher,
+                                   material_of_subdomain, run, made, on_progress)
       .run();
 }
 
