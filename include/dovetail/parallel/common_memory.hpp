@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -82,19 +83,27 @@ public:
   }
 
   /// In a task: no two write the same bytes. Throws `io_error`, when the disk is full for example.
-  template <class T>
-  void write(std::size_t at, std::span<const T> items) const {
+  template <class Items>
+  void write(std::size_t at, const Items& items) const {
     const auto* bytes = reinterpret_cast<const std::byte*>(items.data());
+    const std::size_t size = items.size() * sizeof(typename Items::value_type);
     if (file_)
-      write_file(at, bytes, items.size() * sizeof(T));
-    else if (!items.empty())
-      std::memcpy(memory_.get() + at, bytes, items.size() * sizeof(T));
+      write_file(at, bytes, size);
+    else if (size > 0)
+      std::memcpy(memory_.get() + at, bytes, size);
   }
 
-  /// Once it is filled: from here on it is only read.
+  /// Once it is filled: from here on it is only read. Collective; throws `io_error` on all ranks.
   void close() {
-    if (file_)
+    if (!file_)
+      return;
+    std::exception_ptr failure;
+    try {
       memory_ = mapped(descriptor(O_RDONLY).get(), PROT_READ);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    run_.network().agree(failure); // the next file of this name may come now
   }
 
   /// After `close`: items that were written at a place.
@@ -115,6 +124,8 @@ private:
   std::shared_ptr<std::byte> mapped(int descriptor, int protection) const {
     const int kind = MAP_SHARED | (descriptor < 0 ? MAP_ANONYMOUS : 0);
     void* pages = ::mmap(nullptr, bytes_, protection, kind, descriptor, 0);
+    if (pages == MAP_FAILED && descriptor >= 0)
+      fail("cannot map");
     if (pages == MAP_FAILED)
       throw std::bad_alloc();
     return {static_cast<std::byte*>(pages), [bytes = bytes_](std::byte* p) { ::munmap(p, bytes); }};

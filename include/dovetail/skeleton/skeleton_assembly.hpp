@@ -56,20 +56,20 @@ public:
     const std::size_t side_hosts_at = sides_at + sides * sizeof(simplex<2>);
     common_memory memory(run, *from_.store.entities, "assembled", side_hosts_at + sides * sizeof(local_id));
     const std::vector<std::size_t> begins = tasks();
-    memory.fill(
-        begins.size() - 1,
-        [&](std::size_t task) {
-          const std::size_t begin = begins[task], end = begins[task + 1];
-          const std::size_t point = task == 0 ? 0 : first_point_[begin], side = first_triangle_[begin];
-          const fine_skeleton part = join(begin, end, task == 0);
-          memory.write(point * sizeof(vec3), span_of(part.points));
-          memory.write(hosts_at + point * sizeof(host), span_of(part.point_hosts));
-          memory.write(subdomains_at + side * sizeof(std::array<local_id, 2>), span_of(part.subdomains));
-          memory.write(sides_at + side * sizeof(simplex<2>), span_of(part.sides));
-          memory.write(side_hosts_at + side * sizeof(local_id), span_of(part.side_hosts));
-          return byte_buffer{};
-        },
-        {.on_progress = on_progress, .stage = "skeleton"});
+    memory.fill(begins.size() - 1,
+                [&](std::size_t task) {
+                  const std::size_t begin = begins[task], end = begins[task + 1];
+                  const std::size_t point = task == 0 ? 0 : first_point_[begin],
+                                    side = first_triangle_[begin];
+                  const fine_skeleton part = join(begin, end, task == 0);
+                  memory.write(point * sizeof(vec3), part.points);
+                  memory.write(hosts_at + point * sizeof(host), part.point_hosts);
+                  memory.write(subdomains_at + side * sizeof(std::array<local_id, 2>), part.subdomains);
+                  memory.write(sides_at + side * sizeof(simplex<2>), part.sides);
+                  memory.write(side_hosts_at + side * sizeof(local_id), part.side_hosts);
+                  return byte_buffer{};
+                },
+                {.on_progress = on_progress, .stage = "skeleton"});
     memory.close();
     fine_skeleton fine;
     fine.points = memory.array<vec3>(0, points);

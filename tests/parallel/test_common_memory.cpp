@@ -1,0 +1,150 @@
+#include "dovetail/core/error.hpp"
+#include "dovetail/parallel/common_memory.hpp"
+#include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "io/scratch_folder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+using namespace dovetail;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t tasks = 9, numbers_per_task = 1000;
+
+spool new_spool(const fs::path& folder) {
+  return spool::start(folder, {{"input", "abc"}});
+}
+std::string place_of_file(const entity_store& store) {
+  return store.place_of_file("numbers")->string();
+}
+
+/// Task i writes a thousand numbers from 1000 i + `first` on.
+byte_buffer write_numbers(const common_memory& memory, std::size_t task, int first) {
+  std::vector<int> numbers(numbers_per_task);
+  std::iota(numbers.begin(), numbers.end(), static_cast<int>(task * numbers_per_task) + first);
+  memory.write(task * numbers_per_task * sizeof(int), numbers);
+  return byte_buffer(task);
+}
+
+shared_array<int> filled(const any_executor& run, const entity_store& store, int first = 0) {
+  common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+  const auto results = memory.fill(tasks, [&](std::size_t i) { return write_numbers(memory, i, first); }, {});
+  REQUIRE(results.size() == tasks);
+  for (std::size_t i = 0; i < tasks; ++i)
+    CHECK(results[i].size() == i);
+  memory.close();
+  return memory.array<int>(0, tasks * numbers_per_task);
+}
+
+void check_numbers(const shared_array<int>& numbers, int first = 0) {
+  REQUIRE(numbers.size() == tasks * numbers_per_task);
+  bool right = true;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    right = right && numbers[i] == static_cast<int>(i) + first;
+  CHECK(right);
+}
+
+} // namespace
+
+TEST_CASE("What tasks write is read by whoever ran them") {
+  for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::threads{3}),
+                                  any_executor(parallel::processes{3})}) {
+    const shared_array<int> numbers = filled(run, entity_store{});
+    check_numbers(numbers);
+    shared_array<int> copy = numbers;
+    CHECK(copy.data() == numbers.data());
+    copy.own()[0] = 7; // as in a vector, without changing the others
+    CHECK(copy[0] == 7);
+    CHECK(numbers[0] == 0);
+    CHECK(copy.size() == numbers.size());
+    CHECK_FALSE(copy == numbers);
+  }
+}
+
+TEST_CASE("Ranks with one spool have it in a file there, of which the next one takes the place") {
+  const testing::scratch_folder scratch("common_memory");
+  const entity_store store(new_spool(scratch / "spool"), "skeleton");
+  std::array<std::atomic<int>, tasks> times{};
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    const any_executor run = parallel::ranks(mine);
+    common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+    memory.fill(tasks,
+                [&](std::size_t i) {
+                  ++times[i];
+                  return write_numbers(memory, i, 0);
+                },
+                {});
+    memory.close();
+    const auto first = memory.array<int>(0, tasks * numbers_per_task);
+    check_numbers(first);
+    const auto second = filled(run, store, 5);
+    check_numbers(second, 5);
+    check_numbers(first); // on one machine the old pages last as long as somebody holds them
+  });
+  for (const auto& count : times)
+    CHECK(count == 1);
+  CHECK(fs::file_size(place_of_file(store)) == tasks * numbers_per_task * sizeof(int));
+  new_spool(scratch / "spool"); // as any that starts there
+  CHECK_FALSE(fs::exists(place_of_file(store)));
+}
+
+TEST_CASE("Ranks that do not see each other's spools have one each") {
+  const testing::scratch_folder scratch("common_memory");
+  parallel::run_ranks(2, [&](parallel::in_process& mine) {
+    const auto folder = scratch / std::to_string(mine.rank());
+    const entity_store store(new_spool(folder).of_one_rank(), "skeleton");
+    check_numbers(filled(parallel::ranks(mine), store));
+    CHECK_FALSE(fs::exists(place_of_file(store)));
+  });
+}
+
+TEST_CASE("A worker that dies costs another attempt, and a second death is told") {
+  const testing::scratch_folder scratch("common_memory");
+  const auto died = (scratch / "died").string();
+  common_memory memory(parallel::processes{2}, entity_store{}, "numbers",
+                       tasks * numbers_per_task * sizeof(int));
+  const auto dies = [&](std::size_t i, bool always) {
+    if (i == 4 && (always || !fs::exists(died))) {
+      fs::create_directory(died);
+      std::raise(SIGKILL);
+    }
+    return write_numbers(memory, i, 0);
+  };
+  memory.fill(tasks, [&](std::size_t i) { return dies(i, false); }, {});
+  check_numbers(memory.array<int>(0, tasks * numbers_per_task));
+  CHECK_THROWS_WITH_AS(
+      memory.fill(tasks, [&](std::size_t i) { return dies(i, true); }, {.stage = "skeleton"}),
+      doctest::Contains("skeleton: the worker was ended by signal 9"), mesh_error);
+}
+
+TEST_CASE("A file that cannot be made or written is an error on all ranks") {
+  const testing::scratch_folder scratch("common_memory");
+  const entity_store store(new_spool(scratch / "spool"), "skeleton");
+  parallel::run_ranks(2, [&](parallel::in_process& mine) {
+    const any_executor run = parallel::ranks(mine);
+    common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+    if (run.leads())
+      fs::remove(place_of_file(store));
+    run.network().agree();
+    CHECK_THROWS_WITH_AS(memory.fill(tasks, [&](std::size_t i) { return write_numbers(memory, i, 0); }, {}),
+                         doctest::Contains("cannot open"), io_error);
+    CHECK_THROWS_AS(memory.close(), io_error);
+  });
+  fs::remove_all(scratch / "spool");
+  parallel::run_ranks(2, [&](parallel::in_process& mine) {
+    CHECK_THROWS_WITH_AS(filled(parallel::ranks(mine), store), doctest::Contains("skeleton_numbers"),
+                         io_error);
+  });
+}
