@@ -126,10 +126,11 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--ranks", options.ranks, "Files for a parallel solver: number of its processes");
   command.add_option("--redistribute", options.redistribute,
                      "How the pieces come to ranks: " + joined(redistributor_names()));
-  command.add_flag("--improve-again{pieces}", options.improve_again,
-                   "After --redistribute by-elements, improve what each rank has; --improve-again=NAME also "
-                   "goes back to the interfaces: " +
-                       joined(improving_strategy_names()));
+  command.add_flag(
+      "--improve-again{pieces}", options.improve_again,
+      "After --redistribute by-elements, how tetrahedra are improved once more: what each rank has "
+      "(pieces), that and then its interfaces, or none: " +
+          joined(improving_strategy_names()));
   command.add_flag("--ghosts", options.ghosts,
                    "Each rank also has the elements of others that touch its own (pvtu, vtkhdf, msh-ranks)");
   command.add_option("--files", options.files,

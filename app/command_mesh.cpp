@@ -345,10 +345,9 @@ private:
     figures_.seconds.redistribution = clock.seconds();
     std::vector<local_id> ranks = given.rank_of_piece;
     if constexpr (D == 3)
-      if (!options_.improve_again.empty()) {
-        auto improved = make_improving_strategy(options_.improve_again)(
-            mesh, policies_.improver, size, policies_.executor,
-            {.store = parameters_.store, .on_progress = parameters_.on_progress});
+      if (const auto strategy = make_improving_strategy(improvement_of_ranks(options_, D))) {
+        auto improved = strategy(mesh, policies_.improver, size, policies_.executor,
+                                 {.store = parameters_.store, .on_progress = parameters_.on_progress});
         add_passes(improved.summary, figures_);
         mesh = std::move(improved.mesh);
         ranks.clear();

@@ -1,5 +1,7 @@
 #include "finished_run.hpp"
 
+#include "output_formats.hpp"
+
 #include "dovetail/core/output_file.hpp"
 
 #include <cstdint>
@@ -22,10 +24,9 @@ finished_run::finished_run(const std::filesystem::path& folder, const run_identi
   for (const auto& format : options.formats)
     started_with_ += "format " + format + "\n";
   if (options.ranks)
-    started_with_ +=
-        "ranks " + std::to_string(*options.ranks) + " " + options.redistribute +
-        (options.ghosts ? " ghosts" : "") +
-        (options.improve_again.empty() ? "\n" : " improved again " + options.improve_again + "\n");
+    started_with_ += "ranks " + std::to_string(*options.ranks) + " " + options.redistribute +
+                     (options.ghosts ? " ghosts" : "") +
+                     " improved again: " + improvement_of_ranks(options, options.dimension) + "\n";
   started_with_ += "pieces " + std::to_string(options.files) + "\nfiles\n";
 }
 

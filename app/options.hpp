@@ -52,7 +52,7 @@ struct mesh_options {
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
   std::string
-      improve_again;   ///< also what ranks have, after redistribution by elements: the strategy, or empty
+      improve_again; ///< after redistribution by elements, what ranks have: the strategy; empty: the default
   bool ghosts = false; ///< of each rank, in formats that have them
   int order = 1;       ///< of the elements in the files: 1 or 2
   std::string spool;   ///< folder on a disk of each rank's own; empty: in `out`

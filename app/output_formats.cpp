@@ -55,11 +55,13 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
   known.push_back({"hdf5", hdf5_bytes, io::hdf5_writer{.files = options.files}});
 #endif
+  const bool improves = improvement_of_ranks(options, D) != "none";
+  const int meshes_in_spool = options.redistribute != by_elements ? 1 : improves ? 3 : 2;
   const auto add_by_ranks = [&](double bytes_per_element, auto format, bool has_ghosts = false) {
     const io::rank_writer<decltype(format), any_redistributor<D>> writer{
         options.ranks.value_or(1), format, redistribute, options.ghosts && has_ghosts};
     known.push_back({format.name(), bytes_per_element, writer, true, has_second_order<decltype(format)>,
-                     has_ghosts, options.redistribute == by_elements ? 2 : 1});
+                     has_ghosts, meshes_in_spool});
   };
   const double pvtu_bytes = options.order == 2 ? 150 : D == 3 ? 65 : 60;
   add_by_ranks(pvtu_bytes, io::pvtu_format{}, true);
@@ -136,6 +138,14 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
 }
 
 } // namespace
+
+std::string improvement_of_ranks(const mesh_options& options, int dimension) {
+  if (!options.improve_again.empty())
+    return options.improve_again;
+  const bool has_improved =
+      dimension == 3 && options.redistribute == by_elements && options.improver != "none";
+  return has_improved ? "pieces" : "none";
+}
 
 void prepare_formats() {
 #ifdef DOVETAIL_DRIVER_WITH_HDF5

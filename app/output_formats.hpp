@@ -37,6 +37,10 @@ std::vector<std::string> redistributor_names();
 /// The one of these that makes other pieces, one or more for each rank.
 inline constexpr const char* by_elements = "by-elements";
 
+/// By which strategy what ranks have is improved: by default what was at the interfaces of pieces, and is
+/// inside now, where pieces were improved.
+std::string improvement_of_ranks(const mesh_options& options, int dimension);
+
 /// The formats that were chosen; the default one when none was; none for "none". Throws `command_line_error`
 /// for an unknown name, for a negative number of files, and for ranks that do not fit the formats or the
 /// subdomains.

@@ -128,7 +128,8 @@ struct named_strategy {
 std::vector<named_strategy> improving_strategies() {
   return {{"pieces", improve_pieces},
           {"ito", baselines::ito_improvement{}},
-          {"loehner", baselines::loehner_improvement{}}};
+          {"loehner", baselines::loehner_improvement{}},
+          {"none", nullptr}};
 }
 
 } // namespace

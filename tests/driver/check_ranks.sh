@@ -66,7 +66,7 @@ if /usr/bin/python3 -c 'import numpy, vtkmodules.vtkIOXML' 2>/dev/null; then
 fi
 
 # Elements go to other pieces: as many, in even shares, the same by one worker, and for more ranks than subdomains.
-by_elements=("${small[@]}" --subdomains 2 --ranks 3 --redistribute by-elements --report report.json)
+by_elements=("${small[@]}" --subdomains 2 --ranks 3 --redistribute by-elements --improve-again=none --report report.json)
 expect_success "${by_elements[@]}" --workers 2 --format pvtu,msh-ranks,openfoam
 (($(counter largest_rank | cut -d. -f1) * 100 <= ($(counter elements) / 3 + 1) * 105)) || fault "uneven ranks"
 (($(counter seams_before | cut -d. -f1) > 0)) || fault "no interface before"
@@ -82,15 +82,19 @@ expect_success "${by_elements[@]}" --workers 1 --format pvtu,msh-ranks,openfoam
 diff -rq "$inputs/elements" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 3 --redistribute by-elements
 
-# Improved again, the elements are no worse, and the same by another number of workers.
+# Improved again, which is the default, the elements are the same by another number of workers.
 again=(mesh "$inputs/cube.off" --size 0.15 --subdomains 8 --ranks 2 --redistribute by-elements --report report.json)
-expect_success "${again[@]}" --workers 2
+expect_success "${again[@]}" --workers 2 --improve-again=none
 once=$(counter mesh_hash)
-expect_success "${again[@]}" --workers 2 --improve-again
+expect_success "${again[@]}" --workers 2
 hash=$(counter mesh_hash)
 [[ $hash != "$once" && $(counter improver_seconds) ]] || fault "not improved again"
 expect_success "${again[@]}" --workers 1 --improve-again
 [[ $(counter mesh_hash) == "$hash" ]] || fault "improved otherwise by one worker"
+expect_success "${again[@]}" --workers 2 --improver none
+unimproved=$(counter mesh_hash)
+expect_success "${again[@]}" --workers 2 --improver none --improve-again=none
+[[ $(counter mesh_hash) == "$unimproved" ]] || fault "improved by no improver"
 for strategy in ito loehner; do
   expect_success "${again[@]}" --workers 2 --improve-again=$strategy
   [[ $(counter mesh_hash) != "$hash" && $(counter mesh_hash) != "$once" ]] || fault "not improved by $strategy"
@@ -109,7 +113,7 @@ done
 
 # What does not fit is refused before anything is read.
 expect_usage_error "--improve-again goes with" mesh nothing.off --ranks 2 --improve-again
-expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner" mesh nothing.off --ranks 2 \
+expect_usage_error "there is no 'nobody'; there are: pieces, ito, loehner, none" mesh nothing.off --ranks 2 \
   --redistribute by-elements --improve-again=nobody
 expect_usage_error "--ranks is missing" mesh nothing.off --format pvtu
 expect_usage_error "--ranks is missing" mesh nothing.off --redistribute none
