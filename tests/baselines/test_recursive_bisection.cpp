@@ -172,12 +172,12 @@ TEST_CASE("where no plane makes a cut the subdomain stays whole, and the reason 
   fine_skeleton tipped = surface;
   const auto first = static_cast<local_id>(tipped.points.size());
   for (const vec3 p : {vec3{0.3, 0.5, 0.5}, {0.9, 0.4, 0.4}, {0.9, 0.6, 0.4}, {0.9, 0.5, 0.6}})
-    tipped.points.push_back(p);
+    tipped.points.own().push_back(p);
   for (const simplex<2> side : {simplex<2>{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})
-    tipped.sides.push_back({first + side[0], first + side[1], first + side[2]});
-  tipped.subdomains.resize(tipped.sides.size(), {0, no_id});
-  tipped.side_hosts.resize(tipped.sides.size(), 0);
-  tipped.point_hosts.resize(tipped.points.size(), {2, 0});
+    tipped.sides.own().push_back({first + side[0], first + side[1], first + side[2]});
+  tipped.subdomains.own().resize(tipped.sides.size(), {0, no_id});
+  tipped.side_hosts.own().resize(tipped.sides.size(), 0);
+  tipped.point_hosts.own().resize(tipped.points.size(), {2, 0});
   CHECK(baselines::recursive_bisection{.most_faces = 1000}(tipped, {0}, size).summary.get("crossing") > 0);
 }
 
@@ -185,13 +185,13 @@ TEST_CASE("a plane between two bodies has no loops") {
   fine_skeleton two;
   for (const double x : {0.0, 3.0})
     for (const vec3 p : {vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
-      two.points.push_back(p + vec3{x, 0, 0});
+      two.points.own().push_back(p + vec3{x, 0, 0});
   for (const local_id first : {0, 4})
     for (const simplex<2> side : {simplex<2>{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
-      two.sides.push_back({first + side[0], first + side[1], first + side[2]});
-  two.subdomains.assign(two.sides.size(), {0, no_id});
-  two.side_hosts.assign(two.sides.size(), 0);
-  two.point_hosts.assign(two.points.size(), {2, 0});
+      two.sides.own().push_back({first + side[0], first + side[1], first + side[2]});
+  two.subdomains.own().assign(two.sides.size(), {0, no_id});
+  two.side_hosts.own().assign(two.sides.size(), 0);
+  two.point_hosts.own().assign(two.points.size(), {2, 0});
   const auto made = baselines::recursive_bisection{.most_faces = 4}(two, {0}, uniform_size(1.0));
   CHECK(made.summary.get("without_loops") > 0);
   CHECK(made.summary.get("whole") == 1);
@@ -199,7 +199,9 @@ TEST_CASE("a plane between two bodies has no loops") {
 
 TEST_CASE("loops are closed, come to a point once, and have what is below on their right") {
   const auto ball = bisected(BRepPrimAPI_MakeSphere(1.0).Shape(), 0.15, 100000);
-  const simplicial_mesh<2> surface{ball.mesh.skeleton.points, ball.mesh.skeleton.sides, {}};
+  const fine_skeleton& skeleton = ball.mesh.skeleton;
+  const simplicial_mesh<2> surface{
+      {skeleton.points.begin(), skeleton.points.end()}, {skeleton.sides.begin(), skeleton.sides.end()}, {}};
   const auto table = build_sides(surface);
   const auto cut = baselines::cut_surface(surface, table, {{0, 0, 1}, 0.1});
   REQUIRE(cut.simple);

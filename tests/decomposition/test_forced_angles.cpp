@@ -21,9 +21,9 @@ struct interface_on_cad {
     add({0, 1, 2}, {0, 1}, no_id);
   }
   void add(simplex<2> triangle, std::array<local_id, 2> subdomains, local_id face) {
-    skeleton.sides.push_back(triangle);
-    skeleton.subdomains.push_back(subdomains);
-    skeleton.side_hosts.push_back(face);
+    skeleton.sides.own().push_back(triangle);
+    skeleton.subdomains.own().push_back(subdomains);
+    skeleton.side_hosts.own().push_back(face);
   }
   void add_curve(simplex<1> edge, local_id curve) {
     skeleton.curve_edges.push_back(edge);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ inline vec3 bent_middle(vec3 a, vec3 b) {
 template <int D>
 distributed_simplicial_mesh<D> with_bent_edges(distributed_simplicial_mesh<D> mesh) {
   auto nodes = std::make_shared<mid_edge_nodes<D>>();
-  const auto bent = [](const simplex<1>& edge, const std::vector<vec3>& points) {
+  const auto bent = [](const simplex<1>& edge, std::span<const vec3> points) {
     return bent_middle(points[static_cast<std::size_t>(edge[0])], points[static_cast<std::size_t>(edge[1])]);
   };
   nodes->edges = edges_of(mesh.skeleton);

@@ -58,16 +58,16 @@ std::vector<local_id> cut_skeleton(const simplicial_mesh<3>& mesh, const std::ve
       auto& s = skeleton_point[static_cast<std::size_t>(first.side[k])];
       if (s == no_id) {
         s = static_cast<local_id>(skeleton.points.size());
-        skeleton.points.push_back(mesh.points[static_cast<std::size_t>(first.side[k])]);
-        skeleton.point_hosts.push_back(host_of(simplex<0>{first.side[k]}));
+        skeleton.points.own().push_back(mesh.points[static_cast<std::size_t>(first.side[k])]);
+        skeleton.point_hosts.own().push_back(host_of(simplex<0>{first.side[k]}));
       }
       triangle[k] = s;
       edges.push_back({first.key[k == 2 ? 1 : 0], first.key[k == 0 ? 1 : 2]});
     }
-    skeleton.sides.push_back(triangle);
-    skeleton.subdomains.push_back({first.subdomain, other});
+    skeleton.sides.own().push_back(triangle);
+    skeleton.subdomains.own().push_back({first.subdomain, other});
     const auto on = host_of(first.side);
-    skeleton.side_hosts.push_back(on.dimension == 2 ? on.id : no_id);
+    skeleton.side_hosts.own().push_back(on.dimension == 2 ? on.id : no_id);
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -53,8 +53,8 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
       if (at == no_id) {
         at = next++;
         changed.skeleton_points.push_back(static_cast<local_id>(with_sheet.skeleton.points.size()));
-        with_sheet.skeleton.points.push_back(piece.mesh.points[static_cast<std::size_t>(side[k])]);
-        with_sheet.skeleton.point_hosts.push_back({2, 99});
+        with_sheet.skeleton.points.own().push_back(piece.mesh.points[static_cast<std::size_t>(side[k])]);
+        with_sheet.skeleton.point_hosts.own().push_back({2, 99});
         --with_sheet.counts[0].inner_points;
       }
       triangle[k] = changed.skeleton_points[static_cast<std::size_t>(at)];
@@ -68,15 +68,15 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
       for (auto& v : e)
         v = place[static_cast<std::size_t>(v)];
     with_sheet.load = [changed](local_id) { return changed; };
-    with_sheet.skeleton.sides.push_back(triangle);
-    with_sheet.skeleton.subdomains.push_back({0, 0});
-    with_sheet.skeleton.side_hosts.push_back(99);
+    with_sheet.skeleton.sides.own().push_back(triangle);
+    with_sheet.skeleton.subdomains.own().push_back({0, 0});
+    with_sheet.skeleton.side_hosts.own().push_back(99);
     auto found = io::check_distributed(with_sheet);
     INFO(found.text());
     CHECK(found.valid());
 
     auto elsewhere = with_sheet; // a sheet on points that are no side
-    elsewhere.skeleton.sides.back()[0] = (triangle[0] + 17) % 60;
+    elsewhere.skeleton.sides.own().back()[0] = (triangle[0] + 17) % 60;
     found = io::check_distributed(elsewhere);
     CHECK(seam_kinds(found) == std::vector{io::seam_fault::missing_triangle});
   }
@@ -106,8 +106,8 @@ TEST_CASE("pieces that fit by their points but not by their triangles are found"
     for (std::size_t b = 0; b < a; ++b) {
       if (skeleton.subdomains[a] != skeleton.subdomains[b] || skeleton.subdomains[a][1] == no_id)
         continue;
-      auto& s = skeleton.sides[a];
-      auto& t = skeleton.sides[b];
+      auto& s = skeleton.sides.own()[a];
+      auto& t = skeleton.sides.own()[b];
       for (int turn = 0; turn < 9; ++turn) {
         if (s[0] == t[1] && s[1] == t[0]) {
           const auto left = s[2], right = t[2];
@@ -129,7 +129,7 @@ TEST_CASE("pieces that fit by their points but not by their triangles are found"
 
 TEST_CASE("a skeleton triangle turned inside out is found") {
   auto mesh = cubes.distributed();
-  std::swap(mesh.skeleton.sides[0][0], mesh.skeleton.sides[0][1]);
+  std::swap(mesh.skeleton.sides.own()[0][0], mesh.skeleton.sides.own()[0][1]);
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("pieces that cannot be indexed are refused with the subdomain's number
   const auto wrong_count = cubes.spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
   CHECK_THROWS_WITH_AS(io::mesh_hash(wrong_count), doctest::Contains("subdomain 6"), mesh_error);
   auto wrong_skeleton = cubes.distributed();
-  wrong_skeleton.skeleton.subdomains[0][0] = 8;
+  wrong_skeleton.skeleton.subdomains.own()[0][0] = 8;
   CHECK_THROWS_AS(io::check_distributed(wrong_skeleton), mesh_error);
 }
 
@@ -169,6 +169,6 @@ TEST_CASE("the hash changes with any coordinate, any connection and any orientat
           piece.mesh.elements[3][0] = piece.mesh.elements[4][1];
         })) != original);
   auto moved = cubes.distributed();
-  moved.skeleton.points[5].x += 1e-15;
+  moved.skeleton.points.own()[5].x += 1e-15;
   CHECK(io::mesh_hash(moved) != original);
 }

@@ -160,7 +160,7 @@ TEST_CASE("a piece that does not fit is an error that names it, and the files st
   auto lost = cubes.distributed();
   for (std::size_t t = 0; t < lost.skeleton.sides.size(); ++t)
     if (lost.skeleton.subdomains[t] == std::array<local_id, 2>{3, no_id}) {
-      std::swap(lost.skeleton.sides[t][0], lost.skeleton.sides[t][1]);
+      std::swap(lost.skeleton.sides.own()[t][0], lost.skeleton.sides.own()[t][1]);
       refused(lost, ("missing skeleton side (first: " + std::to_string(t)).c_str());
       break;
     }
@@ -296,7 +296,7 @@ TEST_CASE("files of pieces that were numbered otherwise are not taken over") {
   other.counts[0].inner_points += 1;
   CHECK_THROWS_WITH_AS(finish(other), doctest::Contains("another decomposition"), usage_error);
   auto moved = pieces.mesh();
-  moved.skeleton.points[0].x += 1e-9;
+  moved.skeleton.points.own()[0].x += 1e-9;
   CHECK_THROWS_WITH_AS(finish(moved), doctest::Contains("another decomposition"), usage_error);
 }
 

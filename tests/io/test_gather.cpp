@@ -106,9 +106,9 @@ TEST_CASE("sides on CAD faces are there once, between their elements, facing out
 
 TEST_CASE("a point of the skeleton that no element uses is left out") {
   auto mesh = testing::stacked_cubes{.cells = 2, .cuts = 2}.distributed();
-  mesh.skeleton.points.insert(mesh.skeleton.points.begin(), {9, 9, 9});
-  mesh.skeleton.point_hosts.insert(mesh.skeleton.point_hosts.begin(), host{});
-  for (auto& side : mesh.skeleton.sides)
+  mesh.skeleton.points.own().insert(mesh.skeleton.points.own().begin(), {9, 9, 9});
+  mesh.skeleton.point_hosts.own().insert(mesh.skeleton.point_hosts.own().begin(), host{});
+  for (auto& side : mesh.skeleton.sides.own())
     for (auto& v : side)
       ++v;
   for (auto& edge : mesh.skeleton.curve_edges)
@@ -130,9 +130,9 @@ TEST_CASE("a point of the skeleton that no element uses is left out") {
 
 TEST_CASE("a skeleton with a side that no piece has is refused") {
   auto mesh = testing::stacked_cubes{.cells = 2, .cuts = 2}.distributed();
-  mesh.skeleton.sides.push_back({0, 1, static_cast<local_id>(mesh.skeleton.points.size()) - 1});
-  mesh.skeleton.subdomains.push_back({0, no_id});
-  mesh.skeleton.side_hosts.push_back(0);
+  mesh.skeleton.sides.own().push_back({0, 1, static_cast<local_id>(mesh.skeleton.points.size()) - 1});
+  mesh.skeleton.subdomains.own().push_back({0, no_id});
+  mesh.skeleton.side_hosts.own().push_back(0);
   CHECK_THROWS_AS(io::gather(mesh), mesh_error);
 }
 
@@ -163,15 +163,15 @@ TEST_CASE("triangles: a generated plane domain in one piece, its boundary edges 
 TEST_CASE("triangles: an edge where three sheets meet is there once, with its first two triangles") {
   distributed_simplicial_mesh<2> mesh;
   mesh.skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  mesh.skeleton.point_hosts.resize(5);
+  mesh.skeleton.point_hosts.own().resize(5);
   for (local_id s = 0; s < 3; ++s) {
-    mesh.skeleton.sides.push_back({0, 1}); // once per triangle
-    mesh.skeleton.subdomains.push_back({s, no_id});
-    mesh.skeleton.side_hosts.push_back(6);
+    mesh.skeleton.sides.own().push_back({0, 1}); // once per triangle
+    mesh.skeleton.subdomains.own().push_back({s, no_id});
+    mesh.skeleton.side_hosts.own().push_back(6);
     for (const simplex<1>& outer : {simplex<1>{1, 2 + s}, simplex<1>{2 + s, 0}}) {
-      mesh.skeleton.sides.push_back(outer);
-      mesh.skeleton.subdomains.push_back({s, no_id});
-      mesh.skeleton.side_hosts.push_back(no_id);
+      mesh.skeleton.sides.own().push_back(outer);
+      mesh.skeleton.subdomains.own().push_back({s, no_id});
+      mesh.skeleton.side_hosts.own().push_back(no_id);
     }
     mesh.counts.push_back({0, 0, 1});
   }

@@ -303,12 +303,12 @@ TEST_CASE("triangles: a plane domain, and sheets that meet in an edge") {
 
   distributed_simplicial_mesh<2> sheets;
   sheets.skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  sheets.skeleton.point_hosts.resize(5);
+  sheets.skeleton.point_hosts.own().resize(5);
   for (local_id s = 0; s < 3; ++s) {
     for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2 + s), std::pair(2 + s, 0)}) {
-      sheets.skeleton.sides.push_back({a, b});
-      sheets.skeleton.subdomains.push_back({s, no_id});
-      sheets.skeleton.side_hosts.push_back(6);
+      sheets.skeleton.sides.own().push_back({a, b});
+      sheets.skeleton.subdomains.own().push_back({s, no_id});
+      sheets.skeleton.side_hosts.own().push_back(6);
     }
     sheets.counts.push_back({0, 0, 1});
   }

@@ -312,7 +312,7 @@ TEST_CASE("pieces that disagree about a shared point are refused") {
   const testing::scratch_folder folder("disagree");
   auto mesh = cubes.distributed();
   io::vtu_writer{}(mesh, folder);
-  for (auto& p : mesh.skeleton.points)
+  for (auto& p : mesh.skeleton.points.own())
     p.x += 1e-9;
   io::vtu_writer{}(mesh, folder / "other");
   std::filesystem::copy_file(folder / "other/mesh_0000.vtu", folder / "mesh_0000.vtu",

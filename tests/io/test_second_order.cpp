@@ -163,7 +163,7 @@ struct two_at_an_arc {
   distributed_simplicial_mesh<2> distributed() const {
     distributed_simplicial_mesh<2> mesh;
     mesh.skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.1, 0}, {0.5, -1, 0}};
-    mesh.skeleton.point_hosts.assign(4, {2, 0});
+    mesh.skeleton.point_hosts.own().assign(4, {2, 0});
     mesh.skeleton.sides = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 1}};
     mesh.skeleton.subdomains = {{0, 1}, {0, no_id}, {0, no_id}, {1, no_id}, {1, no_id}};
     mesh.skeleton.side_hosts = {arc, no_id, no_id, no_id, no_id};

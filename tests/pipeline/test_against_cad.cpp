@@ -38,7 +38,9 @@ struct surface_of_mesh {
 };
 
 surface_of_mesh surface_of(const distributed_mesh& mesh) {
-  surface_of_mesh found{mesh.skeleton.points, mesh.skeleton.point_hosts, {}, {}};
+  surface_of_mesh found;
+  append(found.points, mesh.skeleton.points);
+  append(found.hosts, mesh.skeleton.point_hosts);
   for (std::size_t s = 0; s < mesh.skeleton.sides.size(); ++s)
     if (const auto [a, b, c] = mesh.skeleton.sides[s]; mesh.skeleton.side_hosts[s] != no_id) {
       found.triangles.push_back(

@@ -52,16 +52,16 @@ distributed_simplicial_mesh<2> wings(local_id length, bool in_one_piece) {
   const std::array<vec3, 4> rows{vec3{0, 0, 0}, {1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}};
   for (const vec3& at : rows)
     for (local_id i = 0; i < row; ++i)
-      skeleton.points.push_back(at + vec3{0, 0, static_cast<double>(i)});
-  skeleton.point_hosts.assign(skeleton.points.size(), {2, 0});
+      skeleton.points.own().push_back(at + vec3{0, 0, static_cast<double>(i)});
+  skeleton.point_hosts.own().assign(skeleton.points.size(), {2, 0});
   std::vector<simplicial_piece<2>> pieces(in_one_piece ? 1 : 3);
   for (local_id w = 1; w <= 3; ++w) {
     const local_id to = in_one_piece ? 0 : w - 1;
     auto& piece = pieces[static_cast<std::size_t>(to)];
     const auto add_side = [&](local_id a, local_id b, local_id on) {
-      skeleton.sides.push_back({a, b});
-      skeleton.subdomains.push_back({to, no_id});
-      skeleton.side_hosts.push_back(on);
+      skeleton.sides.own().push_back({a, b});
+      skeleton.subdomains.own().push_back({to, no_id});
+      skeleton.side_hosts.own().push_back(on);
     };
     const local_id tip = w * row;
     for (local_id i = 0; i < length; ++i) {
@@ -138,9 +138,9 @@ TEST_CASE("a CAD face inside a piece stays, also where both of its sides go to o
       auto sheet = table.vertices[s];
       for (local_id& v : sheet)
         v = piece.skeleton_points[static_cast<std::size_t>(v)];
-      mesh.skeleton.sides.push_back(sheet);
-      mesh.skeleton.subdomains.push_back({0, 0});
-      mesh.skeleton.side_hosts.push_back(99);
+      mesh.skeleton.sides.own().push_back(sheet);
+      mesh.skeleton.subdomains.own().push_back({0, 0});
+      mesh.skeleton.side_hosts.own().push_back(99);
       break;
     }
   REQUIRE(io::check_distributed(mesh).valid());

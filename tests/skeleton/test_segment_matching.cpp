@@ -38,7 +38,8 @@ struct two_faces {
           remesh_lines(no_lines_on_it, skeleton.lines, points, size, parallel::serial{}, made_lines), points,
           {});
       return remesh_skeleton(no_lines_on_it, surface_mesh{}, points, skeleton, lines, size,
-                             any_surface_mesher(), parallel::serial{}, made_patches);
+                             any_surface_mesher(), std::vector<local_id>(1, 0), parallel::serial{},
+                             made_patches);
     };
     auto made = fill();
     matched = match_segments(no_lines_on_it, points, skeleton, lines.lines, made, size, least_angle_deg,
