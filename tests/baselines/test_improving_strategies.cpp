@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ using place = std::array<double, 3>;
 using places = std::vector<place>; ///< of the vertices of an element or a side, growing
 
 template <std::size_t N>
-places places_of(const std::vector<vec3>& points, const std::array<local_id, N>& entity) {
+places places_of(std::span<const vec3> points, const std::array<local_id, N>& entity) {
   places at;
   for (const local_id v : entity) {
     const vec3& p = points[static_cast<std::size_t>(v)];
