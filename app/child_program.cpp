@@ -16,7 +16,7 @@
 
 namespace dovetail::app {
 
-int run_program(const std::vector<std::string>& words, bool silent) {
+int run_program(const std::vector<std::string>& words, const std::string& errors) {
   std::vector<std::string> kept = words;
   std::vector<char*> arguments;
   for (std::string& word : kept)
@@ -26,8 +26,8 @@ int run_program(const std::vector<std::string>& words, bool silent) {
   const pid_t child = ::fork();
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (silent)
-      ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+    if (!errors.empty())
+      ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), STDERR_FILENO);
     ::execvp(arguments.front(), arguments.data());
     ::_exit(exit_failure);
   }

@@ -39,10 +39,10 @@ std::vector<const experiment*> chosen_experiments(const std::vector<std::string>
 }
 
 /// A command of this same program, which supervises itself.
-int call_driver(const std::vector<std::string>& words) {
+int call_driver(const std::vector<std::string>& words, const std::string& errors) {
   std::vector<std::string> line{"/proc/self/exe"};
   line.insert(line.end(), words.begin(), words.end());
-  return run_program(line);
+  return run_program(line, errors);
 }
 
 nlohmann::ordered_json origin_of(const experiment_options& options) {
@@ -72,7 +72,7 @@ std::string write_results(const experiment_result& result, const std::filesystem
   const auto picture = folder / (name + ".png");
   const std::vector<std::string> plot{"python3", folder / "experiment_plot.py", folder / (name + ".json"),
                                       picture};
-  if (run_program(plot, true) != exit_ok)
+  if (run_program(plot, "/dev/null") != exit_ok)
     std::fprintf(stderr, "%s is not made for want of python3 with matplotlib; where these are: %s\n",
                  picture.c_str(), command_text(plot).c_str());
   return text;
@@ -92,25 +92,22 @@ int run_experiment(const experiment_options& options) {
   const auto chosen = chosen_experiments(options.names);
   run_maker maker(options, call_driver);
   const output_folder folder(options.out);
-  std::size_t failed = 0, made = 0;
+  std::vector<experiment_result> results;
   try {
     for (const experiment* each : chosen) {
-      experiment_result result{each, origin_of(options), {}};
-      for (const experiment_run& run : each->runs) {
+      experiment_result& result = results.emplace_back(experiment_result{each, origin_of(options), {}});
+      for (const experiment_run& run : each->runs)
         result.runs.push_back(maker.make(run));
-        ++made;
-        failed += result.runs.back().measured.is_null() ? 1 : 0;
-      }
       std::fputs((write_results(result, folder.path()) + '\n').c_str(), stdout);
     }
   } catch (const cancelled&) {
     complain("stopped; the same command goes on after the runs that are finished");
     return exit_stopped;
   }
-  if (failed < made)
-    return exit_ok;
-  complain("all runs failed");
-  return exit_failure;
+  const failure_summary failures = failures_of(results);
+  if (!failures.text.empty())
+    complain(failures.text);
+  return failures.is_error ? exit_failure : exit_ok;
 }
 
 } // namespace dovetail::app

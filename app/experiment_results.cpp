@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace dovetail::app {
@@ -164,6 +165,27 @@ json json_of_run(const run_result& run) {
   return entry;
 }
 
+/// By name: whether it is of our own default method, and what it said if it failed.
+using runs_by_name = std::map<std::string, std::pair<bool, std::string>>;
+
+void add_runs(const std::vector<run_result>& runs, runs_by_name& all) {
+  for (const run_result& run : runs) {
+    all[run.name] = {run.run->options.empty(), run.record.value("failure", "")};
+    add_runs(run.beside, all);
+  }
+}
+
+/// A line for each run that failed, also for those beside, with its message in place of a number.
+void add_failures(const std::vector<run_result>& runs, const std::string& name, const std::string& column,
+                  std::string& text) {
+  for (const run_result& run : runs) {
+    const std::string label = column + run.run->label;
+    if (run.record.contains("failure"))
+      text += csv_line({name, "failure", "", label, "measured", run.record.at("failure").get<std::string>()});
+    add_failures(run.beside, name, label + ", ", text);
+  }
+}
+
 /// What JSON has no number for is null.
 json json_of(const std::vector<double>& values) {
   json list = json::array();
@@ -180,6 +202,27 @@ void add_beside(run_result& result, run_result other) {
     if (!(result.*report).is_null() && !(other.*report).is_null())
       (result.*report)[label] = other.*report;
   result.beside.push_back(std::move(other));
+}
+
+failure_summary failures_of(const std::vector<experiment_result>& results) {
+  runs_by_name all;
+  for (const experiment_result& result : results)
+    add_runs(result.runs, all);
+  failure_summary summary;
+  std::size_t failed = 0;
+  for (const auto& [name, run] : all) {
+    const auto& [ours, message] = run;
+    if (message.empty())
+      continue;
+    ++failed;
+    summary.is_error = summary.is_error || ours;
+    summary.text += (failed == 1 ? ": " : "; ") + name + ": " + message;
+  }
+  if (failed == 0)
+    return summary;
+  summary.is_error = summary.is_error || failed == all.size();
+  summary.text.insert(0, std::to_string(failed) + " of " + std::to_string(all.size()) + " runs failed");
+  return summary;
 }
 
 double value_of(const figure& wanted, const json& document) {
@@ -235,6 +278,7 @@ std::string csv_text(const experiment_result& result) {
           text += csv_line({result.what->name, row.label, row.unit, result.runs[k].run->label, source,
                             number_text(value, 12)});
   }
+  add_failures(result.runs, result.what->name, "", text);
   return text;
 }
 

@@ -20,6 +20,7 @@ struct run_result {
   nlohmann::ordered_json simulated = {};
   nlohmann::ordered_json record = {};  ///< what it was asked for, its command line and sizes
   std::vector<run_result> beside = {}; ///< of the runs in the same column, whose reports are in these too
+  std::string name = {};               ///< where it is kept, and in messages
 };
 
 struct experiment_result {
@@ -27,6 +28,15 @@ struct experiment_result {
   nlohmann::ordered_json origin = {}; ///< command, version, date, scale, seeds
   std::vector<run_result> runs = {};  ///< as the experiment lists them
 };
+
+/// What of all that experiments have made failed. A run that several of them show counts once.
+struct failure_summary {
+  std::string text = {}; ///< "2 of 14 runs failed: NAME: MESSAGE; ..."; empty where none did
+  /// A run of our own default method is among them, which is one without options of its own, or there is no
+  /// other.
+  bool is_error = false;
+};
+failure_summary failures_of(const std::vector<experiment_result>& results);
 
 /// Puts the reports of a run beside this one into its own, and keeps it.
 void add_beside(run_result& result, run_result other);
@@ -43,7 +53,8 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
 
 /// Heading, table, notes, and the command lines of the runs.
 std::string markdown_text(const experiment_result& result);
-/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value.
+/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value; and
+/// one for each run that failed, with "failure" as the row and its message as the value.
 std::string csv_text(const experiment_result& result);
 /// All of it, with what the plots are of.
 std::string json_text(const experiment_result& result);

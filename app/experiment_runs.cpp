@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <string_view>
 
 namespace dovetail::app {
 namespace {
@@ -34,6 +35,17 @@ void write_text(const std::string& text, const std::filesystem::path& path) {
   output_file file(path);
   file.text(text);
   file.commit();
+}
+
+/// What the driver said at last, by its error stream; empty where it said nothing.
+std::string message_in(const std::filesystem::path& file) {
+  constexpr std::string_view speaker = "dovetail: ";
+  std::ifstream stream(file);
+  std::string message;
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(speaker))
+      message = line.substr(speaker.size());
+  return message;
 }
 
 /// Sizes by curvature and walls, times a factor: what `--sizing` reads.
@@ -148,11 +160,13 @@ void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, r
   // Files are nothing to whoever makes the mesh again.
   words.insert(words.end(), {"--out", place.file("mesh"), "--report", place.file("report.json"), "--trace",
                              place.file("trace.json"), "--quiet"});
-  const int code = driver_(words);
+  const std::string errors = place.file("errors.txt");
+  const int code = driver_(words, errors);
   if (code == exit_stopped || stop_was_requested())
     throw cancelled();
   if (code != exit_ok) {
-    result.record["failure"] = "exit code " + std::to_string(code);
+    const std::string message = message_in(errors);
+    result.record["failure"] = message.empty() ? "exit code " + std::to_string(code) : message;
     return;
   }
   result.measured = read_json(place.file("report.json"));
@@ -168,7 +182,7 @@ run_result run_maker::make(const experiment_run& run) {
     throw command_line_error("--scale: " + number_text(options_.scale) + " leaves " +
                              number_text(wanted.elements) + " elements of a mesh; give a smaller one");
   const place_of_run place = place_of(run, wanted);
-  run_result result{.run = &run, .measured = read_json(place.file("report.json"))};
+  run_result result{.run = &run, .measured = read_json(place.file("report.json")), .name = place.name};
   result.record = read_json(place.file("run.json"));
   const bool is_there = result.record.is_object() && result.record.value("asked", json()) == place.asked &&
                         result.measured.is_object() && std::filesystem::exists(place.file("trace.json"));
@@ -177,7 +191,7 @@ run_result run_maker::make(const experiment_run& run) {
   const bool failed = result.measured.is_null();
   if (!options_.quiet)
     std::fprintf(stderr, "%s: %s\n", place.name.c_str(),
-                 failed     ? "failed"
+                 failed     ? ("failed: " + result.record.at("failure").get<std::string>()).c_str()
                  : is_there ? "is there from before, by the same command line"
                             : "made");
   if (!failed && wanted.workers > workers_)

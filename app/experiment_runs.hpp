@@ -15,8 +15,9 @@
 
 namespace dovetail::app {
 
-/// Calls the driver: its words after the program's name. Returns the exit code.
-using driver_call = std::function<int(const std::vector<std::string>&)>;
+/// Calls the driver: its words after the program's name, and the file for its error stream. Returns the exit
+/// code.
+using driver_call = std::function<int(const std::vector<std::string>&, const std::string&)>;
 
 class run_maker {
 public:

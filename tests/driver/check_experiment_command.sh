@@ -66,10 +66,21 @@ experiment fig16 --scale 50000 --quiet
 
 # A run that fails is a result: nothing holds so many elements.
 run_driver experiment table5 --input "$inputs/cube.off" --scale 1e-12 --workers 1 --out "$sandbox/failing"
-((status == 1)) || fault "exit code is $status where all runs fail"
-grep -q "all runs failed" "$sandbox/stderr" || fault "no word on runs that all failed"
-grep -q ': failed$' "$sandbox/stderr" || fault "failed runs are not named"
+((status == 1)) || fault "exit code is $status where runs of our own method fail"
+grep -qE '^dovetail: 3 of 3 runs failed: cube_[^ ]*: .*; cube_' "$sandbox/stderr" || fault "no word on runs that failed"
+grep -qE '^cube_[^ ]*: failed: [^ ]+ ' "$sandbox/stderr" || fault "failed runs are not told as they fail"
 grep -q '`, failed: ' "$sandbox/failing/table5.md" || fault "the table does not say why runs failed"
+
+# So is that of a baseline, which is told by its own message everywhere, and no failure of ours.
+run_driver experiment table10 --input "$inputs/cube.off" --scale 4e6 --workers 1 --out "$sandbox/baseline"
+((status == 0)) || fault "exit code is $status where baselines fail"
+reason="cannot make 128 parts of a graph with [0-9]* nodes"
+grep -qE "^dovetail: 2 of 3 runs failed: cube_[^ ]*=ito: $reason.*; cube_[^ ]*=loehner: $reason" "$sandbox/stderr" ||
+  fault "failed baselines are not counted and named"
+grep -qE "^cube_[^ ]*=ito: failed: $reason" "$sandbox/stderr" || fault "a baseline's message is not told"
+grep -qE "^- Ito: .*, failed: $reason" "$sandbox/baseline/table10.md" || fault "no message in the table"
+grep -qE "^table10,failure,,Loehner,measured,\"?$reason" "$sandbox/baseline/table10.csv" || fault "no message in the CSV"
+grep -qE "\"failure\": \"$reason" "$sandbox/baseline/table10.json" || fault "no message in the JSON"
 
 # A stop leaves what is finished.
 (

@@ -253,6 +253,41 @@ TEST_CASE("a simulation takes the place of a report's times and workers") {
   CHECK(seconds("total") == doctest::Approx(22).epsilon(1e-3));
 }
 
+TEST_CASE("failures are counted and named, and one of our own method is an error") {
+  experiment_result seven = result_of(named("table7"));
+  const auto fail = [](run_result& run, const std::string& message) {
+    run.measured = run.simulated = json();
+    run.record["failure"] = message;
+  };
+  int number = 0;
+  for (run_result& run : seven.runs) {
+    run.name = "ours " + std::to_string(++number);
+    run.beside.front().name = "bisection " + std::to_string(number);
+  }
+  CHECK(failures_of({seven}).text.empty());
+  CHECK_FALSE(failures_of({seven}).is_error);
+  fail(seven.runs[1].beside.front(), "no plane, none");
+  fail(seven.runs[3].beside.front(), "too small");
+  const failure_summary of_others = failures_of({seven, seven}); // the same runs, shown twice
+  CHECK(of_others.text == "2 of 8 runs failed: bisection 2: no plane, none; bisection 4: too small");
+  CHECK_FALSE(of_others.is_error);
+  CHECK(csv_text(seven).find("\ntable7,failure,,\"F16-II, Algorithm 2\",measured,\"no plane, none\"\n") !=
+        std::string::npos);
+  CHECK(json::parse(json_text(seven)).at("runs").at(1).at("beside").at(0).at("failure") == "no plane, none");
+  fail(seven.runs[0], "out of memory");
+  CHECK(failures_of({seven}).is_error);
+  CHECK(failures_of({seven}).text.ends_with("; ours 1: out of memory"));
+
+  experiment_result variants = result_of(named("rules"));
+  for (run_result& run : variants.runs) {
+    run.name = run.run->label;
+    fail(run, "no such file");
+  }
+  CHECK(failures_of({variants}).is_error); // nothing is left to show
+  variants.runs[0].record.erase("failure");
+  CHECK_FALSE(failures_of({variants}).is_error);
+}
+
 std::vector<std::string> lines_of_table(const std::string& markdown) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < markdown.size();) {
