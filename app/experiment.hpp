@@ -39,12 +39,14 @@ constexpr int as_count = -1; ///< in place of digits: "12.3 k"
 
 struct experiment_row {
   std::string label;
-  std::string unit;
-  int digits = 0; ///< after the point, or `as_count`
-  figure paper;   ///< of a column of the paper
-  figure ours;    ///< of a run's report
+  std::string unit = {};
+  int digits = 0;    ///< after the point, or `as_count`
+  figure paper = {}; ///< of a column of the paper
+  figure ours = {};  ///< of a run's report
   /// The figure of the first run over this one's is shown instead.
   bool over_first = false;
+  /// Labels of the runs that have such a step; of the others nothing is shown. Empty: all have it.
+  std::vector<std::string> only_of = {};
 };
 
 /// Rows over another row, one point for each run.

@@ -39,6 +39,11 @@ std::vector<double> over_first(std::vector<double> values) {
   return values;
 }
 
+bool is_of(const experiment_row& row, const experiment_run& run) {
+  return row.only_of.empty() ||
+         std::find(row.only_of.begin(), row.only_of.end(), run.label) != row.only_of.end();
+}
+
 std::string cell(double value, const experiment_row& row) {
   if (!std::isfinite(value))
     return "-";
@@ -238,8 +243,9 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
   row_values values;
   for (const run_result& run : result.runs) {
     values.paper.push_back(value_of(row.paper, column_of_paper(*run.run)));
-    values.measured.push_back(value_of(row.ours, run.measured));
-    values.simulated.push_back(value_of(row.ours, run.simulated));
+    const figure ours = is_of(row, *run.run) ? row.ours : figure();
+    values.measured.push_back(value_of(ours, run.measured));
+    values.simulated.push_back(value_of(ours, run.simulated));
   }
   if (!row.over_first)
     return values;
@@ -265,18 +271,26 @@ std::string markdown_text(const experiment_result& result) {
 }
 
 std::string csv_text(const experiment_result& result) {
-  constexpr std::pair<const char*, std::vector<double> row_values::*> sources[] = {
-      {"paper", &row_values::paper},
-      {"measured", &row_values::measured},
-      {"simulated", &row_values::simulated}};
+  struct source_of_values {
+    const char* name;
+    std::vector<double> row_values::*values;
+    bool is_ours;
+  };
+  constexpr source_of_values sources[] = {{"paper", &row_values::paper, false},
+                                          {"measured", &row_values::measured, true},
+                                          {"simulated", &row_values::simulated, true}};
   std::string text = csv_line({"experiment", "row", "unit", "run", "source", "value"});
   for (const experiment_row& row : result.what->rows) {
     const row_values values = values_of(row, result);
-    for (std::size_t k = 0; k < result.runs.size(); ++k)
-      for (const auto& [source, member] : sources)
-        if (const double value = (values.*member)[k]; std::isfinite(value))
-          text += csv_line({result.what->name, row.label, row.unit, result.runs[k].run->label, source,
-                            number_text(value, 12)});
+    for (std::size_t k = 0; k < result.runs.size(); ++k) {
+      const experiment_run& run = *result.runs[k].run;
+      for (const source_of_values& source : sources) {
+        const double value = (values.*source.values)[k];
+        if (std::isfinite(value) || (source.is_ours && !is_of(row, run)))
+          text += csv_line({result.what->name, row.label, row.unit, run.label, source.name,
+                            std::isfinite(value) ? number_text(value, 12) : ""});
+      }
+    }
   }
   add_failures(result.runs, result.what->name, "", text);
   return text;

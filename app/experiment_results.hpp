@@ -53,8 +53,9 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
 
 /// Heading, table, notes, and the command lines of the runs.
 std::string markdown_text(const experiment_result& result);
-/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value; and
-/// one for each run that failed, with "failure" as the row and its message as the value.
+/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value,
+/// which is empty where the run's method has no such step; and one for each run that failed, with "failure"
+/// as the row and its message as the value.
 std::string csv_text(const experiment_result& result);
 /// All of it, with what the plots are of.
 std::string json_text(const experiment_result& result);

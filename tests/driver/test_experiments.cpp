@@ -125,8 +125,10 @@ TEST_CASE("every experiment names figures that the paper's columns and reports h
         for (std::size_t k = 0; k < each.runs.size(); ++k)
           CHECK(std::isfinite(values.paper[k]) == !each.runs[k].table.empty());
       if (!row.ours.sum.empty()) {
-        CHECK(std::all_of(values.measured.begin(), values.measured.end(), is_there));
-        CHECK(std::all_of(values.simulated.begin(), values.simulated.end(), is_there));
+        const auto shown =
+            static_cast<std::ptrdiff_t>(row.only_of.empty() ? each.runs.size() : row.only_of.size());
+        CHECK(std::count_if(values.measured.begin(), values.measured.end(), is_there) == shown);
+        CHECK(std::count_if(values.simulated.begin(), values.simulated.end(), is_there) == shown);
       }
     }
     const auto has_row = [&](const std::string& label) {
@@ -251,6 +253,22 @@ TEST_CASE("a simulation takes the place of a report's times and workers") {
   CHECK(seconds("improvement") == doctest::Approx(2).epsilon(1e-3));
   CHECK(seconds("output") == doctest::Approx(4));
   CHECK(seconds("total") == doctest::Approx(22).epsilon(1e-3));
+}
+
+TEST_CASE("a step that a method has not is blank, and one that took no time is zero") {
+  experiment_result ten = result_of(named("table10"));
+  ten.runs[0].measured["seconds"]["writing_back"] = 0.0;
+  CHECK(markdown_text(ten).find("| Writing back (s) | - | 0.00 | 0.12 | - | - | - |") != std::string::npos);
+  CHECK(markdown_text(ten).find("| Largest piece over the mean | - | - | - | - | 0.00 | 0.00 |") !=
+        std::string::npos);
+  for (const char* line : {"Writing back,s,Ito,measured,0", "Writing back,s,Loehner,measured,",
+                           "Writing back,s,Loehner,simulated,"})
+    CHECK(csv_text(ten).find(std::string("\ntable10,") + line + '\n') != std::string::npos);
+  CHECK(csv_text(ten).find("Writing back,s,Loehner,paper") == std::string::npos);
+  const json rows = json::parse(json_text(ten)).at("rows");
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [](const json& each) { return each.at("label") == "Writing back"; });
+  CHECK(row->at("measured") == json{0.0, nullptr});
 }
 
 TEST_CASE("failures are counted and named, and one of our own method is an error") {
