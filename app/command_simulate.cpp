@@ -1,4 +1,5 @@
 #include "commands.hpp"
+#include "entire_scheme.hpp"
 #include "failure.hpp"
 #include "paper_figures.hpp"
 #include "terminal_progress.hpp"
@@ -32,11 +33,12 @@ simulation::workload wanted_work(const simulate_options& options) {
   return simulation::scaled_to(*options.elements, known.front(), known.back());
 }
 
-/// As the paper counts them: all that comes before the pieces are meshed, but for reading the model.
-bool is_decomposition(const std::vector<simulation::simulated_times>& stages, std::size_t at) {
-  const auto is_meshing = [](const auto& stage) { return stage.stage == "meshing"; };
-  return stages[at].stage != "geometry" &&
-         std::none_of(stages.begin(), stages.begin() + static_cast<std::ptrdiff_t>(at) + 1, is_meshing);
+double seconds_in(const std::vector<std::string>& parts, const simulation::simulated_run& run) {
+  double seconds = 0;
+  for (const simulation::simulated_times& stage : run.stages)
+    if (std::find(parts.begin(), parts.end(), part_of_stage(stage.stage)) != parts.end())
+      seconds += whole(stage);
+  return seconds;
 }
 
 /// One column per number of workers.
@@ -105,22 +107,19 @@ void print_stages(const std::vector<simulation::simulated_run>& runs,
 
 void print(const simulate_options& options, double elements,
            const std::vector<simulation::simulated_run>& runs) {
-  const auto share = [&](std::size_t k, bool decomposition) {
-    double seconds = 0;
-    for (std::size_t s = 0; s < runs[k].stages.size(); ++s)
-      if (is_decomposition(runs[k].stages, s) == decomposition)
-        seconds += whole(runs[k].stages[s]);
-    return seconds;
-  };
+  const auto scheme = [&](std::size_t k) { return seconds_in(scheme_parts(), runs[k]); };
   const auto speed = [&](std::size_t k) {
-    return elements / runs[k].seconds / static_cast<double>(options.workers[k]);
+    return elements / scheme(k) / static_cast<double>(options.workers[k]);
   };
   columns table(runs.size());
   std::printf("Simulated, for %s tetrahedra\n", count_text(elements).c_str());
   table.row("No. of workers", [&](std::size_t k) { return std::to_string(options.workers[k]); });
-  table.row("Entire scheme (s)", [&](std::size_t k) { return fixed(runs[k].seconds, 1); });
-  table.row("  Domain decomposition", [&](std::size_t k) { return fixed(share(k, true), 1); });
-  table.row("  Other steps", [&](std::size_t k) { return fixed(share(k, false), 1); });
+  table.row("Entire scheme (s)", [&](std::size_t k) { return fixed(scheme(k), 1); });
+  table.row("  Domain decomposition",
+            [&](std::size_t k) { return fixed(seconds_in(decomposition_parts(), runs[k]), 1); });
+  table.row("  Other steps", [&](std::size_t k) { return fixed(seconds_in(other_parts(), runs[k]), 1); });
+  table.row("Reading and finishing (s)",
+            [&](std::size_t k) { return fixed(runs[k].seconds - scheme(k), 1); });
   table.row("Relative speed (elements/s/worker)", [&](std::size_t k) { return count_text(speed(k)); });
   table.row("  of that of the first (percent)",
             [&](std::size_t k) { return fixed(100 * speed(k) / speed(0), 0); });

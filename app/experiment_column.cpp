@@ -1,48 +1,19 @@
 #include "experiment_column.hpp"
 
+#include "entire_scheme.hpp"
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/read_trace.hpp"
 #include "dovetail/simulation/simulate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace dovetail::app {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-/// The part of a report's times to which a stage of the trace belongs. What is neither before the skeleton
-/// nor after it makes the skeleton: lines, matching, detours.
-std::string part_of(const std::string& stage) {
-  constexpr std::array<std::pair<const char*, const char*>, 20> parts{
-      {{"geometry", "geometry"},
-       {"planning", "background"},
-       {"background surface", "background"},
-       {"background volume", "background"},
-       {"simplification", "simplification"},
-       {"partition", "partition"},
-       {"intersection", "intersection"},
-       {"recursive bisection", "bisection"},
-       {"meshing", "meshing"},
-       {"redistributing elements", "redistribution"},
-       {"simplifying pieces", "redistribution"},
-       {"cutting pieces", "redistribution"},
-       {"moving elements", "redistribution"},
-       {"improving pieces", "first_pass"},
-       {"first pass", "first_pass"},
-       {"collection", "between_passes"},
-       {"redistribution", "between_passes"},
-       {"second pass", "second_pass"},
-       {"writing back", "writing_back"},
-       {"finishing", "output"}}};
-  const auto* const found =
-      std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == stage; });
-  return found == parts.end() ? "skeleton" : found->second;
-}
 
 } // namespace
 
@@ -81,7 +52,7 @@ json simulated_report(const json& report, const std::filesystem::path& trace, st
   };
   const double share = meshing + improvement > 0 ? improvement / (meshing + improvement) : 0;
   for (const simulation::simulated_times& stage : run.stages) {
-    const std::string part = part_of(stage.stage);
+    const std::string part = part_of_stage(stage.stage);
     const double time = whole(stage);
     add(part, part == "meshing" ? time * (1 - share) : time);
     if (part == "meshing")

@@ -52,7 +52,7 @@ void add_general(table& rows, const run_figures& figures) {
 void add_timing(table& rows, const run_figures& figures) {
   const stage_seconds& s = figures.seconds;
   rows.heading("Timing (seconds)");
-  rows.row("Entire scheme", "%.2f", s.total);
+  rows.row("Entire run", "%.2f", s.total);
   rows.row("  Geometry", "%.2f", s.geometry);
   rows.row("  Domain decomposition", "%.2f",
            s.background + s.simplification + s.partition + s.skeleton + s.intersection + s.bisection);

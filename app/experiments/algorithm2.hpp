@@ -39,10 +39,7 @@ inline summed bisection_seconds() {
   return of_second(seconds_of({"bisection"}));
 }
 inline summed second_scheme_seconds() {
-  summed all = surface_seconds();
-  for (const summed& more : {bisection_seconds(), of_second(other_seconds())})
-    all.insert(all.end(), more.begin(), more.end());
-  return all;
+  return of_second(all_seconds());
 }
 
 /// The rows of Algorithm 2. `paper` is before the keys of its figures in the paper's column, and `suffix`

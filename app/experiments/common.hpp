@@ -2,6 +2,7 @@
 /// Figures that several experiments show.
 #pragma once
 
+#include "../entire_scheme.hpp"
 #include "../experiment.hpp"
 
 #include <string>
@@ -17,18 +18,14 @@ inline summed seconds_of(const std::vector<std::string>& stages) {
   return pointers;
 }
 
-/// As the paper groups the stages; its sum of all has neither the reading of the model nor files.
 inline summed decomposition_seconds() {
-  return seconds_of({"background", "simplification", "partition", "skeleton", "intersection"});
+  return seconds_of(decomposition_parts());
 }
 inline summed other_seconds() {
-  return seconds_of({"meshing", "improvement"});
+  return seconds_of(other_parts());
 }
 inline summed all_seconds() {
-  summed all = decomposition_seconds();
-  const summed others = other_seconds();
-  all.insert(all.end(), others.begin(), others.end());
-  return all;
+  return seconds_of(scheme_parts());
 }
 
 inline experiment_row workers_row() {

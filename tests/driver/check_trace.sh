@@ -29,6 +29,24 @@ expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --
 grep -qE '^    not spread( +[0-9]+\.[0-9]{2}){2}$' "$sandbox/stdout" || fault "not a word on what no worker shares"
 grep -A2 "Table 9" "$sandbox/stdout" | grep -q "2648.7 *219.8" || fault "not the paper's columns"
 
+# The entire scheme is without reading and finishing, and the speed is by that.
+stages="geometry 0 10  planning 10 5  recursive_bisection 15 3  meshing 18 20  finishing 38 7"
+{
+  echo '{"otherData": {"workers": 1, "elements": 280000, "seconds": 45},'
+  echo '"traceEvents": ['
+  separator=
+  while read -r name begin seconds; do
+    echo "$separator"'{"ph": "X", "pid": 0, "tid": 0, "name": "'"${name/_/ }"'", "ts": '"${begin}e6, \"dur\": ${seconds}e6, \"args\": {}}"
+    separator=,
+  done <<<"${stages//  /$'\n'}"
+  echo ']}'
+} >"$inputs/stages.json"
+expect_success simulate "$inputs/stages.json" --workers 1
+for row in "Entire scheme \(s\) +28.0" "  Domain decomposition +8.0" "  Other steps +20.0" "Reading and finishing \(s\) +17.0" \
+  "Relative speed \(elements/s/worker\) +10.0 k"; do
+  grep -qE "^  $row$" "$sandbox/stdout" || fault "no row '$row'"
+done
+
 expect_usage_error "give a smaller and a larger one" simulate "$inputs/0.1.json" --elements 1e9
 expect_error "at least 1.5 times" simulate "$inputs/0.1.json" "$inputs/0.1.json" --elements 1e9
 expect_usage_error "workers" simulate "$inputs/0.1.json" --workers 0

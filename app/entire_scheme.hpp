@@ -1,0 +1,62 @@
+/// @file
+/// What the paper calls the entire scheme: which of a run's times are in it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::app {
+
+/// Parts of a run, as its report names their times. Domain decomposition is all up to the meshing of pieces,
+/// by simplification or by bisection.
+inline std::vector<std::string> decomposition_parts() {
+  return {"background", "simplification", "partition", "skeleton", "intersection", "bisection"};
+}
+/// Mesh generation, redistribution and improvement, also where that goes back to the interfaces.
+inline std::vector<std::string> other_parts() {
+  return {"meshing",        "improvement", "redistribution", "first_pass",
+          "between_passes", "second_pass", "writing_back"};
+}
+/// The entire scheme: in its Tables 2, 3, 8 and 9 the paper's times of these add up to it. Neither the
+/// reading of the model ("geometry") is in it nor the pass that checks, counts and writes finished pieces
+/// ("output").
+inline std::vector<std::string> scheme_parts() {
+  std::vector<std::string> parts = decomposition_parts();
+  const std::vector<std::string> others = other_parts();
+  parts.insert(parts.end(), others.begin(), others.end());
+  return parts;
+}
+
+/// The part to which a stage of a trace belongs. What is neither before the skeleton nor after it makes the
+/// skeleton: lines, matching, detours.
+inline std::string part_of_stage(const std::string& stage) {
+  constexpr std::array<std::pair<const char*, const char*>, 20> parts{
+      {{"geometry", "geometry"},
+       {"planning", "background"},
+       {"background surface", "background"},
+       {"background volume", "background"},
+       {"simplification", "simplification"},
+       {"partition", "partition"},
+       {"intersection", "intersection"},
+       {"recursive bisection", "bisection"},
+       {"meshing", "meshing"},
+       {"redistributing elements", "redistribution"},
+       {"simplifying pieces", "redistribution"},
+       {"cutting pieces", "redistribution"},
+       {"moving elements", "redistribution"},
+       {"improving pieces", "first_pass"},
+       {"first pass", "first_pass"},
+       {"collection", "between_passes"},
+       {"redistribution", "between_passes"},
+       {"second pass", "second_pass"},
+       {"writing back", "writing_back"},
+       {"finishing", "output"}}};
+  const auto* const found =
+      std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == stage; });
+  return found == parts.end() ? "skeleton" : found->second;
+}
+
+} // namespace dovetail::app
