@@ -9,6 +9,7 @@
 #include "output.hpp"
 
 #include "dovetail/core/output_file.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/core/version.hpp"
 #include "dovetail/partition/metis.hpp"
 
@@ -93,17 +94,27 @@ int run_experiment(const experiment_options& options) {
   run_maker maker(options, call_driver);
   const output_folder folder(options.out);
   std::vector<experiment_result> results;
+  const stopwatch whole;
+  const auto tell_seconds = [&](const std::string& what, double seconds) {
+    if (!options.quiet)
+      std::fprintf(stderr, "%s: %.1f s\n", what.c_str(), seconds);
+  };
   try {
     for (const experiment* each : chosen) {
+      const stopwatch clock;
       experiment_result& result = results.emplace_back(experiment_result{each, origin_of(options), {}});
       for (const experiment_run& run : each->runs)
         result.runs.push_back(maker.make(run));
+      result.seconds = clock.seconds();
       std::fputs((write_results(result, folder.path()) + '\n').c_str(), stdout);
+      tell_seconds(each->name, result.seconds);
     }
   } catch (const cancelled&) {
     complain("stopped; the same command goes on after the runs that are finished");
     return exit_stopped;
   }
+  if (chosen.size() > 1)
+    tell_seconds("all " + std::to_string(chosen.size()) + " experiments", whole.seconds());
   const failure_summary failures = failures_of(results);
   if (!failures.text.empty())
     complain(failures.text);

@@ -299,6 +299,7 @@ std::string csv_text(const experiment_result& result) {
 std::string json_text(const experiment_result& result) {
   json document{{"experiment", result.what->name}, {"title", result.what->title}};
   document.update(result.origin);
+  document["seconds"] = result.seconds;
   document["paper"] = paper_figures().at("paper");
   document["places"] = places_in_paper(*result.what);
   document["runs"] = json::array();

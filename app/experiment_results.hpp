@@ -27,6 +27,7 @@ struct experiment_result {
   const experiment* what = nullptr;
   nlohmann::ordered_json origin = {}; ///< command, version, date, scale, seeds
   std::vector<run_result> runs = {};  ///< as the experiment lists them
+  double seconds = 0;                 ///< that making them took, without those that were there
 };
 
 /// What of all that experiments have made failed. A run that several of them show counts once.

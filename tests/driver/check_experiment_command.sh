@@ -52,6 +52,16 @@ for name in fig10 fig{13..16}; do
 done
 ! grep -q failed "$sandbox/stderr" || fault "runs fail"
 
+# The seconds of each are told and kept, and those of all; they add up.
+for name in table{2..10} fig10 fig{13..16} thresholds rules; do
+  seconds=$(sed -n "s/^$name: \([0-9.]*\) s$/\1/p" "$sandbox/stderr")
+  kept_seconds=$(sed -n 's/^  "seconds": \([0-9.e-]*\),$/\1/p' "$kept/$name.json")
+  echo "$name ${seconds:-none} ${kept_seconds:-none}"
+done >"$inputs/seconds"
+all=$(sed -n 's/^all 16 experiments: \([0-9.]*\) s$/\1/p' "$sandbox/stderr")
+awk -v all="${all:--1}" '$2 == "none" || $3 == "none" || ($2 - $3)^2 > 0.01 { bad = 1 } { sum += $2 }
+  END { exit bad || sum == 0 || sum > all + 1 }' "$inputs/seconds" || fault "no seconds, or of another time than all took"
+
 # Runs beside others are in their columns: bisection, and what improvers do that go back to the interfaces.
 for label in "Algorithm 2: domain decomposition" "Performance gap" "Entire improvement" "Second pass" "Improvement of Algorithm 1"; do
   for source in measured simulated; do
@@ -62,7 +72,7 @@ for line in 'F16-I, Algorithm 2: `dovetail mesh .*--decomposition bisection' 'It
   grep -qE "^- $line.*, mesh [0-9a-f]{16}$" "$kept"/table{7,10}.md || fault "no line of a run: $line"
 done
 experiment fig16 --scale 50000 --quiet
-! grep -q 'is there' "$sandbox/stderr" || fault "not quiet"
+! grep -q 'is there\|: [0-9.]* s$' "$sandbox/stderr" || fault "not quiet"
 
 # A run that fails is a result: nothing holds so many elements.
 run_driver experiment table5 --input "$inputs/cube.off" --scale 1e-12 --workers 1 --out "$sandbox/failing"

@@ -285,6 +285,8 @@ TEST_CASE("a step that a method has not is blank, and one that took no time is z
                            "Writing back,s,Loehner,simulated,"})
     CHECK(csv_text(ten).find(std::string("\ntable10,") + line + '\n') != std::string::npos);
   CHECK(csv_text(ten).find("Writing back,s,Loehner,paper") == std::string::npos);
+  ten.seconds = 12.5;
+  CHECK(json::parse(json_text(ten)).at("seconds") == 12.5);
   const json rows = json::parse(json_text(ten)).at("rows");
   const auto row = std::find_if(rows.begin(), rows.end(),
                                 [](const json& each) { return each.at("label") == "Writing back"; });
