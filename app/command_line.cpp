@@ -236,6 +236,11 @@ struct parser {
         ->default_str("1,2,4, ..., 512");
     command.add_option("--cores", simulate.machine.cores, "Cores that they share (default: one each)")
         ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--turns-cost", simulate.machine.turns_cost,
+                    "By what fraction each further worker on a core makes work longer")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     command.add_option("--latency", simulate.machine.latency, "Seconds that a message takes")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -123,12 +123,16 @@ void print(const simulate_options& options, double elements,
   table.row("Relative speed (elements/s/worker)", [&](std::size_t k) { return count_text(speed(k)); });
   table.row("  of that of the first (percent)",
             [&](std::size_t k) { return fixed(100 * speed(k) / speed(0), 0); });
-  table.row("Manager (percent of the run)", [&](std::size_t k) {
-    double managing = 0;
-    for (const auto& stage : runs[k].stages)
-      managing += stage.managing;
-    return fixed(100 * managing / runs[k].seconds, 2);
-  });
+  const auto share_row = [&](const char* label, double simulation::simulated_times::*seconds) {
+    table.row(label, [&](std::size_t k) {
+      double sum = 0;
+      for (const auto& stage : runs[k].stages)
+        sum += stage.*seconds;
+      return fixed(100 * sum / runs[k].seconds, 2);
+    });
+  };
+  share_row("Manager (percent of the run)", &simulation::simulated_times::managing);
+  share_row("Manager's link (percent of the run)", &simulation::simulated_times::link);
   print_stages(runs, options.workers);
   if (std::abs(elements / 1e9 - 1) < 0.1)
     print_paper(options.workers);

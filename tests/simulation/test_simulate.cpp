@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -17,7 +18,7 @@ workload tasks(std::size_t count, double seconds, double bytes = 0) {
 }
 
 simulated_machine without_delays(std::int64_t workers) {
-  return {.workers = workers, .latency = 0, .request_seconds = 0};
+  return {.workers = workers, .latency = 0, .bandwidth = 1e300, .request_seconds = 0};
 }
 
 } // namespace
@@ -46,30 +47,84 @@ TEST_CASE("A manager who is slower than the workers decides") {
   simulated_machine machine = without_delays(1000);
   machine.request_seconds = 0.01;
   const auto run = simulate(tasks(5000, 1e-6), machine);
-  // A grant for each of the first two rounds of requests, and one for each result.
-  CHECK(run.stages[0].managing == doctest::Approx(0.01 * (2000 + 5000)));
+  CHECK(run.stages[0].managing == doctest::Approx(0.01 * 5000)); // one answer for each task
   CHECK(run.seconds == doctest::Approx(run.stages[0].managing).epsilon(0.01));
 }
 
-TEST_CASE("Messages take their latency and their bytes; a task granted ahead hides them") {
-  simulated_machine machine{
-      .workers = 1, .latency = 0.5, .bandwidth = 100, .request_seconds = 0, .granted_ahead = 1};
-  // There and back for each task, and 50 bytes each way out.
-  CHECK(simulate(tasks(4, 1, 50), machine).seconds == doctest::Approx(4 * (0.5 + 1 + 0.5 + 0.5)));
-  machine.granted_ahead = 3;
-  CHECK(simulate(tasks(4, 1, 50), machine).seconds == doctest::Approx(0.5 + 4 + 0.5 + 0.5));
-  machine.workers = 4; // who all have to know the results in the end
-  CHECK(simulate(tasks(4, 1, 50), machine).seconds ==
-        doctest::Approx(0.5 + 1 + 0.5 + 0.5 + 200. / 100 + 2 * 0.5));
+// With 100 bytes a second a request takes 0.16 s of a link, a grant 0.24, and a result of 49 bytes one
+// second.
+constexpr simulated_machine slow_network{
+    .workers = 1, .latency = 0.5, .bandwidth = 100, .request_seconds = 0, .granted_ahead = 1};
+
+TEST_CASE("A single worker sends nothing") {
+  const auto run = simulate(tasks(4, 1, 49), slow_network);
+  CHECK(run.seconds == doctest::Approx(4));
+  CHECK(run.stages[0].link == 0);
+}
+
+TEST_CASE("Tasks come by request, and results are told to all in the end") {
+  simulated_machine machine = slow_network;
+  machine.workers = 2;
+  auto run = simulate(tasks(4, 1, 49), machine);
+  // The second worker gets its next task at 2.4 s, ends it, and is told at 4.8 that nothing is left.
+  const double second = 1 + 0.16 + 0.5 + 0.24 + 0.5;
+  const double ended = second + second;
+  const double gathered = ended + 0.16 + 2 + 0.5;
+  const double told = 0.16 + 4 + 2 * 0.08 + 0.5;
+  CHECK(run.seconds == doctest::Approx(gathered + told));
+  CHECK(run.stages[0].link == doctest::Approx(2 * (0.16 + 0.24) + 2.16 + 4.32));
+  CHECK(run.stages[0].busy == doctest::Approx(4));
+  machine.granted_ahead = 2; // dealt without a word: the answer comes while it works, but the last
+  run = simulate(tasks(4, 1, 49), machine);
+  CHECK(run.seconds == doctest::Approx(2 + 0.16 + 0.5 + 0.24 + 0.5 + 2.16 + 0.5 + told));
+}
+
+TEST_CASE("What comes in at once is served one after the other") {
+  simulated_machine machine = slow_network;
+  machine.workers = 3;
+  // Both others ask at 1 s, the second is told at 2.64 s that nothing is left, when the first one's result is
+  // still on the link.
+  const double first_result = 1 + 0.16 + 0.5 + 0.24 + 0.5 + 1.16;
+  const double told = 2 * (0.16 + 3 + 3 * 0.08 + 0.5);
+  CHECK(simulate(tasks(3, 1, 49), machine).seconds == doctest::Approx(first_result + 1.16 + 0.5 + told));
+  // However many send, their bytes are in each copy that the manager tells, and pass its link before.
+  machine.latency = 0;
+  for (const std::int64_t workers : {16, 64, 256}) {
+    machine.workers = workers;
+    const auto all = static_cast<double>(workers);
+    const auto run = simulate(tasks(static_cast<std::size_t>(workers), 1, 1e6), machine);
+    CHECK(run.seconds == doctest::Approx(1e4 * (all - 1 + all * std::log2(all))).epsilon(0.001));
+    CHECK(run.stages[0].link == doctest::Approx(run.seconds).epsilon(0.001));
+  }
+}
+
+TEST_CASE("Who is done early gives its results while others work") {
+  simulated_machine machine = slow_network;
+  machine.workers = 3;
+  machine.latency = 0;
+  workload work = tasks(3, 1, 49);
+  work.stages[0].batches[0][2].seconds = 100;
+  // The second worker's result passed long before; that of the last is waited for.
+  CHECK(simulate(work, machine).seconds ==
+        doctest::Approx(100 + 0.16 + 0.24 + 1.16 + 2 * (0.16 + 3 + 3 * 0.08)));
+}
+
+TEST_CASE("Workers without a task take part when results are told") {
+  simulated_machine machine = slow_network;
+  machine.workers = 1000;
+  const auto run = simulate(tasks(1, 1, 49), machine);
+  CHECK(run.seconds == doctest::Approx(1 + 10 * (0.16 + 1 + 1000 * 0.08 + 0.5)));
 }
 
 TEST_CASE("What one does for all takes its time and that of telling them, however few the cores") {
   workload work{1, {{"partition", 0, {{3, 50}, {1, 0}}}}};
-  simulated_machine machine{.workers = 1, .cores = 1, .latency = 0.5, .bandwidth = 100};
+  simulated_machine machine = slow_network;
+  machine.cores = 1;
   CHECK(simulate(work, machine).stages[0].once == doctest::Approx(4));
-  machine.workers = 4;
+  machine.workers = 4; // told in two rounds
   const auto run = simulate(work, machine);
-  CHECK(run.stages[0].once == doctest::Approx(3 + 0.5 + 2 * 0.5 + 1 + 2 * 0.5));
+  CHECK(run.stages[0].once == doctest::Approx(3 + 2 * (0.66 + 0.5) + 1 + 2 * (0.16 + 0.5)));
+  CHECK(run.stages[0].link == doctest::Approx(2 * 0.66 + 2 * 0.16));
   CHECK(run.seconds == doctest::Approx(run.stages[0].once));
 }
 
@@ -80,6 +135,9 @@ TEST_CASE("Workers who share cores are slower by as much") {
   workload alike = tasks(1, 0);
   alike.stages[0].seconds_alike = 3;
   CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(12));
+  machine.turns_cost = 0.1; // three more on each core
+  CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8 * 1.3));
+  CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(12 * 1.3));
   machine.cores = 16;
   CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(3));
   CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(2));
@@ -116,5 +174,6 @@ TEST_CASE("The bottleneck is the longest stage; machines that cannot be are refu
   CHECK_THROWS_AS(simulate(work, without_delays(0)), usage_error);
   CHECK_THROWS_AS(simulate(work, {.bandwidth = 0}), usage_error);
   CHECK_THROWS_AS(simulate(work, {.latency = -1}), usage_error);
+  CHECK_THROWS_AS(simulate(work, {.turns_cost = -1}), usage_error);
   CHECK_THROWS_AS(simulate(work, {.granted_ahead = 0}), usage_error);
 }
