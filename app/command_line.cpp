@@ -241,6 +241,15 @@ struct parser {
                     "By what fraction each further worker on a core makes work longer")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    auto* nodes = command
+                      .add_option("--cores-per-node", simulate.cores_per_node,
+                                  "Workers on a node, to print the memory that it needs")
+                      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
+    command
+        .add_option("--memory-per-node", simulate.memory_per_node,
+                    "GB of a node, to be told which numbers of workers need more")
+        ->check(CLI::PositiveNumber)
+        ->needs(nodes);
     command.add_option("--latency", simulate.machine.latency, "Seconds that a message takes")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -316,10 +316,19 @@ private:
     figures_.workers = policies_.executor.workers();
     add_pipeline_figures(result, source.geometry.topology(), figures_);
     add_mesh_figures(result.mesh, figures_);
+    if constexpr (D == 3) // the only one whose memory was measured
+      note_sizes(result.mesh);
     figures_.details.name = "mesh";
     figures_.details.children = {source.summary, result.summary};
     figures_.repeatable = stops_by_clock(result.summary) == 0;
     collect_warnings(figures_.details, figures_.warnings);
+  }
+
+  void note_sizes(const distributed_simplicial_mesh<D>& mesh) {
+    sizes_ = {static_cast<double>(figures_.background_elements),
+              static_cast<double>(mesh.skeleton.sides.size()), 0};
+    for (const piece_counts& piece : mesh.counts)
+      sizes_.largest_piece = std::max(sizes_.largest_piece, static_cast<double>(piece.elements));
   }
 
   void add_middles(distributed_simplicial_mesh<D>& mesh, const model_source& source) {
@@ -422,6 +431,7 @@ private:
   void write_trace() const {
     execution_trace trace = trace_->trace();
     trace.elements = static_cast<double>(figures_.elements);
+    trace.sizes = sizes_;
     io::write_trace(trace, options_.trace);
   }
 
@@ -448,6 +458,7 @@ private:
   std::vector<output_format<D>> formats_;
   std::optional<terminal_progress> lines_;
   run_figures figures_;
+  mesh_sizes sizes_; ///< while the mesh was made
 };
 
 } // namespace

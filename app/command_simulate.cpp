@@ -5,7 +5,9 @@
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/io/read_trace.hpp"
+#include "dovetail/simulation/memory.hpp"
 #include "dovetail/simulation/workload.hpp"
 
 #include <algorithm>
@@ -105,6 +107,38 @@ void print_stages(const std::vector<simulation::simulated_run>& runs,
   }
 }
 
+/// What a node needs for a rank with one worker on each core, and for one rank with all of them.
+void print_memory(const simulate_options& options, const mesh_sizes& sizes) {
+  if (!sizes.are_known()) {
+    std::printf("Memory of a node: not known, as a trace does not say how large background, skeleton and "
+                "largest piece are; make it again by mesh --trace\n");
+    return;
+  }
+  struct arrangement {
+    const char* name;
+    bool one_rank;
+  };
+  constexpr double gigabyte = 1e9;
+  columns table(options.workers.size());
+  std::printf("Memory of a node (GB), with up to %lld workers on it\n",
+              static_cast<long long>(*options.cores_per_node));
+  std::string exceeded;
+  for (const arrangement& on_node : {arrangement{"ranks of one worker", false}, {"one rank", true}}) {
+    const auto needed = [&](std::size_t k) {
+      const std::int64_t workers = std::min(options.workers[k], *options.cores_per_node);
+      const simulation::rank_memory memory;
+      return (on_node.one_rank ? memory.of_node(sizes, 1, workers) : memory.of_node(sizes, workers, 1)) /
+             gigabyte;
+    };
+    table.row(std::string("  ") + on_node.name, [&](std::size_t k) { return fixed(needed(k), 1); });
+    for (std::size_t k = 0; options.memory_per_node && k < options.workers.size(); ++k)
+      if (needed(k) > *options.memory_per_node)
+        exceeded += "With " + std::to_string(options.workers[k]) + " workers, " + on_node.name +
+                    " on a node, more than its " + number_text(*options.memory_per_node) + " GB\n";
+  }
+  std::fputs(exceeded.c_str(), stdout);
+}
+
 void print(const simulate_options& options, double elements,
            const std::vector<simulation::simulated_run>& runs) {
   const auto scheme = [&](std::size_t k) { return seconds_in(scheme_parts(), runs[k]); };
@@ -114,12 +148,12 @@ void print(const simulate_options& options, double elements,
   columns table(runs.size());
   std::printf("Simulated, for %s tetrahedra\n", count_text(elements).c_str());
   table.row("No. of workers", [&](std::size_t k) { return std::to_string(options.workers[k]); });
-  table.row("Entire scheme (s)", [&](std::size_t k) { return fixed(scheme(k), 1); });
+  table.row("Entire scheme (s)", [&](std::size_t k) { return fixed(scheme(k), 2); });
   table.row("  Domain decomposition",
-            [&](std::size_t k) { return fixed(seconds_in(decomposition_parts(), runs[k]), 1); });
-  table.row("  Other steps", [&](std::size_t k) { return fixed(seconds_in(other_parts(), runs[k]), 1); });
+            [&](std::size_t k) { return fixed(seconds_in(decomposition_parts(), runs[k]), 2); });
+  table.row("  Other steps", [&](std::size_t k) { return fixed(seconds_in(other_parts(), runs[k]), 2); });
   table.row("Reading and finishing (s)",
-            [&](std::size_t k) { return fixed(runs[k].seconds - scheme(k), 1); });
+            [&](std::size_t k) { return fixed(runs[k].seconds - scheme(k), 2); });
   table.row("Relative speed (elements/s/worker)", [&](std::size_t k) { return count_text(speed(k)); });
   table.row("  of that of the first (percent)",
             [&](std::size_t k) { return fixed(100 * speed(k) / speed(0), 0); });
@@ -149,6 +183,8 @@ int run_simulate(const simulate_options& options) {
     runs.push_back(simulation::simulate(work, machine));
   }
   print(options, work.elements, runs);
+  if (options.cores_per_node)
+    print_memory(options, work.sizes);
   return exit_ok;
 }
 

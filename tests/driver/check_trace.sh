@@ -42,10 +42,26 @@ stages="geometry 0 10  planning 10 5  recursive_bisection 15 3  meshing 18 20  f
   echo ']}'
 } >"$inputs/stages.json"
 expect_success simulate "$inputs/stages.json" --workers 1
-for row in "Entire scheme \(s\) +28.0" "  Domain decomposition +8.0" "  Other steps +20.0" "Reading and finishing \(s\) +17.0" \
+for row in "Entire scheme \(s\) +28.00" "  Domain decomposition +8.00" "  Other steps +20.00" "Reading and finishing \(s\) +17.00" \
   "Relative speed \(elements/s/worker\) +10.0 k"; do
   grep -qE "^  $row$" "$sandbox/stdout" || fault "no row '$row'"
 done
+
+# The memory of a node, where the trace says what it goes with.
+grep -q '"largest_piece": [1-9]' "$inputs/0.1.json" || fault "the trace does not say how large a piece is"
+grep -q "Memory" "$sandbox/stdout" && fault "memory that was not asked for"
+expect_success simulate "$inputs/0.1.json" --workers 1,4 --cores-per-node 4 --memory-per-node 0.15
+memory_of() { sed -n "s/^ *$1 *\([0-9.]*\) *\([0-9.]*\)\$/\1 \2/p" "$sandbox/stdout"; }
+[[ $(memory_of "ranks of one worker") == "0.1 0.2" ]] || fault "four ranks need '$(memory_of "ranks of one worker")' GB"
+[[ $(memory_of "one rank") == "0.1 0.1" ]] || fault "one rank needs '$(memory_of "one rank")' GB"
+[[ $(grep "more than its" "$sandbox/stdout") == "With 4 workers, ranks of one worker on a node, more than its 0.15 GB" ]] ||
+  fault "not the one number of workers that is too much"
+expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --workers 64 --cores-per-node 32
+grep -q "with up to 32 workers" "$sandbox/stdout" || fault "no memory for another size"
+sed 's/, "background_elements.*}/}/' "$inputs/0.1.json" >"$inputs/older.json"
+expect_success simulate "$inputs/older.json" --cores-per-node 4
+grep -q "Memory of a node: not known" "$sandbox/stdout" || fault "memory from a trace without sizes"
+expect_usage_error "cores-per-node" simulate "$inputs/0.1.json" --memory-per-node 4
 
 expect_usage_error "give a smaller and a larger one" simulate "$inputs/0.1.json" --elements 1e9
 expect_error "at least 1.5 times" simulate "$inputs/0.1.json" "$inputs/0.1.json" --elements 1e9

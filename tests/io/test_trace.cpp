@@ -17,6 +17,7 @@ execution_trace small_trace() {
   trace.stages = {{"planning", 0, 1.25}, {"meshing", 1.25, 9.5}};
   trace.batches = {{"meshing", 1.5, 9, {{0, 1, 0.25, 3.5, 1000}, {1, 0, 0.125, 7, 0}}, 1},
                    {"finishing", 9, 9.25, {{0, 0, 0, 0.125, 16}}, 0, true}};
+  trace.sizes = {5000, 70000, 12345.5};
   return trace;
 }
 
@@ -27,6 +28,11 @@ TEST_CASE("A trace is read back as it was written, and its events are those of t
   const auto file = scratch / "trace.json";
   io::write_trace(small_trace(), file);
   CHECK(io::read_trace(file) == small_trace());
+
+  execution_trace without_sizes = small_trace();
+  without_sizes.sizes = {};
+  io::write_trace(without_sizes, scratch / "older.json");
+  CHECK(io::read_trace(scratch / "older.json") == without_sizes);
 
   std::ifstream text(file);
   const std::string all{std::istreambuf_iterator<char>(text), std::istreambuf_iterator<char>()};
@@ -53,6 +59,8 @@ TEST_CASE("What is no trace is refused by file and line") {
   refused("{", "not valid JSON");
   refused("[]", "there is no \"otherData\"");
   refused("{\n\"otherData\": {\"workers\": 0}}", "trace.json:2: \"workers\" is no number in its range");
+  refused(R"({"otherData": {"workers": 1, "elements": 1, "seconds": 1, "largest_piece": 5}})",
+          "there is no \"background_elements\"");
   const std::string about = R"({"otherData": {"workers": 1, "elements": 1, "seconds": 1},)";
   refused(about + R"("other": 1})", "there is no \"traceEvents\"");
   refused(about + R"("traceEvents": [{"ph": "X", "tid": 0, "ts": -1}]})", "\"ts\" is no number");

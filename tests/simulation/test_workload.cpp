@@ -27,8 +27,10 @@ TEST_CASE("Stages come from a trace in their order, batches to the stage of thei
                    {"meshing", 2.75, 2.75, {{0, 0, 0, 0.5, 1}}}, // of what is planned
                    {"planning", 4.75, 4.8, {{0, 0, 0, 0.025, 6}}, 0, true},
                    {"meshing", 5, 9, {{0, 0, 0, 4, 9}}}};
+  trace.sizes = {4, 5, 6};
   const workload work = workload_of(trace);
   CHECK(work.elements == 10);
+  CHECK(work.sizes == trace.sizes);
   REQUIRE(work.stages.size() == 3);
   CHECK(work.stages[0].stage == "planning");
   CHECK(work.stages[0].seconds_alike == doctest::Approx(1.5 + 0.45));
@@ -71,6 +73,17 @@ TEST_CASE("Work for more elements follows the power laws of two runs") {
   REQUIRE(once.stages[0].once.size() == 2);
   CHECK(once.stages[0].once[0].seconds == doctest::Approx(32));
   CHECK(once.stages[0].once[1].bytes == doctest::Approx(1600));
+}
+
+TEST_CASE("Sizes have a law each, unless a run does not know them") {
+  workload small = run_of(1e6, 1, 10, 1), large = run_of(4e6, 1, 10, 1);
+  large.sizes = {100, 200, 300};
+  CHECK_FALSE(scaled_to(16e6, small, large).sizes.are_known());
+  small.sizes = {100, 100, 10}; // the last one grows faster than the elements
+  const mesh_sizes scaled = scaled_to(16e6, small, large).sizes;
+  CHECK(scaled.background_elements == doctest::Approx(100));
+  CHECK(scaled.skeleton_sides == doctest::Approx(400));
+  CHECK(scaled.largest_piece == doctest::Approx(1200));
 }
 
 TEST_CASE("Scaled to itself a run is what it was, but for the rest of its tasks it keeps their costs") {

@@ -28,6 +28,9 @@ public:
     trace_.workers = static_cast<int>(number(about, "workers", 1, 1e9));
     trace_.elements = number(about, "elements", 0, 1e18);
     trace_.seconds = number(about, "seconds", 0, 1e9);
+    if (about.find("largest_piece") != nullptr) // older traces have none of these
+      trace_.sizes = {number(about, "background_elements", 0, 1e18), number(about, "skeleton_sides", 0, 1e18),
+                      number(about, "largest_piece", 1, 1e18)};
     for (const auto& event : member(root, "traceEvents").items)
       if (text(event, "ph") == "X")
         add(event);

@@ -66,6 +66,14 @@ inline void write_trace(const execution_trace& trace, const std::filesystem::pat
   file.number(trace.elements);
   file.text(", \"seconds\": ");
   file.number(trace.seconds);
+  if (trace.sizes.are_known()) {
+    file.text(", \"background_elements\": ");
+    file.number(trace.sizes.background_elements);
+    file.text(", \"skeleton_sides\": ");
+    file.number(trace.sizes.skeleton_sides);
+    file.text(", \"largest_piece\": ");
+    file.number(trace.sizes.largest_piece);
+  }
   file.text("},\n\"displayTimeUnit\": \"ms\",\n\"traceEvents\": [");
   trace_events events(file);
   events.name_thread(trace_events::stages, "stages");

@@ -41,10 +41,21 @@ struct stage_span {
   friend bool operator==(const stage_span&, const stage_span&) = default;
 };
 
+/// What the memory of a rank goes with.
+struct mesh_sizes {
+  double background_elements = 0;
+  double skeleton_sides = 0;
+  double largest_piece = 0; ///< its elements; 0 where none of these are known
+
+  bool are_known() const { return largest_piece > 0; }
+  friend bool operator==(const mesh_sizes&, const mesh_sizes&) = default;
+};
+
 /// As `parallel::traced` makes it, in the order in which things began.
 struct execution_trace {
   int workers = 1;
   double elements = 0; ///< of the mesh that was made, when known
+  mesh_sizes sizes = {};
   double seconds = 0;
   std::vector<stage_span> stages = {};
   std::vector<batch_span> batches = {};

@@ -33,6 +33,7 @@ struct simulated_stage {
 struct workload {
   double elements = 0;
   std::vector<simulated_stage> stages = {};
+  mesh_sizes sizes = {};
 };
 
 /// The stages of a trace by their names, in the order in which they are first met; a batch belongs to the
@@ -41,7 +42,7 @@ struct workload {
 inline workload workload_of(const execution_trace& trace) {
   if (trace.stages.empty())
     throw usage_error("a trace without stages cannot be simulated; give the progress of the run to traced");
-  workload work{.elements = trace.elements};
+  workload work{.elements = trace.elements, .sizes = trace.sizes};
   const auto stage_called = [&](const std::string& name) -> simulated_stage& {
     const auto found = std::find_if(work.stages.begin(), work.stages.end(),
                                     [&](const simulated_stage& s) { return s.stage == name; });
@@ -103,13 +104,25 @@ inline double growth(double small, double large, double times_elements, double l
   return std::clamp(std::log(large / small) / std::log(times_elements), least, most);
 }
 
+/// Sizes for a mesh of `factor` times the elements of the larger run, which has `times` those of the smaller.
+inline mesh_sizes sizes_scaled(double factor, const mesh_sizes& small, const mesh_sizes& large,
+                               double times) {
+  if (!small.are_known() || !large.are_known())
+    return {};
+  const auto scaled = [&](double mesh_sizes::*size) {
+    return large.*size * std::pow(factor, growth(small.*size, large.*size, times, 0, 1));
+  };
+  return {scaled(&mesh_sizes::background_elements), scaled(&mesh_sizes::skeleton_sides),
+          scaled(&mesh_sizes::largest_piece)};
+}
+
 } // namespace detail
 
 /// The work for a mesh of so many elements, by power laws through two runs of different sizes, of which the
 /// larger one gives the order of batches and how tasks differ: for each stage a law for what all do alike,
-/// for what one does for all, for the number of tasks and for the time of one. What takes less than
-/// `short_time` in the larger run grows with the elements. Throws `usage_error` unless the second run has at
-/// least 1.5 times the elements.
+/// for what one does for all, for the number of tasks and for the time of one; and for each of the sizes, if
+/// both runs know them. What takes less than `short_time` in the larger run grows with the elements. Throws
+/// `usage_error` unless the second run has at least 1.5 times the elements.
 inline workload scaled_to(double elements, const workload& smaller, const workload& larger,
                           double short_time = 1e-3) {
   const double times = larger.elements / smaller.elements;
@@ -118,7 +131,8 @@ inline workload scaled_to(double elements, const workload& smaller, const worklo
                       "times as many elements, one after the other");
   const double factor = elements / larger.elements;
   const auto small = detail::sums_of(smaller), large = detail::sums_of(larger);
-  workload scaled{.elements = elements};
+  workload scaled{.elements = elements,
+                  .sizes = detail::sizes_scaled(factor, smaller.sizes, larger.sizes, times)};
   for (const simulated_stage& stage : larger.stages) {
     const detail::stage_sums now = large.at(stage.stage);
     const auto before = small.find(stage.stage);

@@ -1,0 +1,21 @@
+#include "dovetail/simulation/memory.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace dovetail;
+using namespace dovetail::simulation;
+
+TEST_CASE("Ranks hold background and skeleton once each, their workers a piece each") {
+  const rank_memory memory{1000, 100, 10, 1};
+  const mesh_sizes sizes{.background_elements = 5, .skeleton_sides = 7, .largest_piece = 3};
+  CHECK(memory.of_node(sizes, 1, 1) == doctest::Approx(1000 + 500 + 70 + 3));
+  CHECK(memory.of_node(sizes, 4, 1) == doctest::Approx(4 * 1573));
+  CHECK(memory.of_node(sizes, 1, 4) == doctest::Approx(1570 + 4 * 3));
+  CHECK(memory.of_node(sizes, 2, 3) == doctest::Approx(2 * (1570 + 3 * 3)));
+}
+
+TEST_CASE(
+    "A rank of the run of a billion elements needs what two workers were seen to have, within a fifth") {
+  const mesh_sizes sizes{.background_elements = 1769589, .skeleton_sides = 20e6, .largest_piece = 720e3};
+  CHECK(rank_memory{}.of_node(sizes, 1, 2) == doctest::Approx(2758e6).epsilon(0.2));
+}
