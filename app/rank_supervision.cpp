@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #ifdef DOVETAIL_DRIVER_WITH_MPI
+#include "neighbouring_relays.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/bytes.hpp"
@@ -14,13 +15,20 @@
 
 #include <boost/mpi/environment.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -82,6 +90,44 @@ private:
   int file_;
 };
 
+/// The network of the computing process, which ends with its relay: it sees first that nobody answers, of
+/// which there is nothing to say.
+class network_by_relay {
+public:
+  explicit network_by_relay(int socket) : socket_(socket), network_(socket) {}
+
+  int rank() const { return network_.rank(); }
+  int size() const { return network_.size(); }
+  void send(int to, std::int32_t tag, byte_buffer bytes) {
+    with_relay([&] { network_.send(to, tag, std::move(bytes)); });
+  }
+  std::optional<rank_message> receive() {
+    return with_relay([&] { return network_.receive(); });
+  }
+  void wait(std::chrono::milliseconds at_most) {
+    with_relay([&] { network_.wait(at_most); });
+  }
+  int descriptor() const { return network_.descriptor(); }
+  bool shares_process() const { return network_.shares_process(); }
+  void abandon(const std::string& reason) { network_.abandon(reason); }
+
+private:
+  template <class F>
+  std::invoke_result_t<const F&> with_relay(const F& f) {
+    try {
+      return f();
+    } catch (const communication_error&) {
+      pollfd relay{socket_, POLLRDHUP, 0};
+      if (::poll(&relay, 1, 0) > 0)
+        std::this_thread::sleep_for(std::chrono::seconds(5)); // the signal that ends this process is near
+      throw;
+    }
+  }
+
+  int socket_;
+  parallel::relayed network_;
+};
+
 /// How the computing process of a rank has ended.
 struct rank_end {
   int code = exit_ok;
@@ -106,12 +152,15 @@ byte_buffer encode_end(const rank_end& end) {
   return to.take();
 }
 
-/// Passes messages until the computing process has ended.
-rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int socket,
-                         const kept_error_stream& said) {
+using relay_network = watched_network<parallel::mpi>;
+
+/// Passes messages until the computing process has ended. Throws `relay_lost`.
+rank_end relay_until_end(supervisor& computing, relay_network& network, const neighbouring_relays& neighbours,
+                         int socket, const kept_error_stream& said) {
   parallel::relay relay(network, socket);
   bool others_go_on = true;
-  while (!computing.has_ended(pause)) {
+  // When a relay is killed, mpirun asks the others to stop: not what the user did.
+  while (!computing.has_ended(pause, [&] { return neighbours.all_live(); })) {
     try {
       if (others_go_on)
         while (relay.step()) {
@@ -143,41 +192,76 @@ rank_end relay_until_end(supervisor& computing, parallel::mpi& network, int sock
 /// On rank 0: the exit code of all, with what is to be said on the error stream.
 int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
              const std::function<bool()>& clean_up) {
-  const rank_end* failed = nullptr;
-  for (const rank_end& end : ends)
-    if (end.code != exit_ok && end.by_itself && failed == nullptr)
-      failed = &end;
-  if (failed == nullptr)
+  const auto has_failed = [](const rank_end& end) { return end.code != exit_ok && end.by_itself; };
+  const auto failed = std::find_if(ends.begin(), ends.end(), has_failed);
+  if (failed == ends.end())
     return exit_ok;
   const bool can_go_on = cleaned_up(clean_up);
   const bool stopped = failed->code == exit_stopped;
-  if (failed != &ends.front() || !first_has_spoken)
-    complain(stopped ? stopped_line(can_go_on)
-             : failed == &ends.front()
-                 ? failed->cause
-                 : "rank " + std::to_string(failed - ends.data()) + ": " + failed->cause);
+  const bool all_alike =
+      std::all_of(ends.begin(), ends.end(), [&](const rank_end& end) { return end.cause == failed->cause; });
+  if (failed != ends.begin() || !first_has_spoken)
+    complain(stopped     ? stopped_line(can_go_on)
+             : all_alike ? failed->cause
+                         : "rank " + std::to_string(failed - ends.begin()) + ": " + failed->cause);
   return failed->code;
+}
+
+/// What is left to do on the machine of a relay that was killed, in the second that mpirun leaves the ranks.
+/// One of its neighbours says so, and cleans up; the others stay until then, or they would be taken for
+/// killed too.
+[[noreturn]] void end_without(int lost, supervisor& computing, const neighbouring_relays& neighbours,
+                              const std::function<bool()>& clean_up) {
+  const int speaker = neighbours.first_living();
+  const bool speaks = speaker == rank_of_mpirun().rank;
+  const auto nothing = [] { return false; };
+  if (!computing.has_ended({}, nothing))
+    computing.end();
+  if (speaks)
+    complain("rank " + std::to_string(lost) +
+             ": its relay, the process that speaks to the other ranks, is gone, killed perhaps for want of "
+             "memory");
+  while (!computing.has_ended(pause, nothing)) {
+  }
+  computing.await_workers();
+  if (!speaks) {
+    neighbours.await_relay(speaker, std::chrono::seconds(5));
+    ::_exit(exit_failure);
+  }
+  neighbours.await_computing(std::chrono::seconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50)); // those that worked for it end with it
+  cleaned_up(clean_up);
+  ::_exit(exit_failure); // to finalise MPI needs all
+}
+
+void require_mpi_of_mpirun(int rank, int size) {
+  const mpirun_rank expected = rank_of_mpirun();
+  if (rank != expected.rank || size != expected.size)
+    throw usage_error("mpirun says rank " + std::to_string(expected.rank) + " of " +
+                      std::to_string(expected.size) + ", and MPI rank " + std::to_string(rank) + " of " +
+                      std::to_string(size) + "; start it with the mpirun of the MPI it was built with");
 }
 
 int relay_of_rank(supervisor& computing, int socket, const kept_error_stream& said, bool first,
                   const std::function<bool()>& clean_up) {
-  const mpirun_rank expected = rank_of_mpirun();
-  parallel::mpi network;
-  if (network.rank() != expected.rank || network.size() != expected.size)
-    throw usage_error("mpirun says rank " + std::to_string(expected.rank) + " of " +
-                      std::to_string(expected.size) + ", and MPI rank " + std::to_string(network.rank()) +
-                      " of " + std::to_string(network.size()) +
-                      "; start it with the mpirun of the MPI it was built with");
-  any_communicator relays = parallel::mpi{}; // of which none abandons another
-  const rank_end end = relay_until_end(computing, network, socket, said);
-  std::vector<rank_end> all;
-  for (const byte_buffer& theirs : relays.gather(encode_end(end)))
-    all.push_back(decode_end(theirs));
-  byte_writer code;
-  if (first)
-    code.value<std::int32_t>(conclude(all, !computing.was_killed(), clean_up));
-  const byte_buffer agreed = relays.broadcast(code.take());
-  return byte_reader(agreed).value<std::int32_t>();
+  neighbouring_relays neighbours;
+  relay_network network(parallel::mpi{}, neighbours);
+  require_mpi_of_mpirun(network.rank(), network.size());
+  any_communicator relays = relay_network(parallel::mpi{}, neighbours); // of which none abandons another
+  neighbours.meet(relays, computing.child());
+  try {
+    const rank_end end = relay_until_end(computing, network, neighbours, socket, said);
+    std::vector<rank_end> all;
+    for (const byte_buffer& theirs : relays.gather(encode_end(end)))
+      all.push_back(decode_end(theirs));
+    byte_writer code;
+    if (first)
+      code.value<std::int32_t>(conclude(all, !computing.was_killed(), clean_up));
+    const byte_buffer agreed = relays.broadcast(code.take());
+    return byte_reader(agreed).value<std::int32_t>();
+  } catch (const relay_lost& lost) {
+    end_without(lost.rank, computing, neighbours, clean_up);
+  }
 }
 
 } // namespace
@@ -194,8 +278,9 @@ int run_on_ranks(const std::function<int(const any_communicator&)>& command,
     throw usage_error("the system refuses to start a process");
   if (!computing.supervises()) {
     ::close(ends[0]);
+    ::setpgid(0, 0); // mpirun's signals go to the group of the relay, which passes them on
     said.redirect();
-    return command(parallel::relayed(ends[1]));
+    return command(network_by_relay(ends[1]));
   }
   ::close(ends[1]);
   const boost::mpi::environment started(boost::mpi::threading::single, false);

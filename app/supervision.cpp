@@ -87,7 +87,7 @@ supervisor::~supervisor() {
     sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
-bool supervisor::has_ended(std::chrono::milliseconds at_most) {
+bool supervisor::has_ended(std::chrono::milliseconds at_most, const std::function<bool()>& passes_on) {
   if (over_)
     return true;
   const timespec time{0, static_cast<long>(at_most.count()) * 1'000'000};
@@ -98,7 +98,7 @@ bool supervisor::has_ended(std::chrono::milliseconds at_most) {
   over_ = found == child_ || (found < 0 && errno == ECHILD);
   if (over_)
     return true;
-  if (signal > 0 && signal != SIGCHLD)
+  if (signal > 0 && signal != SIGCHLD && passes_on())
     request();
   if (requested_ && clock::now() - since_ > patience)
     end();

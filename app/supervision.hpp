@@ -33,9 +33,12 @@ public:
   /// Whether this is the parent; otherwise it is the child, or there can be none.
   bool supervises() const { return child_ > 0; }
   bool has_no_child() const { return child_ < 0; }
+  pid_t child() const { return child_; }
 
-  /// Looks after the child, for so long (less than a second) or until there is something to see to.
-  bool has_ended(std::chrono::milliseconds at_most);
+  /// Looks after the child, for so long (less than a second) or until there is something to see to. Where
+  /// `passes_on()` is false, the child is not told of a request to stop that comes.
+  bool has_ended(
+      std::chrono::milliseconds at_most, const std::function<bool()>& passes_on = [] { return true; });
   /// Ends the child, if it does not end by itself soon.
   void end_soon();
   /// Ends the child now.

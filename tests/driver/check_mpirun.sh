@@ -194,9 +194,8 @@ start_until 2 intersection "${long[@]}"
 kill -KILL "$(relays | tail -n 1)"
 ended_within 10
 ((status != 0)) || fault "exit code is 0"
-no_process_left # nobody waits for those of a relay that is gone: parts of files may stay, until the next run
-resume_on 1
 nothing_left several
+resume_on 1
 
 # 4. Spools on disks that the other ranks do not see, of which one is lost.
 disks=$sandbox/disks

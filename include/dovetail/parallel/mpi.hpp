@@ -37,6 +37,8 @@ public:
     finish_sending();
     if (!sent_.empty())                         // nobody receives them; MPI still has the bytes
       new std::list<pending>(std::move(sent_)); // NOLINT
+    if (coming_ && !has_come())
+      new incoming(*std::move(coming_)); // NOLINT
   }
 
   int rank() const { return world_.rank(); }
@@ -50,10 +52,10 @@ public:
   std::optional<rank_message> receive() {
     require_all();
     drop_sent();
-    while (const auto found = world_.iprobe(boost::mpi::any_source, mpi_tag)) {
-      const int from = found->source();
-      byte_buffer chunk(static_cast<std::size_t>(found->count<char>().value_or(0)));
-      world_.recv(from, mpi_tag, reinterpret_cast<char*>(chunk.data()), static_cast<int>(chunk.size()));
+    while (is_coming() && comes_soon()) {
+      const int from = coming_->from;
+      const byte_buffer chunk = std::move(coming_->chunk);
+      coming_.reset();
       header head;
       std::memcpy(&head, chunk.data(), sizeof head);
       byte_buffer& bytes = incomplete_[from];
@@ -73,7 +75,7 @@ public:
     using clock = std::chrono::steady_clock;
     const auto end = clock::now() + at_most;
     auto pause = std::chrono::microseconds(20);
-    while (clock::now() < end && !world_.iprobe(boost::mpi::any_source, mpi_tag)) {
+    while (clock::now() < end && !(is_coming() && has_come())) {
       require_all();
       drop_sent();
       std::this_thread::sleep_for(pause);
@@ -104,8 +106,39 @@ private:
     byte_buffer bytes;
     boost::mpi::request request;
   };
+  /// A chunk on its way. Who waited for it would never return when its sender dies before it has all.
+  struct incoming {
+    int from;
+    byte_buffer chunk;
+    boost::mpi::request request;
+    bool has_come = false;
+  };
   static constexpr int mpi_tag = 1;
   static constexpr std::int32_t abandoned = -1;
+
+  bool is_coming() {
+    if (coming_)
+      return true;
+    const auto found = world_.iprobe(boost::mpi::any_source, mpi_tag);
+    if (!found)
+      return false;
+    coming_.emplace(incoming{
+        found->source(), byte_buffer(static_cast<std::size_t>(found->count<char>().value_or(0))), {}});
+    coming_->request = world_.irecv(coming_->from, mpi_tag, reinterpret_cast<char*>(coming_->chunk.data()),
+                                    static_cast<int>(coming_->chunk.size()));
+    return true;
+  }
+  bool has_come() {
+    coming_->has_come = coming_->has_come || coming_->request.test().has_value();
+    return coming_->has_come;
+  }
+  /// A long chunk moves only while MPI is asked about it.
+  bool comes_soon() {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
+    while (!has_come() && std::chrono::steady_clock::now() < until)
+      std::this_thread::yield();
+    return coming_->has_come;
+  }
 
   void post(int to, std::int32_t tag, const byte_buffer& bytes) {
     std::size_t at = 0;
@@ -141,6 +174,7 @@ private:
   boost::mpi::communicator world_;
   std::size_t chunk_bytes_;
   std::list<pending> sent_;
+  std::optional<incoming> coming_;
   std::map<int, byte_buffer> incomplete_; ///< by sender
   std::string reason_;                    ///< why there is nobody to go on with
 };

@@ -1,0 +1,84 @@
+/// @file
+/// The relays of the ranks on this machine: each sees when another one is killed, before MPI does or hangs.
+#pragma once
+
+#include "dovetail/parallel/any_communicator.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace dovetail::app {
+
+/// Thrown where this relay goes no further since another one is gone.
+struct relay_lost {
+  int rank;
+};
+
+/// Holds nobody until `meet`, nor where the kernel has no descriptors of processes (Linux before 5.3).
+class neighbouring_relays {
+public:
+  neighbouring_relays() = default;
+  neighbouring_relays(const neighbouring_relays&) = delete;
+  neighbouring_relays& operator=(const neighbouring_relays&) = delete;
+  ~neighbouring_relays();
+
+  /// Collective, of the relays; `computing` is the process that this one speaks for.
+  void meet(any_communicator& relays, pid_t computing);
+
+  bool all_live() const { return first(false) == nobody; }
+  /// Throws `relay_lost` with the lowest rank whose relay is gone.
+  void require_all() const;
+  /// The lowest rank whose relay lives, maybe this one.
+  int first_living() const { return first(true); }
+  /// Until this one's relay has ended, or so long.
+  void await_relay(int rank, std::chrono::milliseconds at_most) const;
+  /// Until no process computes on this machine, or so long.
+  void await_computing(std::chrono::milliseconds at_most) const;
+
+  static constexpr int nobody = -1;
+
+private:
+  /// Descriptors; -1: none to be had.
+  struct processes {
+    int rank;
+    int relay;
+    int computing;
+  };
+  int first(bool living) const;
+
+  std::vector<processes> ranks_; ///< growing, this one too
+};
+
+/// A model of `communicator` that throws `relay_lost` where `C` would wait for a relay that is gone.
+template <communicator C>
+class watched_network {
+public:
+  watched_network(C network, const neighbouring_relays& neighbours)
+      : network_(std::move(network)), neighbours_(&neighbours) {}
+
+  int rank() const { return network_.rank(); }
+  int size() const { return network_.size(); }
+  void send(int to, std::int32_t tag, byte_buffer bytes) { network_.send(to, tag, std::move(bytes)); }
+  std::optional<rank_message> receive() {
+    auto next = network_.receive();
+    if (!next)
+      neighbours_->require_all();
+    return next;
+  }
+  void wait(std::chrono::milliseconds at_most) { network_.wait(at_most); }
+  int descriptor() const { return network_.descriptor(); }
+  bool shares_process() const { return network_.shares_process(); }
+  void abandon(const std::string& reason) { network_.abandon(reason); }
+
+private:
+  C network_;
+  const neighbouring_relays* neighbours_;
+};
+
+} // namespace dovetail::app

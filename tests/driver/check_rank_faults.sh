@@ -1,0 +1,188 @@
+#!/bin/bash
+# A process of a run on several ranks is killed, in any stage: a relay, a process that computes, or a worker. Of the first
+# two one line tells, all ends soon, and the next run goes on with other ranks. A worker costs its task: where there is no
+# other way to do that, one line tells which, and the next run goes on.
+#   check_rank_faults.sh <driver> <mpirun> [all]
+# Each stage is tried with each victim, on 2, 4 and 7 ranks in turn, and a run goes on from what the one before has left;
+# with "all" each on each number of ranks from the beginning to the end.
+driver=$1
+mpirun=$2
+all=${3:-}
+source "$(dirname "$0")/expectations.sh"
+cd "$sandbox" || exit 1
+write_cube >"$inputs/cube.off"
+mesh=(mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --ranks 3 --redistribute by-elements --format pvtu,msh-ranks
+  --report report.json)
+
+# What has been shown of the progress when a stage has begun, since each line comes when its stage is over.
+stages=(background partition lines skeleton intersection meshing redistribution finishing)
+[[ $all ]] && stages+=(moving reading)
+declare -A begin=(
+  [background]="planning" [partition]="background volume" [lines]="partition" [skeleton]="partition*lines"
+  [intersection]="matching" [meshing]="intersection" [redistribution]="redistributing elements"
+  [moving]="cutting pieces" [finishing]="moving elements" [reading]="finishing")
+
+figure() {
+  sed -n "s/^ *\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$2/report.json" | head -n 1
+}
+files_of() {
+  (cd "$1/out" && find . -type f ! -name finished_run.txt -exec sha256sum {} + | sort)
+}
+fresh() {
+  rm -rf "${sandbox:?}/$1" && mkdir "$sandbox/$1"
+}
+
+# The processes of a rank: its relay is mpirun's child, that one's child computes, whose children work. No program is
+# started to look for them, since a stage may be short.
+children() { # sets $found
+  found=
+  { read -r found <"/proc/$1/task/$1/children"; } 2>/dev/null
+}
+# find_processes: sets $relays and $computing, by rank.
+find_processes() {
+  local relay rank
+  relays=() computing=()
+  children $process
+  for relay in $found; do
+    rank=$(tr '\0' '\n' <"/proc/$relay/environ" | sed -n 's/^OMPI_COMM_WORLD_RANK=//p')
+    children "$relay"
+    relays[rank]=$relay
+    computing[rank]=$found
+  done
+}
+# kill_one <rank>: the victim; a worker is one of the first that there is from now on, of whatever rank.
+kill_one() {
+  local found pid
+  case $victim in
+  relay) kill -KILL "${relays[$1]}" || fault "there is no relay" ;;
+  computing) kill -KILL "${computing[$1]}" || fault "there is no computing process" ;;
+  worker)
+    while kill -0 $process 2>/dev/null; do
+      for pid in "${computing[@]}"; do
+        children "$pid"
+        [[ $found ]] && kill -KILL "${found%% *}" 2>/dev/null && return
+      done
+    done
+    fault "there was no worker"
+    ;;
+  esac
+}
+# kill_in <ranks> <stage> <rank> <arguments...>: starts in the folder "several" and kills when the stage has begun.
+kill_in() {
+  local ranks=$1 stage=$2 rank=$3 line seen=
+  shift 3
+  what="$ranks ranks: $victim of rank $rank killed in stage $stage"
+  : >"$sandbox/stderr"
+  rm -f "$sandbox/progress" && mkfifo "$sandbox/progress"
+  (cd several && exec "$mpirun" -n "$ranks" "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/progress" </dev/null) &
+  process=$!
+  exec 9<"$sandbox/progress"
+  while IFS= read -r -t 100 -u 9 line; do
+    [[ $seen ]] || find_processes
+    seen+=$line
+    # shellcheck disable=SC2053
+    [[ $seen == *${begin[$stage]}* ]] && break
+    echo "$line" >>"$sandbox/stderr"
+  done
+  kill_one "$rank"
+  # shellcheck disable=SC2053
+  [[ $seen == *${begin[$stage]}* ]] || fault "the stage had not begun"
+  echo "$line" >>"$sandbox/stderr"
+  cat <&9 >>"$sandbox/stderr" &
+  reader=$!
+  exec 9<&-
+}
+# ended_within <seconds>: sets $status.
+ended_within() {
+  local tenths
+  for ((tenths = 0; tenths < 10 * $1; ++tenths)); do
+    kill -0 $process 2>/dev/null || break
+    sleep 0.1
+  done
+  kill -0 $process 2>/dev/null && fault "it has not ended within $1 s" && kill -9 $process
+  wait $process 2>/dev/null
+  status=$?
+  for ((tenths = 0; tenths < 20; ++tenths)); do # until all that was said is read
+    kill -0 $reader 2>/dev/null || break
+    sleep 0.1
+  done
+  pgrep -f "$driver mesh $inputs" >/dev/null && fault "processes are left: $(pgrep -af "$driver mesh $inputs" | head -n 3)"
+  kill $reader 2>/dev/null
+  wait $reader 2>/dev/null
+}
+# Only whole files are there, under their final names or in the folder of those that are not finished.
+only_whole_files() {
+  local file
+  while IFS= read -r file; do
+    cmp -s "$file" "whole/out/${file##*/}" || fault "not as it should be: $file"
+  done < <(find several -type f ! -path '*/spool/*' ! -name finished_run.txt ! -name report.json)
+  file=$(find several -name '*.part' | head -n 3)
+  [[ -z $file ]] || fault "left behind: $file"
+}
+same_as_whole() {
+  ((status == 0)) || fault "exit code is $status"
+  # Killed when only the checksums were missing, it has no report.
+  grep -q "this run is finished" "$sandbox/stdout" ||
+    [[ $(figure mesh_hash several) == "$(figure mesh_hash whole)" ]] || fault "another hash"
+  [[ $(files_of several) == "$(files_of whole)" ]] || fault "other files"
+}
+# go_on <ranks>: to the end.
+go_on() {
+  what="$1 ranks: dovetail ${mesh[*]} --resume, after: $what"
+  (cd several && timeout 100 "$mpirun" -n "$1" "$driver" "${mesh[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  status=$?
+  same_as_whole
+}
+# try <ranks> <stage> <options...>
+try() {
+  local ranks=$1 stage=$2 rank=$((tried++ % $1)) begun=$SECONDS
+  shift 2
+  kill_in "$ranks" "$stage" $rank "${mesh[@]}" "$@"
+  if [[ $victim == worker ]]; then
+    ended_within 100
+  else
+    ended_within 10
+  fi
+  echo "$what: exit code $status after $((SECONDS - begun)) s; $(grep '^dovetail: ' "$sandbox/stderr")"
+  if [[ $victim == worker && $status == 0 ]]; then
+    same_as_whole
+    return
+  fi
+  ((status != 0)) || fault "exit code is 0"
+  [[ $victim == relay ]] || ((status == 1)) || fault "exit code is $status"
+  [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
+  if [[ $victim == worker ]]; then
+    grep -qE "^dovetail: .+: the worker was ended by signal 9" "$sandbox/stderr" || fault "the line does not say what failed"
+  else
+    grep -q "^dovetail: rank $rank: " "$sandbox/stderr" || fault "the line does not name rank $rank"
+  fi
+  only_whole_files
+}
+
+fresh whole
+what="one rank"
+(cd whole && "$mpirun" -n 1 "$driver" "${mesh[@]}" --workers 2 >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+status=$?
+((status == 0)) || fault "exit code is $status"
+cat "$sandbox/stderr"
+
+numbers=(2 4 7)
+tried=0
+for victim in relay computing worker; do
+  fresh several
+  for stage in "${stages[@]}"; do
+    [[ $victim == worker && $stage == partition ]] && continue # which has no tasks
+    if [[ $all ]]; then
+      for k in 0 1 2; do
+        fresh several
+        try "${numbers[k]}" "$stage"
+        ((status == 0)) || go_on "${numbers[(k + 1) % 3]}"
+      done
+    else
+      try "${numbers[tried % 3]}" "$stage" --resume
+      ((status == 0)) && fresh several
+    fi
+  done
+  [[ $all ]] || go_on "${numbers[tried % 3]}"
+done
+finish
