@@ -56,7 +56,10 @@ mpirun_rank rank_of_mpirun() {
 
 namespace {
 
-constexpr std::chrono::milliseconds pause{1}; ///< between two looks of a relay; a message waits so long
+/// Between two looks of a relay; a message waits so long, or longer where none has come for a while.
+constexpr std::chrono::milliseconds pause{1};
+constexpr std::chrono::milliseconds long_pause{4};
+constexpr int looks_before_long_pause = 100;
 
 /// What the computing processes of other ranks write to the error stream, of which rank 0 says what is
 /// needed.
@@ -160,11 +163,13 @@ rank_end relay_until_end(supervisor& computing, relay_network& network, const ne
   parallel::relay relay(network, socket);
   bool others_go_on = true;
   // When a relay is killed, mpirun asks the others to stop: not what the user did.
-  while (!computing.has_ended(pause, [&] { return neighbours.all_live(); })) {
+  int looks = 0; // since a message was there
+  while (!computing.has_ended(looks < looks_before_long_pause ? pause : long_pause,
+                              [&] { return neighbours.all_live(); })) {
     try {
-      if (others_go_on)
-        while (relay.step()) {
-        }
+      ++looks;
+      while (others_go_on && relay.step())
+        looks = 0;
     } catch (const communication_error& problem) {
       others_go_on = false;
       relay.tell_abandoned(problem.what());
