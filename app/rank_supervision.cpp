@@ -162,8 +162,8 @@ rank_end relay_until_end(supervisor& computing, relay_network& network, const ne
                          int socket, const kept_error_stream& said) {
   parallel::relay relay(network, socket);
   bool others_go_on = true;
-  // When a relay is killed, mpirun asks the others to stop: not what the user did.
   int looks = 0; // since a message was there
+  // When a relay is killed, mpirun asks the others to stop: not what the user did.
   while (!computing.has_ended(looks < looks_before_long_pause ? pause : long_pause,
                               [&] { return neighbours.all_live(); })) {
     try {
