@@ -46,6 +46,9 @@
 #endif
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <system_error>
 #include <thread>
 
 namespace dovetail::app {
@@ -63,6 +66,23 @@ std::vector<any_partitioner> partitioners() {
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SPECTRA
   known.emplace_back(partition::spectral{}, "spectral");
+#endif
+  return known;
+}
+
+/// Those that draw at random, from this seed, which is in their names.
+std::vector<any_partitioner> seeded_partitioners(int seed) {
+  const std::string drawn = ':' + std::to_string(seed);
+  const auto large_seed = static_cast<std::uint64_t>(seed);
+  std::vector<any_partitioner> known{
+      {partition::metis{.seed = seed}, "metis" + drawn},
+      {partition::metis{.recursive = true, .seed = seed}, "metis-recursive" + drawn},
+      {partition::greedy{.seed = large_seed}, "greedy" + drawn}};
+#ifdef DOVETAIL_DRIVER_WITH_SCOTCH
+  known.emplace_back(partition::scotch{.seed = seed}, "scotch" + drawn);
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_SPECTRA
+  known.emplace_back(partition::spectral{.seed = large_seed}, "spectral" + drawn);
 #endif
   return known;
 }
@@ -167,7 +187,15 @@ std::vector<std::string> builtin_model_names() {
 }
 
 any_partitioner make_partitioner(const std::string& name) {
-  return chosen(partitioners(), name, "--partitioner");
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos)
+    return chosen(partitioners(), name, "--partitioner");
+  const char* const end = name.data() + name.size();
+  int seed = 0;
+  if (const auto read = std::from_chars(name.data() + colon + 1, end, seed);
+      read.ec != std::errc() || read.ptr != end || seed < 0)
+    throw command_line_error("--partitioner: after the colon of '" + name + "' there is no seed");
+  return chosen(seeded_partitioners(seed), name, "--partitioner");
 }
 any_simplification_rule make_simplifier(const std::string& name, std::optional<double> wedge_angle,
                                         int dimension) {

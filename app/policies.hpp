@@ -36,7 +36,7 @@ std::vector<std::string> executor_names();
 std::vector<std::string> builtin_model_names();
 
 /// Each throws `command_line_error` listing the names when there is none such. An empty name means the
-/// default.
+/// default. After a colon the name of a partitioner that draws at random may have a seed: "metis:2".
 any_partitioner make_partitioner(const std::string& name);
 /// Another angle than the rule's own: the least between interfaces, for D = 2 between lines. Also thrown
 /// where the rule has none.

@@ -76,6 +76,18 @@ expect_success "${long[@]}" --resume
 expect_success "${long[@]}" --resume
 grep -q "this run is finished" "$sandbox/stdout" || fault "a finished run is made again"
 
+# Another seed of the partitioner, by its name, makes another mesh; its own makes the same.
+declare -A hash_by
+for partitioner in metis metis:1 metis:2; do
+  expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --partitioner $partitioner --report report.json --format none
+  hash_by[$partitioner]=$(figure mesh_hash)
+  [[ $(figure partitioner) == "$partitioner" ]] || fault "the report names another partitioner"
+done
+[[ ${hash_by[metis]} == "${hash_by[metis:1]}" ]] || fault "another mesh from the partitioner's own seed"
+[[ ${hash_by[metis]} != "${hash_by[metis:2]}" ]] || fault "the same mesh from another seed"
+expect_usage_error "there is no 'hilbert:2'; there are: metis:2, .*greedy:2" mesh "$inputs/cube.off" --size 0.1 --partitioner hilbert:2
+expect_usage_error "after the colon of 'metis:two' there is no seed" mesh "$inputs/cube.off" --size 0.1 --partitioner metis:two
+
 # What has no part in it is refused before anything is read.
 bad=(mesh nothing.off --decomposition bisection)
 expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection" \
