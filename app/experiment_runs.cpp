@@ -56,7 +56,7 @@ std::string automatic_sizes(double factor) {
 } // namespace
 
 run_maker::run_maker(const experiment_options& options, driver_call driver)
-    : options_(options), driver_(std::move(driver)) {
+    : options_(options), driver_(std::move(driver)), build_(identity_of_build()) {
   if (!(options.scale > 0) || !std::isfinite(options.scale))
     throw command_line_error("--scale: " + number_text(options.scale) + " is not a positive number");
   mesh_options any;
@@ -126,11 +126,8 @@ run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wan
   if (run.has_background && wanted.coarsening > 1)
     place.how.insert(place.how.end(), {"--coarsening", number_text(wanted.coarsening)});
   place.how.insert(place.how.end(), run.options.begin(), run.options.end());
-  place.asked = {{"model", place.what.back()},
-                 {"input", input_checksum_},
-                 {"elements", wanted.elements},
-                 {"options", place.how},
-                 {"version", version}};
+  place.asked = {{"model", place.what.back()}, {"input", input_checksum_}, {"elements", wanted.elements},
+                 {"options", place.how},       {"version", version},       {"build", build_}};
   return place;
 }
 
@@ -192,7 +189,7 @@ run_result run_maker::make(const experiment_run& run) {
   if (!options_.quiet)
     std::fprintf(stderr, "%s: %s\n", place.name.c_str(),
                  failed     ? ("failed: " + result.record.at("failure").get<std::string>()).c_str()
-                 : is_there ? "is there from before, by the same command line"
+                 : is_there ? "is there from before, by the same build and command line"
                             : "made");
   if (!failed && wanted.workers > workers_)
     result.simulated = simulated_report(result.measured, place.file("trace.json"), wanted.workers);

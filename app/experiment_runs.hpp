@@ -2,6 +2,7 @@
 /// Makes the runs of experiments, each once.
 #pragma once
 
+#include "build_identity.hpp"
 #include "experiment_column.hpp"
 #include "experiment_options.hpp"
 #include "experiment_results.hpp"
@@ -41,6 +42,7 @@ private:
   driver_call driver_;
   int workers_;
   std::string input_checksum_;
+  run_identity build_;
   /// By model and number of elements: the factor of its sizes, and its own size or 0.
   std::map<std::pair<std::string, double>, std::pair<double, double>> sizes_;
 };

@@ -1,5 +1,6 @@
 #include "run_identity.hpp"
 
+#include "build_identity.hpp"
 #include "file_checksums.hpp"
 #include "named_policies.hpp"
 #include "policies.hpp"
@@ -11,9 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <link.h>
 
 namespace dovetail::app {
 namespace {
@@ -22,41 +20,6 @@ std::string all_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
-}
-
-/// The build ids of a loaded library, which its linker has made of its content.
-void add_build_ids(const dl_phdr_info& library, content_hash& hash) {
-  for (int k = 0; k < library.dlpi_phnum; ++k) {
-    const auto& segment = library.dlpi_phdr[k];
-    if (segment.p_type != PT_NOTE)
-      continue;
-    const std::size_t unit = segment.p_align == 8 ? 8 : 4;
-    const auto padded = [unit](std::size_t size) { return (size + unit - 1) / unit * unit; };
-    const auto* notes = reinterpret_cast<const std::byte*>(library.dlpi_addr + segment.p_vaddr);
-    ElfW(Nhdr) note;
-    for (std::size_t at = 0; at + sizeof note <= segment.p_memsz;) {
-      std::memcpy(&note, notes + at, sizeof note);
-      const std::size_t content = at + sizeof note + padded(note.n_namesz);
-      if (note.n_type == NT_GNU_BUILD_ID && content + note.n_descsz <= segment.p_memsz)
-        hash.bytes({notes + content, note.n_descsz});
-      at = content + padded(note.n_descsz);
-    }
-  }
-}
-
-/// The shared libraries that this program runs with: a mesh may be another one with the next version of one.
-std::string checksum_of_libraries() {
-  content_hash hash;
-  const auto add = [](dl_phdr_info* library, std::size_t, void* into) {
-    const std::filesystem::path file(library->dlpi_name);
-    if (file.has_parent_path()) { // neither the program itself nor what the kernel brings along
-      static_cast<content_hash*>(into)->text(file.filename().string());
-      add_build_ids(*library, *static_cast<content_hash*>(into));
-    }
-    return 0;
-  };
-  ::dl_iterate_phdr(add, &hash);
-  return hexadecimal(hash.value());
 }
 
 } // namespace
@@ -79,8 +42,8 @@ std::string values_of_field(const any_sizing& size, const box3& box) {
 
 run_identity identity_of_run(const mesh_options& options, const model_source& source) {
   run_identity identity{{"model", source.name}};
-  identity.emplace_back("build", checksum_of_file("/proc/self/exe"));
-  identity.emplace_back("libraries", checksum_of_libraries());
+  const run_identity build = identity_of_build();
+  identity.insert(identity.end(), build.begin(), build.end());
   if (!options.model.input.empty()) {
     identity.emplace_back("file", source.file);
     identity.emplace_back("unit", options.model.unit);

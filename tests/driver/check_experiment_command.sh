@@ -38,6 +38,15 @@ sed -i 's/"--workers",/"--workers", "7",/' "$kept/runs/cube_1400_75_32/run.json"
 experiment table2 --scale 20000
 (($(grep -c 'is there from before' "$sandbox/stderr") == 3)) || fault "a run of another command line is taken"
 
+# So is what another build has made, whatever its version; a copy of the same is the same.
+cp "$driver" "$sandbox/copied"
+cp "$driver" "$sandbox/rebuilt"
+echo >>"$sandbox/rebuilt"
+for build in "copied 4" "rebuilt 0" "rebuilt 4"; do
+  driver="$sandbox/${build% *}" experiment table2 --scale 20000
+  (($(grep -c 'is there from before' "$sandbox/stderr") == ${build#* })) || fault "other runs taken than ${build#* } by a $build"
+done
+
 # All of them, and runs that several share are made once. A plot is made, or a line says how.
 experiment all --scale 50000
 for name in table{2..10} fig10 fig{13..16}; do
