@@ -1,11 +1,13 @@
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/rank_tasks.hpp"
 #include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/self.hpp"
 #include "parallel/executor_contract.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -80,4 +82,28 @@ TEST_CASE("As many ranks of a machine take tasks as it has processors for, each 
   CHECK(detail::ranks_at_work(mixed, 0) == std::vector{0, 1, 2});
   CHECK(detail::ranks_at_work(mixed, 1) == std::vector{2, 3});
   CHECK(detail::ranks_at_work(mixed, 2) == std::vector{1, 4}); // one at least
+}
+
+TEST_CASE("Ranks that do not work get no task, and wait until all is done") {
+  for (const std::vector<int>& working : {std::vector{0, 2}, {1, 2}, {1}}) {
+    constexpr int tasks = 20;
+    std::atomic<int> done = 0;
+    parallel::run_ranks(4, [&](parallel::in_process& mine) {
+      any_communicator network(mine);
+      detail::rank_tasks feed(network, tasks, 2, working);
+      while (!feed.ended()) {
+        for (const std::size_t place : feed.granted()) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          ++done;
+          feed.finished(place);
+        }
+        network.wait(std::chrono::milliseconds(1));
+      }
+      const bool works = std::find(working.begin(), working.end(), network.rank()) != working.end();
+      CHECK(feed.finished_places().empty() == !works);
+      if (!works)
+        CHECK(done == tasks);
+    });
+    CHECK(done == tasks);
+  }
 }

@@ -16,7 +16,8 @@ namespace dovetail::detail {
 
 /// The feed of one rank. Each that works has `in_hand` tasks of its own in the beginning, dealt in turn
 /// without a word; rank 0 grants the others, in the order of the run, one for each request, and each task
-/// that is done is one request: so it knows when all is done. 12 bytes each way and task.
+/// that is done is one request: so it knows when all is done, and tells those that do not work. 12 bytes each
+/// way and task.
 class rank_tasks final : public task_feed {
 public:
   /// Collective, with the same arguments on all ranks. `working`: the ranks that take tasks; `in_hand`:
@@ -30,6 +31,11 @@ public:
       if (working[place % working.size()] == network_.rank())
         granted_.push_back(place);
     mine_ = granted_.size();
+    for (int r = 1; r < network_.size(); ++r)
+      if (std::find(working.begin(), working.end(), r) == working.end()) {
+        idle_.push_back(r);
+        unanswered_ += r == network_.rank() ? 1 : 0;
+      }
   }
 
   std::vector<std::size_t> granted() override {
@@ -69,7 +75,9 @@ private:
   }
   /// On rank 0: the answer to a request.
   std::int64_t grant() {
-    ++answered_;
+    if (++answered_ == count_)
+      for (const int r : idle_)
+        network_.send(r, grants_, text_of(nothing));
     return next_ < count_ ? static_cast<std::int64_t>(next_++) : nothing;
   }
   void take(std::int64_t place) {
@@ -86,6 +94,7 @@ private:
   std::size_t count_;
   std::size_t next_ = 0;     ///< on rank 0: the first place that nobody has
   std::size_t answered_ = 0; ///< on rank 0: requests, its own too
+  std::vector<int> idle_;    ///< ranks that do not work, without rank 0
   std::vector<std::size_t> granted_;
   std::size_t mine_ = 0;
   std::vector<std::size_t> finished_;
