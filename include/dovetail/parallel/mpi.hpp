@@ -34,7 +34,8 @@ public:
   mpi(mpi&&) = default;
   mpi& operator=(mpi&&) = default;
   ~mpi() {
-    finish_sending();
+    if (reason_.empty())
+      finish_sending();
     if (!sent_.empty())                         // nobody receives them; MPI still has the bytes
       new std::list<pending>(std::move(sent_)); // NOLINT
     if (coming_ && !has_come())
@@ -155,10 +156,12 @@ private:
       at += part;
     } while (at < bytes.size());
   }
-  /// Waits until the others have what was sent, at most two seconds.
+  /// Waits until the others have what was sent, at most two seconds: asking MPI may take long on a busy
+  /// machine.
   void finish_sending() {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(2);
     drop_sent();
-    for (int tries = 0; tries < 2000 && !sent_.empty(); ++tries) {
+    while (!sent_.empty() && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       drop_sent();
     }
