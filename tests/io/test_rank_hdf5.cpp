@@ -204,13 +204,13 @@ TEST_CASE(
   loads.clear();
   std::vector<byte_buffer> counted;
   for (const auto& count : output.counts)
-    counted.push_back(count());
+    counted.push_back(count.run());
   output.prepare(counted);
   CHECK(loads.empty());
   REQUIRE(output.others.size() == 3);
   for (const local_id q : {2, 0, 1}) {
     loads.clear();
-    output.others[static_cast<std::size_t>(q)]();
+    output.others[static_cast<std::size_t>(q)].run();
     CHECK(loads.size() == 9);
     for (const local_id p : loads)
       CHECK(p / 9 == q);

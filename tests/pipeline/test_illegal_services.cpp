@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -270,17 +271,26 @@ TEST_CASE("a writer that breaks its promises is refused, and leaves nothing") {
                    "could not be written: no such luck"));
     CHECK(contains(failed([](auto& out) { out.open = [](std::size_t) { return io::piece_file<2>{}; }; }),
                    "subdomain 0 could not be written: "));
-    CHECK(contains(failed([](auto& out) { out.others = {[] { fail(); }}; }),
-                   "a file of more than one subdomain could not be written: no such luck"));
-    CHECK(contains(failed([](auto& out) { out.counts = {[]() -> byte_buffer { fail(); }}; }),
-                   "a file of more than one subdomain could not be written: no such luck"));
     CHECK(failed([](auto& out) {
-            out.counts = {[] { return byte_buffer(); }};
+            out.others = {{"the map of rank 7", [] { fail(); }}};
+          }) == "the map of rank 7 could not be written: no such luck");
+    CHECK(failed([](auto& out) {
+            out.counts = {{"the share of rank 7", []() -> byte_buffer { fail(); }}};
+          }) == "the share of rank 7 could not be written: no such luck");
+    CHECK(failed([](auto& out) {
+            out.counts = {{"", [] { return byte_buffer(); }}};
             out.prepare = [](const auto&) { fail(); };
           }) == "the writer threw: no such luck");
     CHECK(failed([](auto& out) { out.finish = [](const auto&) -> report { fail(); }; }) ==
           "the writer threw: no such luck");
   }
+  CHECK(complaint_of_writer<io_error>(
+            [](auto& out) {
+              out.others = {{"the map of rank 7", [] { std::abort(); }}};
+            },
+            parallel::processes{2}) ==
+        "the map of rank 7 could not be written: the worker was ended by signal 6 (Aborted); run again from "
+        "what is kept, with fewer workers where memory is short");
   CHECK(contains(complaint_of_writer<io_error>(
                      [](auto& out) { out.open = [](std::size_t) -> io::piece_file<2> { sleep_for_ever(); }; },
                      parallel::processes{2}),

@@ -57,8 +57,8 @@ public:
     bounds_.resize(mesh.counts.size() + 1);
     std::iota(bounds_.begin(), bounds_.end(), 0);
     for (const auto& output : outputs_) {
-      for (const auto& write : output.others)
-        others_.push_back(&write);
+      for (const auto& other : output.others)
+        others_.push_back(&other);
       for (const auto& count : output.counts)
         counts_.push_back(&count);
       most_loaded_ = std::max(most_loaded_, output.most_loaded);
@@ -93,14 +93,17 @@ public:
     tasks.stage = "finishing";
     prepare(run_tasks, tasks);
     tasks.order = largest_first(left);
-    const auto replies = replies_of(run_tasks, left, tasks, [this](std::size_t task) {
-      byte_writer done;
-      if (task < ranges())
-        done.value(finish_range(task));
-      else
-        (*others_[task - ranges()])();
-      return done.take();
-    });
+    const auto replies = replies_of(
+        run_tasks, left, tasks,
+        [this](std::size_t task) { return task < ranges() ? name_of(task) : others_[task - ranges()]->name; },
+        [this](std::size_t task) {
+          byte_writer done;
+          if (task < ranges())
+            done.value(finish_range(task));
+          else
+            others_[task - ranges()]->run();
+          return done.take();
+        });
     for (std::size_t k = 0; k < left.size(); ++k)
       if (left[k] < ranges())
         found[left[k]] = byte_reader(replies[k]).template value<finished_pieces>();
@@ -148,10 +151,11 @@ private:
   void prepare(const any_executor& run_tasks, const run_options& options) {
     if (counts_.empty())
       return;
-    std::vector<std::size_t> tasks(counts_.size()); // numbered as others, since they write no pieces either
-    std::iota(tasks.begin(), tasks.end(), ranges());
-    const auto counted = replies_of(run_tasks, tasks, options,
-                                    [this](std::size_t task) { return (*counts_[task - ranges()])(); });
+    std::vector<std::size_t> tasks(counts_.size());
+    std::iota(tasks.begin(), tasks.end(), std::size_t{0});
+    const auto counted = replies_of(
+        run_tasks, tasks, options, [this](std::size_t task) { return counts_[task]->name; },
+        [this](std::size_t task) { return counts_[task]->run(); });
     run_tasks.once([&] {
       auto next = counted.begin();
       for (const auto& output : outputs_) {
@@ -236,12 +240,14 @@ private:
 
   /// Runs tasks, and gives what each returns; errors of theirs are thrown here.
   std::vector<byte_buffer> replies_of(const any_executor& run_tasks, const std::vector<std::size_t>& tasks,
-                                      const run_options& options, const task_function& run_task) {
+                                      const run_options& options,
+                                      const std::function<std::string(std::size_t)>& name_of_task,
+                                      const task_function& run_task) {
     const auto outcomes = run_tasks.run(
         tasks.size(), [&](std::size_t k) { return reply([&] { return run_task(tasks[k]); }); }, options);
     std::vector<byte_buffer> replies;
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      replies.push_back(accept(tasks[k], outcomes[k]));
+      replies.push_back(accept(name_of_task(tasks[k]), outcomes[k]));
       peak_rss_bytes_ = std::max(peak_rss_bytes_, static_cast<double>(outcomes[k].peak_rss_bytes));
     }
     return replies;
@@ -308,10 +314,11 @@ private:
   }
 
   /// Back in the parent.
-  byte_buffer accept(std::size_t task, const task_outcome& outcome) const {
+  static byte_buffer accept(const std::string& name, const task_outcome& outcome) {
     if (!outcome.ok)
-      throw io_error((task < ranges() ? name_of(task) : std::string("a file of more than one subdomain")) +
-                     " could not be written: " + outcome.failure);
+      throw io_error(
+          name + " could not be written: " + outcome.failure +
+          (outcome.crashed ? "; run again from what is kept, with fewer workers where memory is short" : ""));
     byte_reader bytes(outcome.result);
     switch (bytes.value<finishing_reply>()) {
     case finishing_reply::not_written:
@@ -332,10 +339,10 @@ private:
   const sides_by_subdomain<D> sides_;
   const bool release_;
   std::vector<local_id> bounds_; ///< range r has the pieces bounds_[r] .. bounds_[r + 1] - 1
-  std::vector<const std::function<void()>*> others_;
-  std::vector<const std::function<byte_buffer()>*> counts_; ///< of all outputs
-  local_id most_loaded_ = 0;                                ///< pieces by one of the others
-  double peak_rss_bytes_ = 0;                               ///< of the workers so far
+  std::vector<const output_task<void>*> others_;
+  std::vector<const output_task<byte_buffer>*> counts_; ///< of all outputs
+  local_id most_loaded_ = 0;                            ///< pieces by one of the others
+  double peak_rss_bytes_ = 0;                           ///< of the workers so far
 };
 
 } // namespace detail

@@ -287,9 +287,9 @@ struct hdf5_writer {
       return piece_file<D>{[file](const simplicial_piece<D>& piece) { file->add(piece); },
                            [file] { return file->close(); }};
     };
-    output.others.push_back([&mesh, tables, path = unfinished / skeleton] {
-      detail::write_hdf5_skeleton(path, mesh, tables->numbers);
-    });
+    output.others.push_back({skeleton, [&mesh, tables, path = unfinished / skeleton] {
+                               detail::write_hdf5_skeleton(path, mesh, tables->numbers);
+                             }});
     output.complete = [&mesh, tables, path = unfinished / index, bounds = output.bounds,
                        names = output.names] {
       output_file file(path);

@@ -30,19 +30,26 @@ struct piece_file {
   std::function<std::uint64_t()> close;                ///< returns the bytes of the file
 };
 
+/// What is done for files beside taking pieces.
+template <class Result>
+struct output_task {
+  std::string name; ///< who an error tells of where the task cannot: "ranks_0001.vtu of rank 1"
+  std::function<Result()> run;
+};
+
 /// The files of one format in the making, in a folder for unfinished files. What `counts`, `open` and
 /// `others` hold may be called in any worker, in any order.
 template <int D>
 struct piecewise_output {
   std::vector<local_id>
       bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number; or no files
-  std::vector<std::string> names;                        ///< of these files
-  std::vector<std::function<byte_buffer()>> counts = {}; ///< called first: how much the others will write
+  std::vector<std::string> names;                    ///< of these files
+  std::vector<output_task<byte_buffer>> counts = {}; ///< run first: how much the others will write
   /// Where there are counts, called once with what all of them returned, before all that follows: makes the
   /// files that several of the others write to.
   std::function<void(const std::vector<byte_buffer>& counted)> prepare = [](const auto&) {};
   std::function<piece_file<D>(std::size_t)> open; ///< file f
-  std::vector<std::function<void()>> others = {}; ///< each writes files that take no pieces
+  std::vector<output_task<void>> others = {};     ///< each writes files that take no pieces
   /// The most pieces that one of the others loads by itself; unless it is 0, pieces are not given up.
   local_id most_loaded = 0;
   /// Called when all these are there: writes what names them, or is made of them, still in the same folder.
@@ -181,7 +188,7 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
   if (!output.counts.empty()) {
     std::vector<byte_buffer> counted;
     for (const auto& count : output.counts)
-      counted.push_back(count());
+      counted.push_back(count.run());
     output.prepare(counted);
   }
   for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
@@ -190,8 +197,8 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
       file.add(load_checked(mesh, p));
     file.close();
   }
-  for (const auto& write : output.others)
-    write();
+  for (const auto& other : output.others)
+    other.run();
   output.complete();
   report summary = output.finish(folder);
   summary.seconds = clock.seconds();

@@ -71,8 +71,9 @@ struct rank_writer {
     for (local_id q = 0; q < of_ranks; ++q)
       output.most_loaded =
           std::max(output.most_loaded, static_cast<local_id>(source->numbers.pieces_of_rank[q].size()));
+    const std::vector<std::string> of_all = format.files_of_all();
     if constexpr (shared_rank_format<Format, D>) {
-      const auto paths = add(format.files_of_all());
+      const auto paths = add(of_all);
       output.prepare = [source, format = format, paths](const std::vector<byte_buffer>& counted) {
         std::vector<rank_counts> counts;
         for (const byte_buffer& of_rank : counted)
@@ -80,25 +81,31 @@ struct rank_writer {
         format.lay_out(*source, counts, paths);
       };
       for (local_id q = 0; q < of_ranks; ++q) {
-        output.counts.push_back([source, q] {
-          byte_writer counts;
-          counts.value(source->counts_of(q));
-          return counts.take();
-        });
-        output.others.push_back(
-            [source, q, format = format, paths] { format.write(*source, source->mesh_of(q), paths); });
+        const std::string name = "the share of rank " + std::to_string(q) + " in " + text_of(of_all);
+        output.counts.push_back({name, [source, q] {
+                                   byte_writer counts;
+                                   counts.value(source->counts_of(q));
+                                   return counts.take();
+                                 }});
+        output.others.push_back({name, [source, q, format = format, paths] {
+                                   format.write(*source, source->mesh_of(q), paths);
+                                 }});
       }
     } else {
-      for (local_id q = 0; q < of_ranks; ++q)
-        if (auto paths = add(format.files_of_rank(q)); !paths.empty())
-          output.others.push_back([source, q, format = format, paths = std::move(paths)] {
-            format.write(*source, source->mesh_of(q), paths);
-          });
+      for (local_id q = 0; q < of_ranks; ++q) {
+        const std::vector<std::string> of_rank = format.files_of_rank(q);
+        if (auto paths = add(of_rank); !paths.empty())
+          output.others.push_back({text_of(of_rank) + " of rank " + std::to_string(q),
+                                   [source, q, format = format, paths = std::move(paths)] {
+                                     format.write(*source, source->mesh_of(q), paths);
+                                   }});
+      }
       if (format.files_of_rank(0).empty()) // one task has all ranks, one after the other
         output.most_loaded = static_cast<local_id>(divided.counts.size());
-      if (auto paths = add(format.files_of_all()); !paths.empty())
+      if (auto paths = add(of_all); !paths.empty())
         output.others.push_back(
-            [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); });
+            {text_of(of_all) + " of all ranks",
+             [source, format = format, paths = std::move(paths)] { format.write_all(*source, paths); }});
     }
     output.finish = [source, files, format = format,
                      summary = std::move(given.summary)](const std::filesystem::path& folder) {
@@ -118,6 +125,10 @@ private:
     std::filesystem::path unfinished;
     std::string name; ///< in the folder, perhaps below it
   };
+
+  static std::string text_of(const std::vector<std::string>& files) {
+    return files.front() + (files.size() == 1 ? "" : " and " + std::to_string(files.size() - 1) + " more");
+  }
 
   /// Removes what an earlier mesh of more ranks has left, from rank q on, and folders that are empty then:
   /// the number of OpenFOAM's says how many processors there are.

@@ -236,11 +236,11 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
   std::vector<std::string> skeleton_files;
   const auto add_skeleton = [&](const std::string& name, detail::skeleton_part part) {
     skeleton_files.push_back(name);
-    output.others.push_back([path = unfinished / name, part, &mesh] {
-      output_file file(path);
-      detail::write_skeleton_vtp(file, mesh, part);
-      file.commit();
-    });
+    output.others.push_back({name, [path = unfinished / name, part, &mesh] {
+                               output_file file(path);
+                               detail::write_skeleton_vtp(file, mesh, part);
+                               file.commit();
+                             }});
   };
   if (D == 2)
     add_skeleton("lines.vtp", detail::skeleton_part::all);
