@@ -285,39 +285,44 @@ TEST_CASE("No task waits behind a long one while another worker has nothing to d
   CHECK(outcomes[3].ok);
 }
 
-TEST_CASE("A worker that is killed loses the task it is at, and no task is run twice") {
+TEST_CASE("A task whose worker is killed is run once more, and no other one twice") {
   for (const int workers : {1, 2, 4}) {
     CAPTURE(workers);
-    const shared_numbers runs; // per task, and behind them the process that another one may kill
+    const shared_numbers runs; // per task; then the process that another one may kill, and such kills
     constexpr std::size_t tasks = 200;
-    runs[tasks] = 0;
+    runs[tasks] = runs[tasks + 1] = 0;
     const auto outcomes = processes{workers}.run(tasks, [&](std::size_t i) {
       ++runs[i];
       int self = static_cast<int>(::getpid());
-      if (i % 20 == 7) {
+      if (i % 20 == 7 && (i < 100 || runs[i] == 1)) {
         runs[tasks].compare_exchange_strong(self, 0);
         ::raise(SIGKILL);
       }
       const int victim = runs[tasks].exchange(i % 20 == 13 ? 0 : self);
-      if (i % 20 == 13 && victim != 0 && victim != self)
+      if (i % 20 == 13 && victim != 0 && victim != self) {
+        ++runs[tasks + 1];
         ::kill(victim, SIGKILL); // wherever that one is
+      }
       return contract::encoded(i);
     });
-    std::size_t lost = 0;
+    int again = 0, lost = 0;
     for (std::size_t i = 0; i < tasks; ++i) {
       CAPTURE(i);
-      CHECK(runs[i] <= 1);
+      CHECK(runs[i] <= 2);
       CHECK(outcomes[i].ok != outcomes[i].crashed);
+      if (i % 20 == 7)
+        CHECK(runs[i] >= (workers == 1 ? 2 : 1)); // one that is killed by another one may not have begun
+      else if (runs[i] == 2)
+        ++again;
       if (outcomes[i].ok) {
-        CHECK(runs[i] == 1);
         CHECK(contract::decoded(outcomes[i].result) == i);
       } else {
         CHECK(outcomes[i].failure.find("signal 9") != std::string::npos);
         ++lost;
       }
     }
-    CHECK(lost >= 10);
-    CHECK(lost <= (workers == 1 ? 10 : 20));
+    CHECK(lost >= 5);
+    CHECK(again + lost - 5 <= runs[tasks + 1]);
     CHECK_FALSE(has_children());
   }
 }

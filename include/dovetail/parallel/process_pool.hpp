@@ -37,15 +37,16 @@ inline void require_single_thread() {
                       " threads; use the serial or threads executor, or end the threads first");
 }
 
-/// One run of tasks in worker processes: the parent's loop. Whichever way it ends, its workers are killed and
-/// reaped.
+/// One run of tasks in worker processes: the parent's loop. A task whose worker is killed is run once more.
+/// Whichever way it ends, its workers are killed and reaped.
 class process_pool {
 public:
   /// All tasks are for this pool, or those that `feed` grants.
   process_pool(std::size_t count, const task_function& task, const run_options& options, std::size_t workers,
                task_feed* feed = nullptr)
       : options_(options), tasks_{task, start_order(count, options), task_board(count)}, feed_(feed),
-        outcomes_(count), recorded_(count, false), workers_(std::min(workers, count)) {
+        outcomes_(count), recorded_(count, false), tried_again_(count, false),
+        workers_(std::min(workers, count)) {
     if (feed_ != nullptr)
       tasks_.board.keep_all_back();
   }
@@ -126,8 +127,12 @@ private:
       record_replies(worker);
       if (worker.closed()) {
         task_outcome death = worker.death();
-        if (const auto place = task_of(w))
+        if (const auto place = task_of(w); place && worker.was_killed() && !tried_again_[*place]) {
+          tried_again_[*place] = true;
+          tasks_.board.give_back(*place);
+        } else if (place) {
           record(*place, std::move(death));
+        }
       } else if (worker.seconds_on_task() > options_.limit_seconds) {
         task_outcome late = worker.give_up(options_.limit_seconds);
         const bool done_after_all = record_replies(worker);
@@ -169,7 +174,8 @@ private:
   shared_tasks tasks_;
   task_feed* feed_;
   std::vector<task_outcome> outcomes_;
-  std::vector<bool> recorded_; ///< per place
+  std::vector<bool> recorded_;    ///< per place
+  std::vector<bool> tried_again_; ///< per place: its worker was killed once
   std::size_t granted_ = 0;
   std::size_t done_ = 0;
   std::size_t progress_ = 0;

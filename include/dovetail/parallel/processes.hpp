@@ -13,8 +13,9 @@ namespace dovetail::parallel {
 /// A model of `executor`. Workers are forked for each call of `run`, so tasks see all data as they are then,
 /// without copying; they end with the call, and with this process if it dies. Their standard streams are
 /// silent. Each takes its next task by itself, as soon as it has sent the result of the last. A worker whose
-/// task failed is replaced, so that nothing of the failure reaches other tasks. Refuses with `usage_error` in
-/// a process that has other threads: forking copies locks but not their holders.
+/// task failed is replaced, so that nothing of the failure reaches other tasks. A task whose worker is killed
+/// by SIGKILL, which is none of its doing, is run once more. Refuses with `usage_error` in a process that has
+/// other threads: forking copies locks but not their holders.
 struct processes {
   int worker_count = 0; ///< 0: one per processor that this process may use
 

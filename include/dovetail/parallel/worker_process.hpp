@@ -199,6 +199,7 @@ public:
     outcome.crashed = true;
     outcome.seconds = seconds_on_task();
     const auto [status, rss] = kill_and_reap();
+    was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
     outcome.peak_rss_bytes = rss;
     if (WIFSIGNALED(status))
       outcome.failure = "the worker was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
@@ -207,6 +208,9 @@ public:
       outcome.failure = "the worker exited with code " + std::to_string(WEXITSTATUS(status));
     return outcome;
   }
+
+  /// Whether it has died by SIGKILL, which is no doing of its task: the system's, perhaps for want of memory.
+  bool was_killed() const { return was_killed_; }
 
   /// Kills and reaps.
   void end() {
@@ -247,6 +251,7 @@ private:
   pid_t pid_ = -1;
   owned_descriptor socket_;
   bool closed_ = false;
+  bool was_killed_ = false;
   clock::time_point since_{}; ///< when it was started, or sent its last reply
   result_header header_{};
   std::size_t received_header_ = 0;
