@@ -62,18 +62,8 @@ public:
         results.push_back(task(i));
       return results;
     }
-    const task_function final = [&](std::size_t i) {
-      return detail::with_final_errors([&] { return task(i); });
-    };
-    auto outcomes = run_.run(count, final, options);
-    std::vector<std::size_t> again; // whose worker was killed, say
-    for (std::size_t i = 0; i < count; ++i)
-      if (!outcomes[i].ok)
-        again.push_back(i);
-    auto second = run_.run(
-        again.size(), [&](std::size_t k) { return final(again[k]); }, options);
-    for (std::size_t k = 0; k < again.size(); ++k)
-      outcomes[again[k]] = std::move(second[k]);
+    auto outcomes = run_.run(
+        count, [&](std::size_t i) { return detail::with_final_errors([&] { return task(i); }); }, options);
     for (task_outcome& outcome : outcomes) {
       if (!outcome.ok)
         throw mesh_error(options.stage + ": " + outcome.failure);
