@@ -196,7 +196,8 @@ struct parser {
     add_model_options(command, mesh.model);
     add_run_options(command, mesh);
     command.add_option("--decomposition", mesh.decomposition,
-                       "How subdomains come about, of a coarse mesh or by planes through the fine surface: " +
+                       "How subdomains come about, of a coarse mesh, by planes through the fine surface, or "
+                       "of a fine mesh: " +
                            joined(decomposition_names()));
     add_output_options(command, mesh);
     command.callback([this] {

@@ -275,8 +275,8 @@ private:
           policies_.executor.once([&] { return elements_with_room(formats_, folder); });
     try {
       if constexpr (D == 3)
-        if (options_.decomposition == by_bisection)
-          return bisect(source);
+        if (options_.decomposition == by_bisection || options_.decomposition == by_fine_partition)
+          return generate_baseline(source);
       const auto background = make_background_mesh<D>(source.geometry, source.size, policies_, parameters_);
       require_subdomains_for_ranks(background.plan.subdomains, "planned");
       return generate_mesh_from<D>(background, source.geometry, policies_, parameters_);
@@ -287,9 +287,11 @@ private:
     }
   }
 
-  /// How many subdomains planes make is known when they are made.
-  generated<3> bisect(const model_source& source) {
-    generated<3> made = generate_by_bisection(source.geometry, source.size, policies_, parameters_);
+  /// How many subdomains there are is known when they are made.
+  generated<3> generate_baseline(const model_source& source) {
+    const auto generate_it =
+        options_.decomposition == by_bisection ? generate_by_bisection : generate_by_fine_partition;
+    generated<3> made = generate_it(source.geometry, source.size, policies_, parameters_);
     require_subdomains_for_ranks(made.plan.subdomains, "made");
     return made;
   }

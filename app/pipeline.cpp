@@ -1,6 +1,7 @@
 #include "pipeline.hpp"
 
 #include "dovetail/baselines/generate_bisected.hpp"
+#include "dovetail/baselines/generate_by_fine_partition.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 
 #include <cstddef>
@@ -40,6 +41,11 @@ generated<3> generate_by_bisection(const any_geometry& geometry, const any_sizin
     bisect.most_subdomains = static_cast<std::size_t>(options.subdomains);
   }
   return baselines::generate_bisected(geometry, size, composed(policies, options), bisect);
+}
+
+generated<3> generate_by_fine_partition(const any_geometry& geometry, const any_sizing& size,
+                                        const policies_of<3>& policies, const generate_options& options) {
+  return baselines::generate_by_fine_partition(geometry, size, composed(policies, options));
 }
 
 template <int D>

@@ -38,6 +38,11 @@ generated<D> generate_mesh_from(const background_result<D>& background, const an
 generated<3> generate_by_bisection(const any_geometry& geometry, const any_sizing& size,
                                    const policies_of<3>& policies, const generate_options& options);
 
+/// A fine mesh of each solid as a whole, partitioned into `subdomains` of the options, without it into parts
+/// of the default size of `baselines::generate_by_fine_partition`, which are improved.
+generated<3> generate_by_fine_partition(const any_geometry& geometry, const any_sizing& size,
+                                        const policies_of<3>& policies, const generate_options& options);
+
 /// What would be planned, without making anything but a first surface.
 template <int D>
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,

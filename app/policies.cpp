@@ -155,7 +155,7 @@ std::vector<named_strategy> improving_strategies() {
 } // namespace
 
 std::vector<std::string> decomposition_names() {
-  return {"simplification", by_bisection};
+  return {"simplification", by_bisection, by_fine_partition};
 }
 std::vector<std::string> partitioner_names() {
   return names_of(partitioners());

@@ -18,10 +18,11 @@
 
 namespace dovetail::app {
 
-/// How the domain becomes subdomains: a simplified background mesh is partitioned, or the fine surface is
-/// bisected.
+/// How the domain becomes subdomains: a simplified background mesh is partitioned, the fine surface is
+/// bisected, or a fine mesh of the whole is partitioned.
 std::vector<std::string> decomposition_names();
 inline constexpr const char* by_bisection = "bisection";
+inline constexpr const char* by_fine_partition = "fine-partition";
 std::vector<std::string> partitioner_names();
 std::vector<std::string> simplifier_names();
 /// Of meshers of elements of dimension D.

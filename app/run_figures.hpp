@@ -25,6 +25,7 @@ struct stage_seconds {
   double intersection = 0;
   double bisection = 0; ///< of the fine surface, where that is how the domain is decomposed
   double meshing = 0;
+  double fine_partition = 0; ///< of the mesh, where that is how it is decomposed
   double improvement = 0;
   double redistribution = 0; ///< by elements
   double first_pass = 0;     ///< of what is improved again

@@ -23,6 +23,7 @@ json seconds_json(const stage_seconds& seconds) {
           {"intersection", seconds.intersection},
           {"bisection", seconds.bisection},
           {"meshing", seconds.meshing},
+          {"fine_partition", seconds.fine_partition},
           {"improvement", seconds.improvement},
           {"redistribution", seconds.redistribution},
           {"first_pass", seconds.first_pass},

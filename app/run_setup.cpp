@@ -17,9 +17,10 @@ namespace {
 
 /// What has no part in a decomposition without a background mesh may not be asked for.
 void check_decomposition(const mesh_options& options, int dimension) {
-  if (chosen_name(decomposition_names(), options.decomposition, "--decomposition") != by_bisection)
+  const std::string name = chosen_name(decomposition_names(), options.decomposition, "--decomposition");
+  if (name == decomposition_names().front())
     return;
-  const std::string given = std::string("--decomposition ") + by_bisection;
+  const std::string given = "--decomposition " + name;
   if (dimension == 2)
     throw command_line_error(given + " divides solids; with --dimension 2 there are none");
   const bool parts_later = options.redistribute == by_elements;
@@ -31,7 +32,8 @@ void check_decomposition(const mesh_options& options, int dimension) {
         std::pair("--background-improver", !options.background_improver.empty()),
         std::pair("--simplifier", !options.simplifier.empty() && !parts_later),
         std::pair("--wedge-angle", options.wedge_angle.has_value() && !parts_later),
-        std::pair("--partitioner", !options.partitioner.empty() && !parts_later)})
+        std::pair("--partitioner",
+                  !options.partitioner.empty() && !parts_later && name != by_fine_partition)})
     if (is_given)
       throw command_line_error(given + " has no background mesh: " + option +
                                " does nothing there, leave it out");

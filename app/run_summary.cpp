@@ -64,6 +64,8 @@ void add_timing(table& rows, const run_figures& figures) {
   if (s.bisection > 0)
     rows.row("    Bisection of the fine surface", "%.2f", s.bisection);
   rows.row("  Mesh generation", "%.2f", s.meshing);
+  if (s.fine_partition > 0)
+    rows.row("  Partition of the fine mesh", "%.2f", s.fine_partition);
   rows.row("  Mesh improvement", "%.2f", s.improvement);
   if (s.redistribution > 0)
     rows.row("  Redistribution of elements", "%.2f", s.redistribution);

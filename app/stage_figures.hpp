@@ -30,6 +30,8 @@ inline stage_seconds seconds_of_stages(const report& summary) {
   const double both = meshing.get("mesher_seconds") + improver;
   seconds.improvement = both > 0 ? meshing.seconds * improver / both : 0;
   seconds.meshing = meshing.seconds - seconds.improvement;
+  seconds.fine_partition = summary.find("fine partition").seconds;
+  seconds.improvement += summary.find("improvement").seconds;
   seconds.total = summary.seconds;
   return seconds;
 }

@@ -1,11 +1,10 @@
 #!/bin/bash
-# The domain divided by bisecting its fine surface: a mesh like any other, the same for any workers and after a stop.
+# The domain divided otherwise than by a coarse mesh: a mesh like any other, the same for any workers and after a stop.
 #   check_decomposition.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
 limit=120
 write_cube >"$inputs/cube.off"
-bisected=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --decomposition bisection --report report.json)
 
 figure() { # the first with this key in the report
   sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
@@ -14,42 +13,51 @@ positive() {
   awk -v value="$1" 'BEGIN { exit !(value > 0) }'
 }
 
-# One mesh, whole and valid, with the times of what was done.
-expect_success "${bisected[@]}" --workers 2 --trace trace.json
-hash=$(figure mesh_hash)
-[[ $(figure decomposition) == bisection ]] || fault "the report names another decomposition"
-(($(figure subdomains) >= 6)) || fault "only $(figure subdomains) subdomains"
-(($(figure background_elements) == 0)) || fault "a background mesh"
-for stage in background skeleton bisection meshing improvement total; do
-  positive "$(figure $stage)" || fault "no time of $stage"
-done
-for stage in simplification partition; do
-  positive "$(figure $stage)" && fault "a time of $stage, which there is not"
-done
-grep -q "Bisection of the fine surface" "$sandbox/stdout" || fault "no bisection in the summary"
-grep -q '"name": "recursive bisection"' "$sandbox/work/trace.json" || fault "no bisection in the trace"
-mv "$sandbox/work/out" "$sandbox/work/report.json" "$inputs"
-expect_success check "$inputs/out/mesh.pvtu"
-expect_success check --report "$inputs/report.json"
-expect_success "${bisected[@]}" --workers 1
-[[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh by one worker"
-diff -rq "$inputs/out" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
-expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --report report.json
-[[ $(figure mesh_hash) != "$hash" && $(figure decomposition) == simplification ]] || fault "not the other decomposition by default"
-positive "$(figure bisection)" && fault "a time of bisection by default"
+# What each of them has to do.
+#   check_contract NAME STAGE SUMMARY TRACE: the report's name of its stage, the row in the summary, the stage in the trace
+check_contract() {
+  local divided=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --decomposition "$1" --report report.json) hash stage
+  # One mesh, whole and valid, with the times of what was done.
+  expect_success "${divided[@]}" --workers 2 --trace trace.json
+  hash=$(figure mesh_hash)
+  [[ $(figure decomposition) == "$1" ]] || fault "the report names another decomposition"
+  (($(figure subdomains) >= 6)) || fault "only $(figure subdomains) subdomains"
+  (($(figure background_elements) == 0)) || fault "a background mesh"
+  awk -v angle="$(figure min_wedge_deg)" 'BEGIN { exit !(angle > 0 && angle < 180) }' || fault "no angle of interfaces"
+  for stage in background skeleton "$2" meshing improvement total; do
+    positive "$(figure "$stage")" || fault "no time of $stage"
+  done
+  for stage in simplification partition; do
+    positive "$(figure $stage)" && fault "a time of $stage, which there is not"
+  done
+  grep -q "$3" "$sandbox/stdout" || fault "no row '$3' in the summary"
+  grep -q "\"name\": \"$4\"" "$sandbox/work/trace.json" || fault "no $4 in the trace"
+  rm -rf "$inputs/out"
+  mv "$sandbox/work/out" "$sandbox/work/report.json" "$inputs"
+  expect_success check "$inputs/out/mesh.pvtu"
+  expect_success check --report "$inputs/report.json"
+  expect_success "${divided[@]}" --workers 1
+  [[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh by one worker"
+  diff -rq "$inputs/out" "$sandbox/work/out" | grep -v finished_run && fault "other files by one worker"
+  expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --report report.json
+  [[ $(figure mesh_hash) != "$hash" && $(figure decomposition) == simplification ]] || fault "not the other decomposition by default"
+  positive "$(figure "$2")" && fault "a time of $2 by default"
+
+  # What comes after: ranks, with pieces as they are and cut, and the second order.
+  expect_success "${divided[@]}" --ranks 3
+  [[ -s $sandbox/work/out/ranks_0002.vtu ]] || fault "no file of the last rank"
+  expect_success "${divided[@]}" --ranks 5 --redistribute by-elements --partitioner metis --format none --improve-again
+  for stage in redistribution first_pass; do
+    positive "$(figure $stage)" || fault "no time of $stage"
+  done
+  expect_success "${divided[@]}" --order 2 --format vtu,msh
+}
+check_contract bisection bisection "Bisection of the fine surface" "recursive bisection"
+check_contract fine-partition fine_partition "Partition of the fine mesh" "cutting pieces"
 
 # Without a number of subdomains it is the number of faces that counts, and a small surface stays whole.
 expect_success mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --format none --report report.json
 (($(figure subdomains) == 1)) || fault "$(figure subdomains) subdomains of a small surface"
-
-# What comes after: ranks, with pieces as they are and cut, and the second order.
-expect_success "${bisected[@]}" --ranks 3
-[[ -s $sandbox/work/out/ranks_0002.vtu ]] || fault "no file of the last rank"
-expect_success "${bisected[@]}" --ranks 5 --redistribute by-elements --partitioner metis --format none --improve-again
-for stage in redistribution first_pass; do
-  positive "$(figure $stage)" || fault "no time of $stage"
-done
-expect_success "${bisected[@]}" --order 2 --format vtu,msh
 
 # A run that is stopped goes on, and one that is finished has nothing left to do.
 long=(mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
@@ -90,9 +98,11 @@ expect_usage_error "after the colon of 'metis:two' there is no seed" mesh "$inpu
 
 # What has no part in it is refused before anything is read.
 bad=(mesh nothing.off --decomposition bisection)
-expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection" \
+expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection, fine-partition" \
   mesh nothing.off --decomposition halves
 expect_usage_error "--decomposition bisection divides solids; with --dimension 2" "${bad[@]}" --dimension 2
+expect_usage_error "--decomposition fine-partition has no background mesh: --simplifier does nothing there" \
+  mesh nothing.off --decomposition fine-partition --simplifier none
 for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--wedge-angle 20" "--partitioner metis"; do
   expect_usage_error "--decomposition bisection has no background mesh: ${option% *} does nothing there" "${bad[@]}" $option
 done

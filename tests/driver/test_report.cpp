@@ -53,8 +53,8 @@ TEST_CASE("the report has all promised fields with the figures' values") {
                           "interfaces", "merges", "failed_subdomains", "peak_rss_bytes", "mesh_hash"})
     CHECK_MESSAGE(document.contains(key), key);
   for (const char* key : {"background", "simplification", "partition", "skeleton", "intersection", "meshing",
-                          "improvement", "output", "total", "bisection", "redistribution", "first_pass",
-                          "between_passes", "second_pass", "writing_back"})
+                          "improvement", "output", "total", "bisection", "fine_partition", "redistribution",
+                          "first_pass", "between_passes", "second_pass", "writing_back"})
     CHECK_MESSAGE(document["seconds"].contains(key), key);
   for (const char* key :
        {"min_dihedral_deg", "max_dihedral_deg", "bad_per_million", "low_per_million", "histogram"})
@@ -108,12 +108,17 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
 TEST_CASE("the summary has the steps that not every run has only where they are") {
   run_figures figures = example();
   figures.seconds.skeleton = 3;
-  const std::vector<std::string> labels = {"Bisection of the fine surface", "Redistribution of elements",
-                                           "Improvement again, first pass", "Second pass", "Writing back"};
+  const std::vector<std::string> labels = {"Bisection of the fine surface",
+                                           "Partition of the fine mesh",
+                                           "Redistribution of elements",
+                                           "Improvement again, first pass",
+                                           "Second pass",
+                                           "Writing back"};
   const std::string usual = summary_text(figures);
   for (const std::string& label : labels)
     CHECK_MESSAGE(usual.find(label) == std::string::npos, label);
   figures.seconds.bisection = 4.5;
+  figures.seconds.fine_partition = 2;
   figures.seconds.redistribution = figures.seconds.first_pass = figures.seconds.second_pass = 1;
   const std::string all = summary_text(figures);
   for (const std::string& label : labels)

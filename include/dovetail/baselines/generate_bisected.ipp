@@ -3,12 +3,9 @@
 #pragma once
 
 #include "dovetail/background/coarse_volume.hpp"
-#include "dovetail/baselines/element_layers.hpp"
 #include "dovetail/baselines/generate_bisected.hpp"
+#include "dovetail/baselines/interface_angles_of_skeleton.hpp"
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/forced_angles.hpp"
-#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
 #include "dovetail/pipeline/divide.hpp"
@@ -21,23 +18,6 @@
 #include <vector>
 
 namespace dovetail::baselines {
-
-namespace detail {
-
-/// The angles of interfaces and beside them; what the CAD forces is marked.
-inline interface_angles angles_of_interfaces(const fine_skeleton& fine, const any_sizing& size,
-                                             double threshold_deg) {
-  std::vector<triangle_origin> origins;
-  for (std::size_t s = 0; s < fine.sides.size(); ++s)
-    origins.push_back(is_interface(fine, s) ? triangle_origin::kept : triangle_origin::cad);
-  auto angles = measure_interface_angles(
-      {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)}, threshold_deg);
-  find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
-              size, threshold_deg);
-  return angles;
-}
-
-} // namespace detail
 
 DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const erased_sizing& size,
                                                const any_parameters<3>& given,
