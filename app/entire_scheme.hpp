@@ -11,9 +11,10 @@
 namespace dovetail::app {
 
 /// Parts of a run, as its report names their times. Domain decomposition is all up to the meshing of pieces,
-/// by simplification or by bisection.
+/// by simplification or by bisection; or the partition of a mesh that is fine already.
 inline std::vector<std::string> decomposition_parts() {
-  return {"background", "simplification", "partition", "skeleton", "intersection", "bisection"};
+  return {"background",   "simplification", "partition",     "skeleton",
+          "intersection", "bisection",      "fine_partition"};
 }
 /// Mesh generation, redistribution and improvement, also where that goes back to the interfaces.
 inline std::vector<std::string> other_parts() {
