@@ -143,17 +143,6 @@ start_until() {
   done
   kill -0 $process 2>/dev/null || fault "it had ended before"
 }
-# ended_within <seconds>: sets $status.
-ended_within() {
-  local tenths
-  for ((tenths = 0; tenths < 10 * $1; ++tenths)); do
-    kill -0 $process 2>/dev/null || break
-    sleep 0.1
-  done
-  kill -0 $process 2>/dev/null && fault "it has not ended within $1 s" && kill -9 $process
-  wait $process
-  status=$?
-}
 # The processes of a rank: its relay is mpirun's child, that one's child computes, whose children work.
 relays() { pgrep -P "$process" -f "$driver"; }
 computing() { for relay in $(relays); do pgrep -P "$relay"; done; }
@@ -165,7 +154,7 @@ resume_on() {
 
 start_until 4 intersection "${long[@]}" # the line comes at its end
 kill -TERM $process
-ended_within 10
+process_ends_within 10
 ((status != 0)) || fault "exit code is 0"
 [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
 grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
@@ -180,7 +169,7 @@ for victim in first last; do
     else
       kill -SEGV "$(computing | tail -n 1)"
     fi
-    ended_within 10
+    process_ends_within 10
     ((status == 1)) || fault "exit code is $status, not 1"
     [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
     grep -q "^dovetail: .*ended by signal 11" "$sandbox/stderr" || fault "the line does not say what happened"
@@ -192,7 +181,7 @@ resume_on 7
 
 start_until 2 intersection "${long[@]}"
 kill -KILL "$(relays | tail -n 1)"
-ended_within 10
+process_ends_within 10
 ((status != 0)) || fault "exit code is 0"
 nothing_left several
 resume_on 1
@@ -206,7 +195,7 @@ on_ranks 4 several "${mesh[@]}" --format vtu,msh --spool "$disks"
 [[ -d $disks && -z $(find "$disks" -mindepth 1) && ! -e several/out/spool ]] || fault "the spools are not gone: $(find "$disks")"
 start_until 3 intersection "${long[@]}" --spool "$disks"
 kill -TERM $process
-ended_within 10
+process_ends_within 10
 ((status != 0)) || fault "exit code is 0"
 grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
 for rank in 0 1 2; do

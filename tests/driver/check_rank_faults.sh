@@ -99,13 +99,7 @@ kill_in() {
 # ended_within <seconds>: sets $status.
 ended_within() {
   local tenths
-  for ((tenths = 0; tenths < 10 * $1; ++tenths)); do
-    kill -0 $process 2>/dev/null || break
-    sleep 0.1
-  done
-  kill -0 $process 2>/dev/null && fault "it has not ended within $1 s" && kill -9 $process
-  wait $process 2>/dev/null
-  status=$?
+  process_ends_within "$1"
   for ((tenths = 0; tenths < 20; ++tenths)); do # until all that was said is read
     kill -0 $reader 2>/dev/null || break
     sleep 0.1

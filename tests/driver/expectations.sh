@@ -57,6 +57,18 @@ expect_success() {
   ((status == 0)) || fault "exit code is $status"
 }
 
+# process_ends_within <seconds>: waits for the process $process, whose exit code is $status then.
+process_ends_within() {
+  local tenths
+  for ((tenths = 0; tenths < 10 * $1; ++tenths)); do
+    kill -0 $process 2>/dev/null || break
+    sleep 0.1
+  done
+  kill -0 $process 2>/dev/null && fault "it has not ended within $1 s" && kill -9 $process
+  wait $process 2>/dev/null
+  status=$?
+}
+
 finish() {
   ((problems == 0)) && echo "as expected"
   exit $((problems > 0))

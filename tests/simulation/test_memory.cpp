@@ -5,13 +5,13 @@
 using namespace dovetail;
 using namespace dovetail::simulation;
 
-TEST_CASE("Ranks hold background and skeleton once each, their workers a piece each") {
-  const rank_memory memory{1000, 100, 10, 1};
+TEST_CASE("Ranks hold the background each, their workers a piece each, and a node the skeleton") {
+  const rank_memory memory{1000, 100, 1, 10};
   const mesh_sizes sizes{.background_elements = 5, .skeleton_sides = 7, .largest_piece = 3};
   CHECK(memory.of_node(sizes, 1, 1) == doctest::Approx(1000 + 500 + 70 + 3));
-  CHECK(memory.of_node(sizes, 4, 1) == doctest::Approx(4 * 1573));
+  CHECK(memory.of_node(sizes, 4, 1) == doctest::Approx(70 + 4 * 1503));
   CHECK(memory.of_node(sizes, 1, 4) == doctest::Approx(1570 + 4 * 3));
-  CHECK(memory.of_node(sizes, 2, 3) == doctest::Approx(2 * (1570 + 3 * 3)));
+  CHECK(memory.of_node(sizes, 2, 3) == doctest::Approx(70 + 2 * (1500 + 3 * 3)));
 }
 
 TEST_CASE(

@@ -16,8 +16,8 @@ namespace dovetail::detail {
 
 /// The feed of one rank. Each that works has `in_hand` tasks of its own in the beginning, dealt in turn
 /// without a word; rank 0 grants the others, in the order of the run, one for each request, and each task
-/// that is done is one request: so it knows when all is done, and tells those that do not work. 12 bytes each
-/// way and task.
+/// that is done is one request: so it knows when all is done, and tells those that do not work. A task costs
+/// an empty message and one of 8 bytes.
 class rank_tasks final : public task_feed {
 public:
   /// Collective, with the same arguments on all ranks. `working`: the ranks that take tasks; `in_hand`:
