@@ -130,7 +130,7 @@ void print_memory(const simulate_options& options, const mesh_sizes& sizes) {
       return (on_node.one_rank ? memory.of_node(sizes, 1, workers) : memory.of_node(sizes, workers, 1)) /
              gigabyte;
     };
-    table.row(std::string("  ") + on_node.name, [&](std::size_t k) { return fixed(needed(k), 1); });
+    table.row(std::string("  ") + on_node.name, [&](std::size_t k) { return fixed(needed(k), 2); });
     for (std::size_t k = 0; options.memory_per_node && k < options.workers.size(); ++k)
       if (needed(k) > *options.memory_per_node)
         exceeded += "With " + std::to_string(options.workers[k]) + " workers, " + on_node.name +
