@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "output_formats.hpp"
 #include "policies.hpp"
+#include "rank_partitioner.hpp"
 #include "rank_supervision.hpp"
 #include "supervision.hpp"
 
@@ -126,6 +127,11 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--ranks", options.ranks, "Files for a parallel solver: number of its processes");
   command.add_option("--redistribute", options.redistribute,
                      "How the pieces come to ranks: " + joined(redistributor_names()));
+  command.add_option(
+      "--rank-partitioner", options.rank_partitioner,
+      "Who partitions for --redistribute by-elements: --partitioner on rank 0 (gathered), or a "
+      "library on all ranks of mpirun: " +
+          joined(rank_partitioner_names()));
   command.add_flag(
       "--improve-again{pieces}", options.improve_again,
       "After --redistribute by-elements, how tetrahedra are improved once more: what each rank has "
@@ -202,7 +208,10 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      outputs = {.files = {mesh.report, mesh.trace}, .folder = mesh.out, .spool = spool_folder(mesh)};
+      outputs = {.files = {mesh.report, mesh.trace},
+                 .folder = mesh.out,
+                 .spool = spool_folder(mesh),
+                 .has_own_spool = !mesh.spool.empty()};
     });
   }
   void add_plan() {
@@ -417,11 +426,12 @@ int run_command_line(int argc, char** argv) {
     return run_supervised(chosen, clean_up);
   const auto on_ranks = [&] {
     return run_on_ranks(
-        [&](const any_communicator& network) {
-          line.mesh.network = network;
+        [&](const relayed_rank& rank) {
+          line.mesh.network = rank.network;
+          line.mesh.partition_desk = rank.partition_desk;
           return chosen();
         },
-        clean_up);
+        {.of_rank = [&] { unfinished.remove_of_rank(); }, .of_all = clean_up});
   };
   return run_guarded(on_ranks, help);
 }

@@ -5,6 +5,7 @@
 #include "output.hpp"
 #include "output_formats.hpp"
 #include "policies.hpp"
+#include "rank_partitioner.hpp"
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
@@ -25,6 +26,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -271,8 +273,7 @@ private:
 
   generated<D> generate(const model_source& source, const std::filesystem::path& folder) {
     if (!options_.force)
-      parameters_.largest_prediction =
-          policies_.executor.once([&] { return elements_with_room(formats_, folder); });
+      parameters_.largest_prediction = elements_with_room_everywhere(folder);
     try {
       if constexpr (D == 3)
         if (options_.decomposition == by_bisection || options_.decomposition == by_fine_partition)
@@ -282,9 +283,23 @@ private:
       return generate_mesh_from<D>(background, source.geometry, policies_, parameters_);
     } catch (const too_many_elements& problem) {
       throw io_error(folder.string() + ": the sizes predict about " + count_text(problem.predicted) +
-                     " elements, and the disk has room for about " +
-                     count_text(parameters_.largest_prediction) + "; give larger sizes, or --force to try");
+                     " elements, and " +
+                     (options_.spool.empty() ? "the disk has" : "its disk, or that of --spool, has") +
+                     " room for about " + count_text(parameters_.largest_prediction) +
+                     "; give larger sizes, or --force to try");
     }
+  }
+
+  /// The least of all ranks, whose spools may be on disks of their own.
+  double elements_with_room_everywhere(const std::filesystem::path& folder) const {
+    const std::filesystem::path own_spool = options_.spool.empty() ? "" : spool_folder(options_);
+    byte_writer mine;
+    mine.value(elements_with_room(formats_, folder, own_spool));
+    any_communicator network = policies_.executor.network();
+    double least = std::numeric_limits<double>::infinity();
+    for (const byte_buffer& theirs : network.all_gather(mine.take()))
+      least = std::min(least, byte_reader(theirs).value<double>());
+    return least;
   }
 
   /// How many subdomains there are is known when they are made.
@@ -346,12 +361,13 @@ private:
                                 [[maybe_unused]] const any_sizing& size) {
     const stopwatch clock;
     parameters_.on_progress("redistributing elements", 0, 0);
-    const auto given =
-        redistribution_by::elements{.partitioner = policies_.partitioner,
-                                    .simplify_by = policies_.simplifier,
-                                    .run_tasks = policies_.executor,
-                                    .store = parameters_.store,
-                                    .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
+    const auto given = redistribution_by::elements{
+        .partitioner =
+            make_rank_partitioner(options_.rank_partitioner, policies_.partitioner, options_.partition_desk),
+        .simplify_by = policies_.simplifier,
+        .run_tasks = policies_.executor,
+        .store = parameters_.store,
+        .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
     figures_.seconds.redistribution = clock.seconds();
     std::vector<local_id> ranks = given.rank_of_piece;
@@ -469,9 +485,12 @@ int run_mesh(const mesh_options& options) {
   try {
     return options.dimension == 3 ? mesh_run<3>(options).run() : mesh_run<2>(options).run();
   } catch (const cancelled&) {
-    complain(stopped_line(work_kept_in(options.out, spool_folder(options)).anything));
-    return exit_stopped;
+  } catch (const communication_error&) { // a rank that was asked to stop too may have gone first
+    if (!stop_was_requested())
+      throw;
   }
+  complain(stopped_line(work_kept_in(options.out, spool_folder(options)).anything));
+  return exit_stopped;
 }
 
 } // namespace dovetail::app

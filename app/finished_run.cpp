@@ -1,6 +1,7 @@
 #include "finished_run.hpp"
 
 #include "output_formats.hpp"
+#include "rank_partitioner.hpp"
 
 #include "dovetail/core/output_file.hpp"
 
@@ -14,6 +15,14 @@ namespace {
 
 constexpr const char* record_name = "finished_run.txt";
 
+/// Other numbers of ranks may give other parts.
+std::string text_of_rank_partitioner(const mesh_options& options) {
+  if (options.rank_partitioner.empty() || options.rank_partitioner == rank_partitioner_names().front())
+    return "";
+  return " parts by " + options.rank_partitioner + " on " +
+         std::to_string(options.network ? options.network->size() : 1);
+}
+
 } // namespace
 
 finished_run::finished_run(const std::filesystem::path& folder, const run_identity& identity,
@@ -26,7 +35,8 @@ finished_run::finished_run(const std::filesystem::path& folder, const run_identi
   if (options.ranks)
     started_with_ += "ranks " + std::to_string(*options.ranks) + " " + options.redistribute +
                      (options.ghosts ? " ghosts" : "") +
-                     " improved again: " + improvement_of_ranks(options, options.dimension) + "\n";
+                     " improved again: " + improvement_of_ranks(options, options.dimension) +
+                     text_of_rank_partitioner(options) + "\n";
   started_with_ += "pieces " + std::to_string(options.files) + "\nfiles\n";
 }
 

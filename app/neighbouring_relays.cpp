@@ -54,14 +54,20 @@ void neighbouring_relays::meet(any_communicator& relays, pid_t computing) {
     if (from.text() == here) {
       const int relay = descriptor_of(from.value<pid_t>());
       ranks_.push_back({rank, relay, descriptor_of(from.value<pid_t>())});
+      of_relays_.push_back({relay, POLLIN, 0});
     }
     ++rank;
   }
 }
 
+bool neighbouring_relays::all_live() const {
+  std::vector<pollfd> watched = of_relays_;
+  return ::poll(watched.data(), watched.size(), 0) <= 0;
+}
+
 void neighbouring_relays::require_all() const {
-  if (const int lost = first(false); lost != nobody)
-    throw relay_lost{lost};
+  if (!all_live())
+    throw relay_lost{first(false)};
 }
 
 void neighbouring_relays::await_relay(int rank, std::chrono::milliseconds at_most) const {

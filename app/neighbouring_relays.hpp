@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <poll.h>
 #include <sys/types.h>
 
 namespace dovetail::app {
@@ -31,7 +32,8 @@ public:
   /// Collective, of the relays; `computing` is the process that this one speaks for.
   void meet(any_communicator& relays, pid_t computing);
 
-  bool all_live() const { return first(false) == nobody; }
+  /// By one call of the system, however many they are: a relay asks at each look for messages.
+  bool all_live() const;
   /// Throws `relay_lost` with the lowest rank whose relay is gone.
   void require_all() const;
   /// The lowest rank whose relay lives, maybe this one.
@@ -52,7 +54,8 @@ private:
   };
   int first(bool living) const;
 
-  std::vector<processes> ranks_; ///< growing, this one too
+  std::vector<processes> ranks_;  ///< growing, this one too
+  std::vector<pollfd> of_relays_; ///< of the same, to be watched together
 };
 
 /// A model of `communicator` that throws `relay_lost` where `C` would wait for a relay that is gone.

@@ -51,6 +51,7 @@ struct mesh_options {
   int files = 0;            ///< number of VTU or HDF5 files; 0: one per subdomain
   std::optional<int> ranks; ///< of the solver that the mesh is for
   std::string redistribute;
+  std::string rank_partitioner; ///< of redistribution by elements; empty: the default
   std::string
       improve_again; ///< after redistribution by elements, what ranks have: the strategy; empty: the default
   bool ghosts = false; ///< of each rank, in formats that have them
@@ -60,6 +61,7 @@ struct mesh_options {
   bool force = false;
   bool quiet = false;
   std::optional<any_communicator> network = {}; ///< of the ranks, where there are several
+  int partition_desk = -1;                      ///< the socket to that of this rank's relay; -1: no relay
   std::string command_line = {};                ///< which is the same for all of them
 };
 

@@ -1,6 +1,7 @@
 #include "output.hpp"
 
 #include "failure.hpp"
+#include "rank_supervision.hpp"
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
@@ -101,8 +102,7 @@ std::filesystem::path spool_folder(const mesh_options& options) {
   const std::filesystem::path folder = options.out;
   return options.spool.empty()
              ? folder / "spool"
-             : std::filesystem::path(options.spool) /
-                   ("rank_" + std::to_string(options.network ? options.network->rank() : 0));
+             : std::filesystem::path(options.spool) / ("rank_" + std::to_string(rank_of_mpirun().rank));
 }
 
 kept_work work_kept_in(const std::filesystem::path& folder, const std::filesystem::path& spooled) {
@@ -161,6 +161,11 @@ bool unfinished_output::remove() const {
   }
   remove_empty(absent_);
   return kept;
+}
+
+void unfinished_output::remove_of_rank() const {
+  if (outputs_.has_own_spool)
+    remove_spool_parts(outputs_.spool, work_kept_in(outputs_.folder, outputs_.spool).anything);
 }
 
 void check_can_create(const std::filesystem::path& file) {

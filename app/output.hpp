@@ -33,6 +33,7 @@ struct command_outputs {
   std::vector<std::filesystem::path> files = {}; ///< outside the folder; empty names are none
   std::filesystem::path folder = {};
   std::filesystem::path spool = {}; ///< of what it keeps for another run to go on from; empty: nothing
+  bool has_own_spool = false;       ///< which is that of this rank, and not of all
 };
 
 /// What a command that is stopped or ended may leave of the files and folders that it writes to. Made before
@@ -44,6 +45,8 @@ public:
   /// folders that were not there. Returns whether another run can go on from what is left. Does not throw for
   /// what it finds on the disk.
   bool remove() const;
+  /// On each of several ranks: the same of its own spool.
+  void remove_of_rank() const;
 
 private:
   command_outputs outputs_;

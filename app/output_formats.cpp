@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "named_policies.hpp"
 #include "policies.hpp"
+#include "rank_partitioner.hpp"
 
 #include "dovetail/io/mfem_format.hpp"
 #include "dovetail/io/msh_writer.hpp"
@@ -117,6 +118,10 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
   if (!options.improve_again.empty() && (D == 2 || options.redistribute != by_elements))
     throw command_line_error("--improve-again goes with tetrahedra and --redistribute by-elements");
   make_improving_strategy(options.improve_again);
+  if (!options.rank_partitioner.empty() && options.redistribute != by_elements)
+    throw command_line_error("--rank-partitioner goes with --redistribute by-elements");
+  make_rank_partitioner(options.rank_partitioner, make_partitioner(options.partitioner),
+                        options.partition_desk);
   if (!options.ranks) {
     if (by_ranks || options.ghosts || !options.redistribute.empty())
       throw command_line_error("--ranks is missing: for how many ranks the mesh is");
@@ -136,6 +141,20 @@ void check_ranks(const mesh_options& options, const std::vector<output_format<D>
     throw command_line_error("--ghosts: none of the formats has elements of other ranks; these have: " +
                              formats_by_ranks<D>([](const auto& other) { return other.ghosts; }));
 }
+
+/// Per element, of all formats together.
+struct disk_use {
+  double bytes_of_files = 0;
+  int meshes_in_spool = 0; ///< beside files that are complete
+
+  template <int D>
+  explicit disk_use(const std::vector<output_format<D>>& formats) {
+    for (const auto& format : formats) {
+      bytes_of_files += format.bytes_per_element;
+      meshes_in_spool = std::max(meshes_in_spool, format.meshes_in_spool);
+    }
+  }
+};
 
 } // namespace
 
@@ -194,23 +213,25 @@ std::vector<output_format<D>> make_formats(const mesh_options& options,
 
 template <int D>
 double bytes_per_element(const std::vector<output_format<D>>& formats) {
-  double bytes = 0;
-  int meshes_in_spool = 0;
-  for (const auto& format : formats) {
-    bytes += format.bytes_per_element;
-    meshes_in_spool = std::max(meshes_in_spool, format.meshes_in_spool);
-  }
-  if (meshes_in_spool == 0) // it shrinks while the last format grows
-    return std::max(bytes, spool_bytes_per_element);
-  return bytes + meshes_in_spool * spool_bytes_per_element;
+  const disk_use use(formats);
+  if (use.meshes_in_spool == 0) // it shrinks while the last format grows
+    return std::max(use.bytes_of_files, spool_bytes_per_element);
+  return use.bytes_of_files + use.meshes_in_spool * spool_bytes_per_element;
 }
 
 template <int D>
-double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder) {
-  std::error_code failure;
-  const auto space = std::filesystem::space(folder, failure);
-  return failure ? std::numeric_limits<double>::infinity()
-                 : static_cast<double>(space.available) / bytes_per_element(formats);
+double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder,
+                          const std::filesystem::path& own_spool) {
+  const auto with_room = [](const std::filesystem::path& place, double bytes) {
+    std::error_code failure;
+    const auto space = std::filesystem::space(place, failure);
+    return failure ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available) / bytes;
+  };
+  if (own_spool.empty())
+    return with_room(folder, bytes_per_element(formats));
+  const disk_use use(formats);
+  return std::min(with_room(folder, use.bytes_of_files),
+                  with_room(own_spool, std::max(1, use.meshes_in_spool) * spool_bytes_per_element));
 }
 
 template std::vector<output_format<2>> make_formats<2>(const mesh_options&);
@@ -219,7 +240,9 @@ template std::vector<output_format<2>> make_formats<2>(const mesh_options&, cons
 template std::vector<output_format<3>> make_formats<3>(const mesh_options&, const any_redistributor<3>&);
 template double bytes_per_element<2>(const std::vector<output_format<2>>&);
 template double bytes_per_element<3>(const std::vector<output_format<3>>&);
-template double elements_with_room<2>(const std::vector<output_format<2>>&, const std::filesystem::path&);
-template double elements_with_room<3>(const std::vector<output_format<3>>&, const std::filesystem::path&);
+template double elements_with_room<2>(const std::vector<output_format<2>>&, const std::filesystem::path&,
+                                      const std::filesystem::path&);
+template double elements_with_room<3>(const std::vector<output_format<3>>&, const std::filesystem::path&,
+                                      const std::filesystem::path&);
 
 } // namespace dovetail::app

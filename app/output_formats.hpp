@@ -55,8 +55,10 @@ std::vector<output_format<D>> make_formats(const mesh_options& options,
 template <int D>
 double bytes_per_element(const std::vector<output_format<D>>& formats);
 
-/// The number of elements that there is room for on the disk of the folder.
+/// The number of elements that there is room for on the disk of the folder, and on that of a spool which is
+/// not in it; empty: it is.
 template <int D>
-double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder);
+double elements_with_room(const std::vector<output_format<D>>& formats, const std::filesystem::path& folder,
+                          const std::filesystem::path& own_spool);
 
 } // namespace dovetail::app

@@ -6,6 +6,7 @@
 
 #ifdef DOVETAIL_DRIVER_WITH_MPI
 #include "neighbouring_relays.hpp"
+#include "rank_partitioner.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/bytes.hpp"
@@ -85,13 +86,37 @@ public:
     std::string said(file_ < 0 ? 0 : static_cast<std::size_t>(::lseek(file_, 0, SEEK_END)), '\0');
     if (!said.empty() && ::pread(file_, said.data(), said.size(), 0) < 0)
       said.clear();
-    const std::string prefix = "dovetail: ";
-    return said.starts_with(prefix) ? said.substr(prefix.size()) : said;
+    const std::string prefix = "dovetail: "; // libraries may have said something before
+    const std::size_t line = ('\n' + said).rfind('\n' + prefix);
+    return line == std::string::npos ? said : said.substr(line + prefix.size());
   }
 
 private:
   int file_;
 };
+
+/// One end of what connects a relay and its computing process.
+struct relay_sockets {
+  int messages = -1; ///< between ranks
+  int partition_desk = -1;
+
+  void close() const {
+    ::close(messages);
+    ::close(partition_desk);
+  }
+};
+
+/// That of the relay, and that of the computing process.
+std::pair<relay_sockets, relay_sockets> connected_sockets() {
+  const auto connected = [] {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+      throw usage_error("the system refuses a socket between two processes");
+    return ends;
+  };
+  const auto messages = connected(), partition_desk = connected();
+  return {{messages[0], partition_desk[0]}, {messages[1], partition_desk[1]}};
+}
 
 /// The network of the computing process, which ends with its relay: it sees first that nobody answers, of
 /// which there is nothing to say.
@@ -159,7 +184,7 @@ using relay_network = watched_network<parallel::mpi>;
 
 /// Passes messages until the computing process has ended. Throws `relay_lost`.
 rank_end relay_until_end(supervisor& computing, relay_network& network, const neighbouring_relays& neighbours,
-                         int socket, const kept_error_stream& said) {
+                         int socket, partition_desk& desk, const kept_error_stream& said) {
   parallel::relay relay(network, socket);
   bool others_go_on = true;
   int looks = 0; // since a message was there
@@ -168,8 +193,14 @@ rank_end relay_until_end(supervisor& computing, relay_network& network, const ne
                               [&] { return neighbours.all_live(); })) {
     try {
       ++looks;
-      while (others_go_on && relay.step())
-        looks = 0;
+      const auto pass_messages = [&] {
+        while (relay.step())
+          looks = 0;
+      };
+      if (others_go_on) {
+        pass_messages();
+        desk.serve(pass_messages);
+      }
     } catch (const communication_error& problem) {
       others_go_on = false;
       relay.tell_abandoned(problem.what());
@@ -194,18 +225,21 @@ rank_end relay_until_end(supervisor& computing, relay_network& network, const ne
   return end;
 }
 
-/// On rank 0: the exit code of all, with what is to be said on the error stream.
-int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
-             const std::function<bool()>& clean_up) {
+/// On rank 0: the exit code of all, with what is to be said on the error stream. Others see that a rank was
+/// stopped as a network that fails.
+int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const clean_up_on_ranks& clean_up) {
   const auto has_failed = [](const rank_end& end) { return end.code != exit_ok && end.by_itself; };
-  const auto failed = std::find_if(ends.begin(), ends.end(), has_failed);
+  auto failed = std::find_if(ends.begin(), ends.end(),
+                             [](const rank_end& end) { return end.code == exit_stopped && end.by_itself; });
+  if (failed == ends.end())
+    failed = std::find_if(ends.begin(), ends.end(), has_failed);
   if (failed == ends.end())
     return exit_ok;
-  const bool can_go_on = cleaned_up(clean_up);
+  const bool can_go_on = cleaned_up(clean_up.of_all);
   const bool stopped = failed->code == exit_stopped;
   const bool all_alike =
       std::all_of(ends.begin(), ends.end(), [&](const rank_end& end) { return end.cause == failed->cause; });
-  if (failed != ends.begin() || !first_has_spoken)
+  if (!first_has_spoken || !has_failed(ends.front()))
     complain(stopped     ? stopped_line(can_go_on)
              : all_alike ? failed->cause
                          : "rank " + std::to_string(failed - ends.begin()) + ": " + failed->cause);
@@ -216,7 +250,7 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
 /// One of its neighbours says so, and cleans up; the others stay until then, or they would be taken for
 /// killed too.
 [[noreturn]] void end_without(int lost, supervisor& computing, const neighbouring_relays& neighbours,
-                              const std::function<bool()>& clean_up) {
+                              const clean_up_on_ranks& clean_up) {
   const int speaker = neighbours.first_living();
   const bool speaks = speaker == rank_of_mpirun().rank;
   const auto nothing = [] { return false; };
@@ -229,13 +263,14 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken,
   while (!computing.has_ended(pause, nothing)) {
   }
   computing.await_workers();
+  clean_up.of_rank();
   if (!speaks) {
     neighbours.await_relay(speaker, std::chrono::seconds(5));
     ::_exit(exit_failure);
   }
   neighbours.await_computing(std::chrono::seconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(50)); // those that worked for it end with it
-  cleaned_up(clean_up);
+  cleaned_up(clean_up.of_all);
   ::_exit(exit_failure); // to finalise MPI needs all
 }
 
@@ -247,15 +282,18 @@ void require_mpi_of_mpirun(int rank, int size) {
                       std::to_string(size) + "; start it with the mpirun of the MPI it was built with");
 }
 
-int relay_of_rank(supervisor& computing, int socket, const kept_error_stream& said, bool first,
-                  const std::function<bool()>& clean_up) {
+int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kept_error_stream& said,
+                  bool first, const clean_up_on_ranks& clean_up) {
   neighbouring_relays neighbours;
   relay_network network(parallel::mpi{}, neighbours);
   require_mpi_of_mpirun(network.rank(), network.size());
   any_communicator relays = relay_network(parallel::mpi{}, neighbours); // of which none abandons another
+  partition_desk desk(sockets.partition_desk, relay_network(parallel::mpi{}, neighbours));
   neighbours.meet(relays, computing.child());
   try {
-    const rank_end end = relay_until_end(computing, network, neighbours, socket, said);
+    const rank_end end = relay_until_end(computing, network, neighbours, sockets.messages, desk, said);
+    if (end.code != exit_ok)
+      clean_up.of_rank();
     std::vector<rank_end> all;
     for (const byte_buffer& theirs : relays.gather(encode_end(end)))
       all.push_back(decode_end(theirs));
@@ -271,26 +309,23 @@ int relay_of_rank(supervisor& computing, int socket, const kept_error_stream& sa
 
 } // namespace
 
-int run_on_ranks(const std::function<int(const any_communicator&)>& command,
-                 const std::function<bool()>& clean_up) {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw usage_error("the system refuses a socket between two processes");
+int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const clean_up_on_ranks& clean_up) {
+  const auto [of_relay, of_computing] = connected_sockets();
   const bool first = rank_of_mpirun().rank == 0;
   const kept_error_stream said(!first);
   supervisor computing; // before MPI, which starts threads
   if (computing.has_no_child())
     throw usage_error("the system refuses to start a process");
   if (!computing.supervises()) {
-    ::close(ends[0]);
+    of_relay.close();
     ::setpgid(0, 0); // mpirun's signals go to the group of the relay, which passes them on
     said.redirect();
-    return command(network_by_relay(ends[1]));
+    return command({network_by_relay(of_computing.messages), of_computing.partition_desk});
   }
-  ::close(ends[1]);
+  of_computing.close();
   const boost::mpi::environment started(boost::mpi::threading::single, false);
   try {
-    return relay_of_rank(computing, ends[0], said, first, clean_up);
+    return relay_of_rank(computing, of_relay, said, first, clean_up);
   } catch (const std::exception& problem) { // the others would wait for this relay
     computing.end();
     computing.await_workers();
@@ -302,7 +337,7 @@ int run_on_ranks(const std::function<int(const any_communicator&)>& command,
 
 #else
 
-int run_on_ranks(const std::function<int(const any_communicator&)>&, const std::function<bool()>&) {
+int run_on_ranks(const std::function<int(const relayed_rank&)>&, const clean_up_on_ranks&) {
   throw command_line_error(
       "this program was built without MPI and cannot run on several ranks; start it without "
       "mpirun, or build it where Boost.MPI is");

@@ -121,6 +121,35 @@ for variables in "PMI_RANK=0 PMI_SIZE=2" "SLURM_PROCID=0 SLURM_STEP_NUM_TASKS=2"
   grep -q "^dovetail: rank 0: mpirun says rank 0 of 2, and MPI rank 0 of 1" "$sandbox/stderr" || fault "the line does not say what is wrong"
 done
 
+# Libraries that partition on all ranks, called by the relays. Their parts hang on the number of ranks, and on nothing else.
+cut=(mesh "$inputs/cube.off" --size 0.06 --subdomains 6 --ranks 3 --redistribute by-elements --improve-again=none --format pvtu
+  --report report.json)
+fresh gathered
+on_ranks 3 gathered "${cut[@]}"
+((status == 0)) || fault "exit code is $status"
+for library in ptscotch parmetis; do
+  if ! "$driver" mesh --help | grep -A 3 -e --rank-partitioner | grep -q $library; then
+    echo "not tried, since the driver was built without it: $library"
+    continue
+  fi
+  fresh several
+  on_ranks 3 several "${cut[@]}" --rank-partitioner $library
+  ((status == 0)) || fault "exit code is $status"
+  grep -q "gives other parts on another number of ranks" several/report.json || fault "the report does not say that the parts depend on it"
+  [[ $(files_of several) != "$(files_of gathered)" ]] || fault "the files of the partitioner of one rank"
+  expect_success check "$sandbox/several/out/ranks.pvtu"
+  fresh again
+  on_ranks 3 again "${cut[@]}" --rank-partitioner $library
+  [[ $status == 0 && $(files_of again) == "$(files_of several)" ]] || fault "other files when it is done again"
+  on_ranks 2 again "${cut[@]}" --rank-partitioner $library --resume
+  ((status == 0)) || fault "exit code is $status"
+  grep -q "this run is finished" "$sandbox/stdout" && fault "taken for the mesh of three ranks"
+  expect_success check "$sandbox/again/out/ranks.pvtu"
+  on_ranks 2 several "${cut[@]/%3/100000}" --rank-partitioner $library
+  one_line 1 "cannot make 100000 parts"
+  nothing_left several
+done
+
 # 3. A run that is killed goes on with another number of ranks.
 long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 8 --report report.json)
 fresh whole

@@ -179,4 +179,17 @@ for victim in relay computing worker; do
   done
   [[ $all ]] || go_on "${numbers[tried % 3]}"
 done
+
+# Each rank looks after a spool of its own, here for what a worker might have left.
+victim=computing
+own=(--spool "$sandbox/spools")
+fresh several
+tried=2
+try 3 meshing "${own[@]}"
+touch "$sandbox/spools/rank_2/piece_begun.blob.part"
+tried=2
+try 3 finishing "${own[@]}" --resume
+[[ ! -e $sandbox/spools/rank_2/piece_begun.blob.part ]] || fault "left in the spool of rank 2"
+mesh+=("${own[@]}")
+go_on 3
 finish

@@ -139,6 +139,13 @@ expect_usage_error "--order 2: the files of mfem are of first order; with --rank
   mesh nothing.off --ranks 2 --order 2 --format vtu,mfem
 expect_usage_error "--order 2: the files of openfoam are of first order" mesh nothing.off --ranks 2 --order 2 \
   --format openfoam
+expect_usage_error "--rank-partitioner goes with --redistribute by-elements" mesh nothing.off --ranks 2 --rank-partitioner gathered
+expect_usage_error "--rank-partitioner: there is no 'x'; there are: gathered" mesh nothing.off --ranks 2 \
+  --redistribute by-elements --rank-partitioner x
+if "$driver" mesh --help | grep -q ptscotch; then
+  expect_usage_error "--rank-partitioner ptscotch partitions on several ranks: start the run by mpirun" mesh nothing.off \
+    --ranks 2 --redistribute by-elements --rank-partitioner ptscotch
+fi
 expect_usage_error "--redistribute: there is no 'x'; there are: by-pieces, by-elements, none" \
   mesh nothing.off --ranks 2 --redistribute x
 expect_usage_error "--format: there is no 'x'.*with --ranks also pvtu" mesh nothing.off --ranks 2 --format x
