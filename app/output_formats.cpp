@@ -69,10 +69,10 @@ std::vector<output_format<D>> known_formats(const mesh_options& options,
   if constexpr (D == 3) {
     add_by_ranks(options.order == 2 ? 150 : 50, io::rank_msh_format{}, true);
     add_by_ranks(85.0, io::openfoam_format{});
-    add_by_ranks(55.0, io::mfem_format{});
+    add_by_ranks(options.order == 2 ? 135.0 : 55.0, io::mfem_format{});
   }
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
-  add_by_ranks(D == 3 ? 65.0 : 55.0, io::xdmf_format{});
+  add_by_ranks(options.order == 2 ? (D == 3 ? 150.0 : 130.0) : D == 3 ? 65.0 : 55.0, io::xdmf_format{});
   add_by_ranks(options.order == 2 ? 170.0 : D == 3 ? 90.0 : 80.0, io::vtkhdf_format{}, true);
 #endif
   return known;

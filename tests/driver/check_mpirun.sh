@@ -67,9 +67,9 @@ fresh several
 on_ranks 3 several "${mesh[@]}" --decomposition bisection
 [[ $status == 0 && $(files_of several) == "$(files_of whole)" ]] || fault "other files by bisection than with one rank"
 # And the files for the ranks of a solver, of second order.
-for_solver=("${mesh[@]}" --ranks 3 --ghosts --order 2 --format pvtu,msh-ranks)
+for_solver=("${mesh[@]}" --ranks 3 --ghosts --order 2 --format pvtu,msh-ranks,mfem)
 if "$driver" mesh --help | grep -q "vtkhdf"; then
-  for_solver[-1]+=,vtkhdf
+  for_solver[-1]+=,xdmf,vtkhdf
 fi
 fresh whole
 on_ranks 1 whole "${for_solver[@]}" --workers 2

@@ -133,6 +133,11 @@ def check_xdmf(folder, count):
             return array[:]
 
         cells, points = values(grid.find("Topology/DataItem")), values(grid.find("Geometry/DataItem"))
+        kinds = {3: "Triangle", 4: "Tetrahedron", 6: "Triangle_6", 10: "Tetrahedron_10"}
+        if grid.find("Topology").get("TopologyType") != kinds[cells.shape[1]]:
+            fail("what the XDMF file says that elements are")
+        if file["viz/topology/cells"].attrs["cell_corners"] != cells.shape[1]:
+            fail("what PETSc is told of elements")
         attributes = {a.get("Name"): values(a.find("DataItem")) for a in grid.findall("Attribute")}
         if not np.array_equal(cells, file["viz/topology/cells"][:]) or len(attributes["subdomain"]) != len(cells):
             fail("arrays of other names")
@@ -144,7 +149,7 @@ def check_xdmf(folder, count):
         if len(first_side) != count + 1 or first_side[0] != 0 or first_side[-1] != len(sides):
             fail("where sides of ranks begin")
         for q in range(count):  # each is a side of an element of its rank
-            of_rank = cells[first_cell[q]:first_cell[q + 1]]
+            of_rank = cells[first_cell[q]:first_cell[q + 1], :sides.shape[1] + 1]
             of_cells = {tuple(sorted(c)) for cell in of_rank for c in itertools.combinations(cell, sides.shape[1])}
             if not {tuple(sorted(side)) for side in sides[first_side[q]:first_side[q + 1]]} <= of_cells:
                 fail(f"rank {q} has sides of no element of it")
@@ -187,7 +192,8 @@ def check_vtkhdf(folder, count):
 
 
 def check_agreement(folder, count):
-    """PVTU, XDMF and VTKHDF of one mesh say the same of each element and vertex, and that of the subdomains' own VTU."""
+    """PVTU, XDMF, VTKHDF and MFEM of one mesh say the same of each element and vertex, and that of the subdomains' own
+    VTU."""
     import h5py
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOHDF import vtkHDFReader
@@ -196,16 +202,24 @@ def check_agreement(folder, count):
     def arrays(reader, name):
         grid = read_by_vtk(reader, f"{folder}/{name}")
         points, cells = grid.GetPointData(), grid.GetCellData()
-        return (lambda array: vtk_to_numpy(points.GetArray(array))), (lambda array: vtk_to_numpy(cells.GetArray(array)))
+        return ((lambda array: vtk_to_numpy(points.GetArray(array))),
+                (lambda array: vtk_to_numpy(cells.GetArray(array))),
+                vtk_to_numpy(grid.GetPoints().GetData()),
+                vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(grid.GetNumberOfCells(), -1))
 
     with h5py.File(f"{folder}/ranks.h5") as file:
+        points, cells = file["geometry/vertices"][:], file["viz/topology/cells"][:]
         nodes = file["vertices/mesh_node"][:]
         elements = {name: file[f"cells/{name}"][:] for name in ("mesh_element", "subdomain", "region")}
         first_vertex = file["ranks/first_vertex"][:]
         sides = np.unique(file["sides/cad"][:], return_counts=True)
     for reader, name in ((vtkXMLPUnstructuredGridReader(), "ranks.pvtu"), (vtkHDFReader(), "ranks.vtkhdf")):
-        of_points, of_cells = arrays(reader, name)
+        of_points, of_cells, places, connectivity = arrays(reader, name)
         ids = of_points("GlobalNodeIds")
+        if not np.array_equal(places, points[ids]):
+            fail(f"points of {name} and ranks.h5")
+        if not np.array_equal(ids[connectivity], cells[of_cells("GlobalCellIds")]):
+            fail(f"elements of {name} and ranks.h5")
         owners = np.searchsorted(first_vertex, ids, side="right") - 1
         if not np.array_equal(of_points("mesh_node"), nodes[ids]):
             fail(f"mesh_node of {name} and ranks.h5")
@@ -214,19 +228,36 @@ def check_agreement(folder, count):
         for array, values in elements.items():
             if not np.array_equal(of_cells(array), values[of_cells("GlobalCellIds")]):
                 fail(f"{array} of {name} and ranks.h5")
-    _, of_cells = arrays(vtkXMLPUnstructuredGridReader(), "mesh.pvtu")
+    ranks = [read_mfem(f"{folder}/mesh.{q:06}") for q in range(count)]
+    if not np.array_equal(np.concatenate([rank["points"][rank["cells"]] for rank in ranks]), points[cells]):
+        fail("elements of MFEM's files and ranks.h5")
+    _, of_cells, _, _ = arrays(vtkXMLPUnstructuredGridReader(), "mesh.pvtu")
     for array in ("subdomain", "region"):
         if not np.array_equal(of_cells(array)[elements["mesh_element"]], elements[array]):
             fail(f"{array} of mesh.pvtu and ranks.h5")
     print("sides by cad:", dict(zip(map(int, sides[0]), map(int, sides[1]))))
 
 
+def mfem_edges(cells):
+    """The edges as MFEM numbers them: as they are first met in its tetrahedra, whose own are in this order."""
+    numbers = {}
+    for cell in cells:
+        for a, b in ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)):
+            numbers.setdefault(tuple(sorted((cell[a], cell[b]))), len(numbers))
+    return numbers
+
+
 def read_mfem(path):
-    """What mfem::ParMesh reads: words one after the other, where comments may stand between sections."""
+    """What mfem::ParMesh reads: words one after the other, where comments may stand between sections. With a grid
+    function of nodes, cells have those in the middle of their edges too, in VTK's order."""
     with open(path, encoding="utf-8") as file:
-        if file.readline() != "MFEM mesh v1.2\n":
-            fail(f"the first line of {path}")
-        words = iter(" ".join(line for line in file if not line.startswith("#")).split())
+        text = file.read()
+    if not text.startswith("MFEM mesh v1.2\n"):
+        fail(f"the first line of {path}")
+    space = "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_3D_P2\nVDim: 3\nOrdering: 1\n"
+    is_quadratic = space in text  # these MFEM reads by lines
+    lines = text.replace(space, "\n").split("\n")[1:]
+    words = iter(" ".join(line for line in lines if not line.startswith("#")).split())
 
     def expect(*names):
         for name in names:
@@ -241,8 +272,15 @@ def read_mfem(path):
     expect("boundary")
     boundary = table(5)
     expect("vertices")
-    count = int(next(words))
-    expect("3")
+    count = corners = int(next(words))
+    cells, edges = elements[:, 2:], {}
+    if is_quadratic:
+        edges = {edge: corners + number for edge, number in mfem_edges(cells).items()}
+        count += len(edges)
+        middles = [[edges[tuple(sorted(edge))] for edge in cells[:, ends]] for ends in EDGES[4]]
+        cells = np.column_stack([cells, *middles])
+    else:
+        expect("3")
     points = np.array([float(next(words)) for _ in range(3 * count)]).reshape(-1, 3)
     if np.any(elements[:, 1] != 4) or np.any(boundary[:, 1] != 2):
         fail(f"{path} has other cells than tetrahedra, or other sides than triangles")
@@ -262,7 +300,9 @@ def read_mfem(path):
     expect("mfem_mesh_end")
     if any(totals.values()) or next(words, None) is not None:
         fail(f"{path} does not have as much as it says")
-    return {"points": points, "cells": elements[:, 2:], "attributes": elements[:, 0], "boundary": boundary,
+    if len(np.unique(elements[:, 2:])) != corners:
+        fail(f"{path} has vertices of no element")
+    return {"points": points, "cells": cells, "middles": edges, "attributes": elements[:, 0], "boundary": boundary,
             "self": sharers[0], "shared": shared}
 
 
@@ -271,7 +311,7 @@ def check_mfem(folder, count):
     files = [read_mfem(f"{folder}/mesh.{q:06}") for q in range(count)]
     for q, file in enumerate(files):
         foreign = file["foreign"] = np.zeros(len(file["points"]), bool)
-        faces = {tuple(sorted(np.delete(cell, k))) for cell in file["cells"] for k in range(4)}
+        faces = {tuple(sorted(np.delete(cell[:4], k))) for cell in file["cells"] for k in range(4)}
         edges = {tuple(sorted((cell[a], cell[b]))) for cell in file["cells"] for a in range(4) for b in range(a)}
         if file["self"] != (q,):
             fail(f"rank {q} says it is {file['self']}")
@@ -284,7 +324,9 @@ def check_mfem(folder, count):
             for of, known in (("edges", edges), ("faces", faces)):
                 if not all(tuple(sorted(vertices)) in known for vertices in here[of]):
                     fail(f"rank {q} has no such {of} as it shares with {group}")
-            foreign[here["vertices"].ravel()] = group[0] < q
+            here["nodes"] = [*here["vertices"].ravel(), *(file["middles"][tuple(sorted(edge))] for edge in here["edges"]
+                                                          if file["middles"])]
+            foreign[here["nodes"]] = group[0] < q
     first = 0
     for q, file in enumerate(files):
         file["ids"] = np.full(len(file["points"]), -1)
@@ -294,9 +336,9 @@ def check_mfem(folder, count):
         for group, here in file["shared"].items():
             if group[0] < q:
                 there = files[group[0]]["shared"].get(group)
-                if there is None or len(there["vertices"]) != len(here["vertices"]):
+                if there is None or len(there["nodes"]) != len(here["nodes"]):
                     fail(f"rank {q} and {group[0]} differ in what {group} share")
-                file["ids"][here["vertices"].ravel()] = files[group[0]]["ids"][there["vertices"].ravel()]
+                file["ids"][here["nodes"]] = files[group[0]]["ids"][there["nodes"]]
     for q, file in enumerate(files):
         for group, here in file["shared"].items():
             for other in group:
@@ -304,11 +346,12 @@ def check_mfem(folder, count):
                 if there is None or any(not np.array_equal(file["ids"][here[of]], files[other]["ids"][there[of]])
                                         for of in ("vertices", "edges", "faces")):
                     fail(f"rank {q} and {other} differ in what {group} share")
-    for of, columns in (("edges", 2), ("faces", 3)):  # all that elements of two ranks have in common is shared
+    # All that elements of two ranks have in common is shared.
+    for of, columns in (("vertices", 1), ("edges", 2), ("faces", 3)):
         holders = {}
         for q, file in enumerate(files):
             local = {tuple(sorted(file["ids"][list(c)])) for cell in file["cells"]
-                     for c in itertools.combinations(cell, columns)}
+                     for c in itertools.combinations(cell[:4], columns)}
             for key in local:
                 holders.setdefault(key, []).append(q)
         listed = {tuple(sorted(file["ids"][v])): group for file in files

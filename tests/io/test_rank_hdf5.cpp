@@ -8,6 +8,7 @@
 #include "dovetail/geometry/plane_svg_path.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/hdf5_format.hpp"
+#include "dovetail/io/mfem_format.hpp"
 #include "dovetail/io/pvtu_format.hpp"
 #include "dovetail/io/rank_files.hpp"
 #include "dovetail/io/vtu_writer.hpp"
@@ -75,17 +76,41 @@ TEST_CASE("plain arrays with an XDMF file: h5py reads one mesh") {
   CHECK(check("xdmf", folder, 4).first != 0);
 }
 
-TEST_CASE("plain arrays of triangles: h5py reads one mesh") {
+TEST_CASE("plain arrays of second order: h5py reads nodes in the middle of edges, in XDMF's order") {
+  if (!has_python_module("h5py"))
+    return;
+  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const testing::scratch_folder folder("ranks_xdmf_quadratic");
+  io::rank_writer<io::xdmf_format>{.ranks = 4}(mesh, folder);
+  const auto [status, log] = check("xdmf", folder, 4);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(log.find("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000") !=
+        std::string::npos);
+  CHECK(testing::file_content(folder / "ranks.xdmf").find("\"Tetrahedron_10\"") != std::string::npos);
+  const std::string exchange =
+      "import h5py; f = h5py.File('" + (folder / "ranks.h5").string() +
+      "', 'r+'); c = f['viz/topology/cells']; c[5] = c[5][[0, 1, 2, 3, 4, 6, 5, 7, 8, 9]]";
+  REQUIRE(std::system(("/usr/bin/python3 -c \"" + exchange + "\"").c_str()) == 0);
+  CHECK(check("xdmf", folder, 4).first != 0);
+}
+
+TEST_CASE("plain arrays of triangles, of first and second order: h5py reads one mesh") {
   if (!has_python_module("h5py"))
     return;
   const plane_domain domain(drawing_from_svg_path("M0 0 H3 V2 H0 Z"));
   const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
   const testing::scratch_folder folder("ranks_xdmf_triangles");
-  io::rank_writer<io::xdmf_format>{.ranks = 3}(result.mesh, folder);
-  const auto [status, log] = check("xdmf", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find("measure 6.000000000") != std::string::npos);
+  for (const auto& mesh : {result.mesh, testing::with_bent_edges(result.mesh)}) {
+    io::rank_writer<io::xdmf_format>{.ranks = 3}(mesh, folder);
+    const auto [status, log] = check("xdmf", folder, 3);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.find("measure 6.000000000") != std::string::npos);
+    CHECK(log.find(" " + std::to_string(io::number_nodes(mesh).points()) + " vertices") != std::string::npos);
+    const auto topology = testing::file_content(folder / "ranks.xdmf");
+    CHECK((topology.find("\"Triangle_6\"") != std::string::npos) == (mesh.mid_nodes != nullptr));
+  }
 }
 
 TEST_CASE("what the arrays say of each vertex, element and side is the same in all formats") {
@@ -97,6 +122,7 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
   io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(mesh, folder);
   io::rank_writer<io::xdmf_format>{.ranks = 3}(mesh, folder);
   io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(mesh, folder);
+  io::rank_writer<io::mfem_format>{.ranks = 3}(mesh, folder);
   const auto [status, log] = check("agreement", folder, 3);
   INFO(log);
   CHECK(status == 0);
@@ -111,7 +137,8 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
     CHECK((counts.find("{" + of_host + ",") == 0 || counts.find(" " + of_host + ",") != std::string::npos ||
            counts.find(" " + of_host + "}") != std::string::npos));
   }
-  for (const char* array : {"cells/region", "cells/subdomain", "cells/mesh_element", "vertices/mesh_node"}) {
+  for (const char* array : {"cells/region", "cells/subdomain", "cells/mesh_element", "vertices/mesh_node",
+                            "geometry/vertices", "viz/topology/cells"}) {
     CAPTURE(array);
     const testing::scratch_folder spoilt("ranks_spoilt");
     std::filesystem::copy(folder, spoilt, std::filesystem::copy_options::recursive);
@@ -120,6 +147,26 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
     REQUIRE(std::system(("/usr/bin/python3 -c \"" + reverse + "\"").c_str()) == 0);
     CHECK(check("agreement", spoilt, 3).first != 0);
   }
+}
+
+TEST_CASE("nodes in the middle of edges are the same in all formats") {
+  if (!has_python_module("h5py, vtkmodules.vtkIOHDF, vtkmodules.vtkIOXML"))
+    return;
+  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const testing::scratch_folder folder("ranks_agree_quadratic");
+  io::vtu_writer{}(mesh, folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 5, .ghosts = true}(mesh, folder);
+  io::rank_writer<io::xdmf_format>{.ranks = 5}(mesh, folder);
+  io::rank_writer<io::vtkhdf_format>{.ranks = 5}(mesh, folder);
+  io::rank_writer<io::mfem_format>{.ranks = 5}(mesh, folder);
+  const auto [status, log] = check("agreement", folder, 5);
+  INFO(log);
+  CHECK(status == 0);
+  auto spoilt = testing::file_content(folder / "mesh.000002");
+  const auto last = spoilt.rfind('\n', spoilt.find("\nmfem_serial_mesh_end") - 2);
+  spoilt[last + 1] = spoilt[last + 1] == '-' ? ' ' : '-'; // one node elsewhere
+  testing::write_content(folder / "mesh.000002", spoilt);
+  CHECK(check("agreement", folder, 5).first != 0);
 }
 
 TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
@@ -164,8 +211,7 @@ TEST_CASE("VTKHDF: VTK reads triangles") {
 }
 
 TEST_CASE("each rank's share is a task, and the bytes are the same by every executor") {
-  const auto mesh = cubes.distributed();
-  const auto compare = [&](const auto& writer) {
+  const auto compare = [&](const auto& mesh, const auto& writer) {
     CAPTURE(writer.format.name());
     const testing::scratch_folder alone("ranks_hdf5_alone"), folder("ranks_hdf5_tasks");
     writer(mesh, alone);
@@ -184,9 +230,11 @@ TEST_CASE("each rank's share is a task, and the bytes are the same by every exec
     parallel::run_ranks(3, [&](parallel::in_process& mine) { check_files(parallel::ranks(mine)); });
     CHECK(testing::content_of(folder) == expected);
   };
-  compare(io::rank_writer<io::xdmf_format>{.ranks = 4});
-  compare(io::rank_writer<io::vtkhdf_format>{.ranks = 4});
-  compare(io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = true});
+  const auto mesh = cubes.distributed();
+  compare(mesh, io::rank_writer<io::xdmf_format>{.ranks = 4});
+  compare(testing::with_bent_edges(mesh), io::rank_writer<io::xdmf_format>{.ranks = 4});
+  compare(mesh, io::rank_writer<io::vtkhdf_format>{.ranks = 4});
+  compare(mesh, io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = true});
 }
 
 TEST_CASE(

@@ -8,6 +8,7 @@
 #include "dovetail/io/hdf5_file.hpp"
 #include "dovetail/io/hdf5_slices.hpp"
 #include "dovetail/io/vtk_xml_output.hpp"
+#include "dovetail/io/xdmf_index.hpp"
 #include "dovetail/mesh/mid_nodes.hpp"
 
 #include <cstddef>
@@ -20,9 +21,10 @@
 namespace dovetail::io {
 
 /// `<stem>.h5`, plain arrays in the order of ids, and `<stem>.xdmf`, which says what they are. Named as
-/// PETSc's `-dm_plex_create_from_hdf5_xdmf` looks for them. Ghosts are left out. See docs/formats.md for the
-/// arrays.
+/// PETSc's `-dm_plex_create_from_hdf5_xdmf` looks for them, which takes no second order; XDMF's order of
+/// nodes is VTK's. Ghosts are left out. See docs/formats.md for the arrays.
 struct xdmf_format {
+  static constexpr bool second_order = true;
   std::string stem = "ranks";
 
   std::string name() const { return "xdmf"; }
@@ -30,7 +32,7 @@ struct xdmf_format {
   template <int D>
   void lay_out(const rank_source<D>& source, const std::vector<rank_counts>& counts,
                const std::vector<std::filesystem::path>& paths) const {
-    constexpr std::uint64_t corners = D + 1;
+    const std::uint64_t nodes = nodes_per_element(source.mesh);
     const auto& numbers = source.numbers;
     const auto vertices = static_cast<std::uint64_t>(numbers.first_vertex.back());
     const auto elements = static_cast<std::uint64_t>(numbers.first_element.back());
@@ -40,9 +42,9 @@ struct xdmf_format {
     const auto sides = static_cast<std::uint64_t>(first_side.back());
     detail::hdf5_file file(paths.front());
     file.create_in_place<double>("geometry/vertices", vertices, 3);
-    file.create_in_place<global_id>("viz/topology/cells", elements, corners);
+    file.create_in_place<global_id>("viz/topology/cells", elements, nodes);
     file.attribute("viz/topology/cells", "cell_dim", std::vector<std::int64_t>{D});
-    file.attribute("viz/topology/cells", "cell_corners", std::vector<std::int64_t>{D + 1});
+    file.attribute("viz/topology/cells", "cell_corners", std::vector{static_cast<std::int64_t>(nodes)});
     file.create_in_place<global_id>("vertices/mesh_node", vertices);
     file.create_in_place<global_id>("cells/mesh_element", elements);
     file.create_in_place<local_id>("cells/region", elements);
@@ -58,7 +60,8 @@ struct xdmf_format {
     }
     file.add("names/regions", names_of_tags(source.mesh));
     file.close();
-    write_xdmf(paths.back(), D == 3 ? "Tetrahedron" : "Triangle", vertices, elements, corners);
+    write_xdmf(paths.back(), detail::xdmf_topology<D>(source.mesh.mid_nodes != nullptr), vertices, elements,
+               nodes);
   }
   template <int D>
   void write(const rank_source<D>& source, const rank_mesh<D>& rank,
@@ -68,7 +71,7 @@ struct xdmf_format {
     const auto first_element = static_cast<std::uint64_t>(source.numbers.first_element[q]);
     detail::hdf5_slices file(paths.front());
     file.write("geometry/vertices", first_vertex, owned_coordinates(rank), 3);
-    file.write("viz/topology/cells", first_element, cells_by_ids(rank), D + 1);
+    file.write("viz/topology/cells", first_element, cells_by_ids(rank), nodes_per_element(rank));
     file.write("vertices/mesh_node", first_vertex, rank.owned_vertices, rank.vertex_numbers.data());
     file.write("cells/mesh_element", first_element, rank.owned_elements, rank.element_numbers.data());
     file.write("cells/region", first_element, rank.owned_elements, rank.mesh.tags.data());
@@ -88,7 +91,7 @@ struct xdmf_format {
 
 private:
   void write_xdmf(const std::filesystem::path& path, const std::string& kind, std::uint64_t vertices,
-                  std::uint64_t elements, std::uint64_t corners) const {
+                  std::uint64_t elements, std::uint64_t nodes) const {
     const auto item = [&](const std::string& extent, const std::string& type, const std::string& bytes,
                           const std::string& where) {
       return "<DataItem Dimensions=\"" + extent + "\" NumberType=\"" + type + "\" Precision=\"" + bytes +
@@ -98,7 +101,7 @@ private:
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"mesh\">\n"
                        "<Topology TopologyType=\"" +
                        kind + "\" NumberOfElements=\"" + m + "\">\n" +
-                       item(m + " " + std::to_string(corners), "Int", "8", "viz/topology/cells") +
+                       item(m + " " + std::to_string(nodes), "Int", "8", "viz/topology/cells") +
                        "</Topology>\n<Geometry GeometryType=\"XYZ\">\n" +
                        item(n + " 3", "Float", "8", "geometry/vertices") + "</Geometry>\n";
     for (const char* array : {"region", "subdomain"})

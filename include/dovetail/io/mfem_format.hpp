@@ -14,8 +14,10 @@ namespace dovetail::io {
 /// `<stem>.000000`, `<stem>.000001`, ..., text of version 1.2: what `mfem::ParMesh(comm, stream)` reads, with
 /// a process per file. Attributes of elements are materials, those of boundary elements groups of CAD faces,
 /// both counted from 1 and named in comments; sides between materials are boundary elements too, in the file
-/// of the lowest rank. Ghosts are left out: MFEM makes its own.
+/// of the lowest rank. Of second order the nodes are a grid function of H1_3D_P2. Ghosts are left out: MFEM
+/// makes its own.
 struct mfem_format {
+  static constexpr bool second_order = true;
   std::string stem = "mesh";
 
   std::string name() const { return "mfem"; }

@@ -21,6 +21,52 @@ namespace dovetail::io {
 
 namespace detail {
 
+/// The vertices that a rank holds as MFEM numbers them: corners, and after these, of second order, the
+/// middles of edges, which are numbered as they come in the elements.
+class mfem_nodes {
+public:
+  explicit mfem_nodes(const rank_mesh<3>& rank) : numbers_(rank.held_vertices) {
+    std::vector<bool> is_middle(rank.held_vertices, false);
+    std::vector<local_id> middles;
+    if (!rank.middles.empty())
+      for (std::size_t e = 0; e < rank.owned_elements; ++e)
+        for (const std::size_t edge : {0u, 2u, 3u, 1u, 4u, 5u}) // MFEM's: 01, 02, 03, 12, 13, 23
+          if (const local_id v = rank.middles[e][edge]; !is_middle[index(v)]) {
+            is_middle[index(v)] = true;
+            middles.push_back(v);
+          }
+    for (std::size_t v = 0; v < rank.held_vertices; ++v)
+      if (!is_middle[v])
+        in_order_.push_back(static_cast<local_id>(v));
+    corners_ = in_order_.size();
+    append(in_order_, middles);
+    for (std::size_t n = 0; n < in_order_.size(); ++n)
+      numbers_[index(in_order_[n])] = static_cast<local_id>(n);
+  }
+
+  std::size_t corners() const { return corners_; }
+  const std::vector<local_id>& in_order() const { return in_order_; }
+  template <std::size_t N>
+  std::array<local_id, N> operator()(std::array<local_id, N> vertices) const {
+    for (local_id& v : vertices)
+      v = numbers_[index(v)];
+    return vertices;
+  }
+  std::vector<local_id> corners_of(const std::vector<local_id>& vertices) const {
+    std::vector<local_id> corners;
+    for (const local_id v : vertices)
+      if (const local_id number = numbers_[index(v)]; index(number) < corners_)
+        corners.push_back(number);
+    return corners;
+  }
+
+private:
+  static std::size_t index(local_id i) { return static_cast<std::size_t>(i); }
+
+  std::vector<local_id> numbers_, in_order_;
+  std::size_t corners_ = 0;
+};
+
 /// What the same ranks share, all in the order of the skeleton, which is that of the lists of neighbours.
 struct mfem_group {
   std::vector<local_id> vertices;
@@ -46,17 +92,25 @@ void group_shared(const rank_mesh<3>& rank, mfem_groups& groups, const Lists& li
       }
 }
 
-inline mfem_groups group_by_sharers(const rank_mesh<3>& rank) {
+inline mfem_groups group_by_sharers(const rank_mesh<3>& rank, const mfem_nodes& nodes) {
   mfem_groups groups;
   group_shared<local_id>(
-      rank, groups, [](const auto& there) { return there.vertices; }, &mfem_group::vertices);
+      rank, groups, [&](const auto& there) { return nodes.corners_of(there.vertices); },
+      &mfem_group::vertices);
   group_shared<simplex<1>>(
-      rank, groups, [](const auto& there) { return there.edges; }, &mfem_group::edges);
+      rank, groups,
+      [&](const auto& there) {
+        auto edges = there.edges;
+        for (auto& edge : edges)
+          edge = nodes(edge);
+        return edges;
+      },
+      &mfem_group::edges);
   for (const auto& there : rank.neighbours)
     for (simplex<2> face : there.faces) {
       if (there.rank < rank.rank)
         std::swap(face[1], face[2]);
-      groups[{std::min(rank.rank, there.rank), std::max(rank.rank, there.rank)}].faces.push_back(face);
+      groups[{std::min(rank.rank, there.rank), std::max(rank.rank, there.rank)}].faces.push_back(nodes(face));
     }
   return groups;
 }
@@ -92,7 +146,7 @@ private:
 };
 
 /// Attribute, kind and vertices of the sides that are this rank's to list.
-inline std::vector<std::array<local_id, 5>> mfem_boundary(const rank_mesh<3>& rank,
+inline std::vector<std::array<local_id, 5>> mfem_boundary(const rank_mesh<3>& rank, const mfem_nodes& nodes,
                                                           const face_groups& groups) {
   std::vector<simplex<2>> of_lower; // sides that a lower rank lists
   for (const auto& there : rank.neighbours)
@@ -103,9 +157,10 @@ inline std::vector<std::array<local_id, 5>> mfem_boundary(const rank_mesh<3>& ra
   std::vector<std::array<local_id, 5>> boundary;
   for (std::size_t s = 0; s < rank.sides.size(); ++s)
     if (const auto& side = rank.sides[s];
-        !std::binary_search(of_lower.begin(), of_lower.end(), sorted_vertices(side)))
-      boundary.push_back(
-          {groups.of_face[static_cast<std::size_t>(rank.side_hosts[s])] + 1, 2, side[0], side[1], side[2]});
+        !std::binary_search(of_lower.begin(), of_lower.end(), sorted_vertices(side))) {
+      const auto [a, b, c] = nodes(side);
+      boundary.push_back({groups.of_face[static_cast<std::size_t>(rank.side_hosts[s])] + 1, 2, a, b, c});
+    }
   return boundary;
 }
 
@@ -149,8 +204,9 @@ DOVETAIL_INLINE std::vector<std::string> mfem_format::files_of_rank(local_id ran
 
 DOVETAIL_INLINE void mfem_format::write(const rank_source<3>& source, const rank_mesh<3>& rank,
                                         const std::vector<std::filesystem::path>& paths) const {
+  const detail::mfem_nodes nodes(rank);
   const auto groups = collect_face_groups(source.mesh);
-  const auto boundary = detail::mfem_boundary(rank, groups);
+  const auto boundary = detail::mfem_boundary(rank, nodes, groups);
   detail::mfem_file file(paths.front());
   file.text("MFEM mesh v1.2\n");
   file.names("element", collect_material_names(source.mesh));
@@ -158,7 +214,7 @@ DOVETAIL_INLINE void mfem_format::write(const rank_source<3>& source, const rank
   file.text("\ndimension\n3\n\nelements");
   file.line(std::array{rank.owned_elements});
   for (std::size_t e = 0; e < rank.owned_elements; ++e) {
-    const auto& [a, b, c, d] = rank.mesh.elements[e];
+    const auto [a, b, c, d] = nodes(rank.mesh.elements[e]);
     file.line(std::array{rank.mesh.tags[e] + 1, local_id{4}, a, b, c, d});
   }
   file.text("\nboundary");
@@ -166,14 +222,16 @@ DOVETAIL_INLINE void mfem_format::write(const rank_source<3>& source, const rank
   for (const auto& side : boundary)
     file.line(side);
   file.text("\nvertices");
-  file.line(std::array{rank.held_vertices});
-  file.text("3");
-  for (std::size_t v = 0; v < rank.held_vertices; ++v) {
-    const vec3 p = rank.mesh.points[v];
+  file.line(std::array{nodes.corners()});
+  file.text(source.mesh.mid_nodes ? "\nnodes\nFiniteElementSpace\nFiniteElementCollection: H1_3D_P2\n"
+                                    "VDim: 3\nOrdering: 1\n"
+                                  : "3");
+  for (const local_id v : nodes.in_order()) {
+    const vec3 p = rank.mesh.points[static_cast<std::size_t>(v)];
     file.line(std::array{p.x, p.y, p.z});
   }
   file.text("\nmfem_serial_mesh_end");
-  detail::write_mfem_groups(file, rank.rank, detail::group_by_sharers(rank));
+  detail::write_mfem_groups(file, rank.rank, detail::group_by_sharers(rank, nodes));
   file.text("\nmfem_mesh_end");
   file.commit();
 }
