@@ -77,12 +77,15 @@ inline void exchange_blobs(const spool& mine, any_communicator network,
   }
 }
 
-/// The same of all blobs that any of the ranks has: their listings are gathered. For a run that goes on,
-/// maybe with other ranks.
+/// The same of all blobs that any of the ranks has whole; damaged ones are removed first. For a run that goes
+/// on, maybe with other ranks. Reads all blobs.
 inline void exchange_all_blobs(const spool& mine, any_communicator network) {
   byte_writer listing;
   for (const std::string& name : mine.names())
-    listing.text(name);
+    if (mine.read(name))
+      listing.text(name);
+    else
+      mine.remove(name);
   std::vector<std::string> names;
   for (const byte_buffer& theirs : network.all_gather(listing.take()))
     for (byte_reader from(theirs); !from.at_end();)
