@@ -68,29 +68,45 @@ TEST_CASE("What is made once is made by rank 0 and known to all, and so is its e
 }
 
 TEST_CASE("As many ranks of a machine take tasks as it has processors for, each in its turn") {
+  using workers = std::vector<std::int32_t>;
   const std::vector<std::int32_t> two = {4, 5};
   const std::vector<detail::rank_place> one_machine(5, {"a", two, 1});
-  CHECK(detail::ranks_at_work(one_machine, 0) == std::vector{0, 1});
-  CHECK(detail::ranks_at_work(one_machine, 3) == std::vector{3, 4});
-  CHECK(detail::ranks_at_work(one_machine, 4) == std::vector{0, 4});
+  CHECK(detail::workers_at_work(one_machine, 0) == workers{1, 1, 0, 0, 0});
+  CHECK(detail::workers_at_work(one_machine, 3) == workers{0, 0, 0, 1, 1});
+  CHECK(detail::workers_at_work(one_machine, 4) == workers{1, 0, 0, 0, 1});
 
   const std::vector<detail::rank_place> bound = {{"a", {0}, 1}, {"a", {1}, 1}, {"a", {2}, 1}};
-  CHECK(detail::ranks_at_work(bound, 7) == std::vector{0, 1, 2}); // each has a processor of its own
+  CHECK(detail::workers_at_work(bound, 7) == workers{1, 1, 1}); // each has a processor of its own
+  const std::vector<detail::rank_place> crowded = {{"a", {0}, 2}, {"a", {1}, 3}};
+  CHECK(detail::workers_at_work(crowded, 0) == workers{2, 3}); // and no other rank could use it
 
   const std::vector<detail::rank_place> mixed = {
       {"a", two, 1}, {"b", two, 2}, {"a", two, 1}, {"b", two, 2}, {"a", two, 7}};
-  CHECK(detail::ranks_at_work(mixed, 0) == std::vector{0, 1, 2});
-  CHECK(detail::ranks_at_work(mixed, 1) == std::vector{2, 3});
-  CHECK(detail::ranks_at_work(mixed, 2) == std::vector{1, 4}); // one at least
+  CHECK(detail::workers_at_work(mixed, 0) == workers{1, 2, 1, 0, 0});
+  CHECK(detail::workers_at_work(mixed, 1) == workers{0, 0, 1, 2, 0});
+  CHECK(detail::workers_at_work(mixed, 2) == workers{0, 2, 0, 0, 7}); // one at least
+}
+
+TEST_CASE("Ranks have two tasks for each of their workers in the beginning, the largest shared out") {
+  using places = std::vector<std::size_t>;
+  const std::vector<places> expected = {{0, 2, 3, 5}, {}, {1, 4}};
+  const std::vector<places> of_few = {{0, 2}, {}, {1}};
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    const auto rank = static_cast<std::size_t>(mine.rank());
+    any_communicator network(mine);
+    CHECK(detail::rank_tasks(network, 9, {2, 0, 1}).granted() == expected[rank]);
+    CHECK(detail::rank_tasks(network, 3, {2, 0, 1}).granted() == of_few[rank]);
+  });
 }
 
 TEST_CASE("Ranks that do not work get no task, and wait until all is done") {
-  for (const std::vector<int>& working : {std::vector{0, 2}, {1, 2}, {1}}) {
+  for (const std::vector<std::int32_t>& workers :
+       {std::vector<std::int32_t>{1, 0, 1, 0}, {0, 1, 3, 0}, {0, 1, 0, 0}}) {
     constexpr int tasks = 20;
     std::atomic<int> done = 0;
     parallel::run_ranks(4, [&](parallel::in_process& mine) {
       any_communicator network(mine);
-      detail::rank_tasks feed(network, tasks, 2, working);
+      detail::rank_tasks feed(network, tasks, workers);
       while (!feed.ended()) {
         for (const std::size_t place : feed.granted()) {
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -99,7 +115,7 @@ TEST_CASE("Ranks that do not work get no task, and wait until all is done") {
         }
         network.wait(std::chrono::milliseconds(1));
       }
-      const bool works = std::find(working.begin(), working.end(), network.rank()) != working.end();
+      const bool works = workers[static_cast<std::size_t>(network.rank())] > 0;
       CHECK(feed.finished_places().empty() == !works);
       if (!works)
         CHECK(done == tasks);

@@ -55,8 +55,9 @@ inline std::vector<rank_place> all_places(any_communicator network, int workers)
 }
 
 /// The ranks of one machine that work in a run of tasks: as many as it has processors for their workers, at
-/// least one; others the next time. Workers that take turns on a processor cost each other its caches: seven
-/// ranks on two processors meshed a third more slowly than two.
+/// least one; others the next time. A rank takes no more processors than it is bound to. Workers that take
+/// turns on a processor cost each other its caches: seven ranks on two processors meshed a third more slowly
+/// than two.
 inline std::vector<int> ranks_in_turn(const std::vector<int>& ranks, const std::vector<rank_place>& places,
                                       std::size_t turn) {
   std::vector<std::int32_t> processors;
@@ -67,7 +68,8 @@ inline std::vector<int> ranks_in_turn(const std::vector<int>& ranks, const std::
   std::vector<int> chosen;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const int r = ranks[(turn + i) % ranks.size()];
-    free -= places[static_cast<std::size_t>(r)].workers;
+    const rank_place& place = places[static_cast<std::size_t>(r)];
+    free -= std::min<std::int64_t>(place.workers, std::ssize(place.processors));
     if (free < 0 && !chosen.empty())
       break;
     chosen.push_back(r);
@@ -75,16 +77,17 @@ inline std::vector<int> ranks_in_turn(const std::vector<int>& ranks, const std::
   return chosen;
 }
 
-/// The ranks that work in a run of tasks, growing: all where each machine has a processor for each worker.
-inline std::vector<int> ranks_at_work(const std::vector<rank_place>& places, std::size_t turn) {
+/// The workers of each rank in a run of tasks, 0 of those that do not work: of all ranks where each machine
+/// has a processor for each worker.
+inline std::vector<std::int32_t> workers_at_work(const std::vector<rank_place>& places, std::size_t turn) {
   std::map<std::string, std::vector<int>> of_machine;
   for (std::size_t r = 0; r < places.size(); ++r)
     of_machine[places[r].machine].push_back(static_cast<int>(r));
-  std::vector<int> working;
+  std::vector<std::int32_t> workers(places.size(), 0);
   for (const auto& [machine, ranks] : of_machine)
-    append(working, ranks_in_turn(ranks, places, turn));
-  std::sort(working.begin(), working.end());
-  return working;
+    for (const int r : ranks_in_turn(ranks, places, turn))
+      workers[static_cast<std::size_t>(r)] = places[static_cast<std::size_t>(r)].workers;
+  return workers;
 }
 
 } // namespace dovetail::detail

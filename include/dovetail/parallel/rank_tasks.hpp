@@ -14,25 +14,21 @@
 
 namespace dovetail::detail {
 
-/// The feed of one rank. Each that works has `in_hand` tasks of its own in the beginning, dealt in turn
-/// without a word; rank 0 grants the others, in the order of the run, one for each request, and each task
-/// that is done is one request: so it knows when all is done, and tells those that do not work. A task costs
-/// an empty message and one of 8 bytes.
+/// The feed of one rank. Each has two tasks of its own for each worker in the beginning, so that none waits
+/// for an answer, dealt in turn without a word; rank 0 grants the others, in the order of the run, one for
+/// each request, and each task that is done is one request: so it knows when all is done, and tells those
+/// that do not work. A task costs an empty message and one of 8 bytes.
 class rank_tasks final : public task_feed {
 public:
-  /// Collective, with the same arguments on all ranks. `working`: the ranks that take tasks; `in_hand`:
-  /// enough that no worker waits for an answer.
-  rank_tasks(any_communicator network, std::size_t count, std::size_t in_hand,
-             const std::vector<int>& working)
+  /// Collective, with the same arguments on all ranks. `workers`: by rank, 0 for one that takes no tasks.
+  rank_tasks(any_communicator network, std::size_t count, const std::vector<std::int32_t>& workers)
       : network_(std::move(network)), requests_(network_.next_tag()), grants_(network_.next_tag()),
         count_(count) {
-    next_ = std::min(count, in_hand * working.size());
-    for (std::size_t place = 0; place < next_; ++place)
-      if (working[place % working.size()] == network_.rank())
-        granted_.push_back(place);
+    deal(workers);
+    deal(workers);
     mine_ = granted_.size();
     for (int r = 1; r < network_.size(); ++r)
-      if (std::find(working.begin(), working.end(), r) == working.end()) {
+      if (workers[static_cast<std::size_t>(r)] == 0) {
         idle_.push_back(r);
         unanswered_ += r == network_.rank() ? 1 : 0;
       }
@@ -68,6 +64,17 @@ public:
 private:
   static constexpr std::int64_t nothing = -1;
 
+  /// The next tasks, one for each worker: for the first of each rank, then for the second of each, and so on.
+  void deal(const std::vector<std::int32_t>& workers) {
+    const std::int32_t most = *std::max_element(workers.begin(), workers.end());
+    for (std::int32_t w = 0; w < most; ++w)
+      for (std::size_t r = 0; r < workers.size(); ++r)
+        if (w < workers[r] && next_ < count_) {
+          if (static_cast<int>(r) == network_.rank())
+            granted_.push_back(next_);
+          ++next_;
+        }
+  }
   static byte_buffer text_of(std::int64_t place) {
     byte_writer to;
     to.value(place);

@@ -86,9 +86,7 @@ DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const ta
   if (count == 0)
     return {};
   options.on_progress(options.stage, 0, count);
-  const int per_rank = (workers_ + network_.size() - 1) / network_.size();
-  detail::rank_tasks feed(network_, count, static_cast<std::size_t>(2 * per_rank),
-                          detail::ranks_at_work(places_, (*runs_)++));
+  detail::rank_tasks feed(network_, count, detail::workers_at_work(places_, (*runs_)++));
   auto mine =
       worker_count_ > 0
           ? detail::process_pool(count, task, options, static_cast<std::size_t>(worker_count_), &feed).run()
