@@ -1,7 +1,9 @@
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
+#include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "io/scratch_folder.hpp"
@@ -255,6 +257,27 @@ TEST_CASE("In threads no rung may be a mesher that must not run there") {
   CHECK_NOTHROW(require_policies<3>(backed, {}, parallel::processes{2}));
   CHECK_THROWS_WITH_AS(require_policies<3>(backed, {}, parallel::threads{2}), doctest::Contains("'unsafe'"),
                        usage_error);
+}
+
+struct forking_mesher : fan_mesher {
+  std::vector<forking_mesher> fallbacks() const { return {}; }
+  mesher_result<3> operator()(const mesher_input<3>& in, const any_sizing& size) const {
+    parallel::processes{1}.run(1, [](std::size_t) { return byte_buffer{}; });
+    return fan_mesher::operator()(in, size);
+  }
+};
+
+TEST_CASE("A mesher that cannot fork here is a usage_error, and no other one takes its place") {
+  const any_mesher<3> forks = any_mesher<3>(forking_mesher{}, "forks").with_fallback({fan_mesher{}, "fan"});
+  const auto run = [&](const any_executor& on) {
+    return mesh_subdomains(2, cube_number, forks, counting_improver{}, unit_size, on);
+  };
+  CHECK(run(parallel::serial{}).failures.empty());
+  const auto beside_a_thread = [&] {
+    parallel::run_ranks(1, [&](parallel::in_process& mine) { run(parallel::ranks(mine)); });
+  };
+  CHECK_THROWS_WITH_AS(beside_a_thread(),
+                       doctest::Contains("mesher 'forks': worker processes cannot be forked"), usage_error);
 }
 
 TEST_CASE("A store that cannot be written is an io_error") {

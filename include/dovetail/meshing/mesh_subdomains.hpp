@@ -79,9 +79,10 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 /// round ends before the next begins, and what it tries depends on its number only, so the result does not
 /// depend on the number of workers, nor on whether the run was interrupted and resumed.
 ///
-/// Failed subdomains do not throw. Throws what `require_policies` throws, `io_error` when a finished piece
-/// cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`. Memory: one piece
-/// per worker with a spool, else the whole mesh.
+/// Failed subdomains do not throw. Throws what `require_policies` throws, `usage_error` of a policy that may
+/// not run where it is called (one with a child process, in a process with other threads), `io_error` when a
+/// finished piece cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`.
+/// Memory: one piece per worker with a spool, else the whole mesh.
 ///
 /// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.

@@ -140,6 +140,8 @@ auto by_policy(const char* role, const std::string& name, const Work& work) {
     const std::string what = role + (name.empty() ? name : " '" + name + "'") + ": " + e.what();
     if (dynamic_cast<const time_limit_error*>(&e) != nullptr)
       throw time_limit_error(what);
+    if (dynamic_cast<const usage_error*>(&e) != nullptr)
+      throw usage_error(what);
     throw mesher_error(what);
   }
 }

@@ -44,8 +44,8 @@ public:
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
   /// a batch that fails are made again one by one; those that fail alone are returned, by growing number, and
-  /// the others are kept. An `io_error` of the store and a `sizing_error`, which no other attempt mends, are
-  /// thrown.
+  /// the others are kept. An `io_error` of the store, a `sizing_error` and a `usage_error`, which no other
+  /// attempt mends, are thrown.
   std::vector<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
                                            double batch_cost, const maker& make, const any_executor& run,
                                            run_options options) {

@@ -13,7 +13,7 @@
 
 namespace dovetail::detail {
 
-enum class reply_kind : std::uint8_t { result, cannot_store, bad_size };
+enum class reply_kind : std::uint8_t { result, cannot_store, bad_size, bad_use };
 
 /// What kind a reply is stands behind its bytes, so that those of a result are not moved.
 inline byte_buffer marked(byte_buffer bytes, reply_kind kind) {
@@ -25,7 +25,8 @@ inline byte_buffer marked(const std::string& text, reply_kind kind) {
   return marked(byte_buffer(first, first + text.size()), kind);
 }
 
-/// In a worker: what `work()` returns, or its `io_error` or `sizing_error`. Others are the task's failure.
+/// In a worker: what `work()` returns, or its `io_error`, `sizing_error` or `usage_error`. Others are the
+/// task's failure.
 template <class Work>
 byte_buffer with_final_errors(const Work& work) {
   try {
@@ -34,6 +35,8 @@ byte_buffer with_final_errors(const Work& work) {
     return marked(e.what(), reply_kind::cannot_store);
   } catch (const sizing_error& e) {
     return marked(e.what(), reply_kind::bad_size);
+  } catch (const usage_error& e) {
+    return marked(e.what(), reply_kind::bad_use);
   }
 }
 
@@ -46,6 +49,8 @@ inline byte_buffer without_final_errors(byte_buffer reply) {
     throw io_error(text());
   if (kind == reply_kind::bad_size)
     throw sizing_error(text());
+  if (kind == reply_kind::bad_use)
+    throw usage_error(text());
   return reply;
 }
 

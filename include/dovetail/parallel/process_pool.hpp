@@ -33,8 +33,10 @@ inline std::size_t thread_count() {
 /// Throws `usage_error` when this process has other threads.
 inline void require_single_thread() {
   if (const std::size_t threads = thread_count(); threads > 1)
-    throw usage_error("worker processes cannot be forked from a process with " + std::to_string(threads) +
-                      " threads; use the serial or threads executor, or end the threads first");
+    throw usage_error(
+        "worker processes cannot be forked from a process with " + std::to_string(threads) +
+        " threads, as one is that has initialised MPI; end the threads first, or use an executor "
+        "and policies that need no child process");
 }
 
 /// One run of tasks in worker processes: the parent's loop. A task whose worker is killed is run once more.

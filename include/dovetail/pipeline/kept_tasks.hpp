@@ -27,8 +27,8 @@ struct kept_tasks {
   progress on_progress = {};
 
   /// Runs `task(i)` for each size, the largest first, and then `take(i, reader of what it gave)` in turn.
-  /// Throws `mesh_error` that names stage and task when one fails, the `io_error` and `sizing_error` of a
-  /// task, and `cancelled`.
+  /// Throws `mesh_error` that names stage and task when one fails, the `io_error`, `sizing_error` and
+  /// `usage_error` of a task, and `cancelled`.
   template <class Task, class Take>
   void run(const char* stage, const std::vector<global_id>& sizes, const Task& task, const Take& take) const {
     run_options options;
