@@ -6,6 +6,7 @@
 #include "dovetail/geometry/discrete_repair.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/parallel/mpi.hpp"
+#include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "geometry/discrete_shapes.hpp"
@@ -23,6 +24,14 @@ ranked_mesh mesh_ball(const any_executor& run, const std::filesystem::path& fold
   return mesh_on<3>(run, ball, 0.2, mesher::tetgen{}, {}, folder);
 }
 
+/// As those do whose library may crash or has one state for all.
+struct forking_mesher : mesher::tetgen {
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    parallel::processes{1}.run(1, [](std::size_t) { return byte_buffer{}; });
+    return mesher::tetgen::operator()(input, size);
+  }
+};
+
 } // namespace
 
 TEST_CASE("a program with MPI makes the mesh and the files that one process makes") {
@@ -39,4 +48,13 @@ TEST_CASE("a program with MPI makes the mesh and the files that one process make
   CHECK(alone.files.size() > 4);
   CHECK(mesh_ball(run, folder / "ranks") == alone);
   world->agree(); // or the folder would go too early
+}
+
+TEST_CASE("a mesher that forks is refused in a program with MPI, whatever is below it on its ladder") {
+  const any_mesher<3> forks =
+      any_mesher<3>(forking_mesher{}, "forks").with_fallback({mesher::tetgen{}, "tetgen"});
+  const discrete_model ball(repaired(sphere_soup({0, 0, 0}, 1, 8)));
+  const scratch_folder own("mpi");
+  CHECK_THROWS_WITH_AS(mesh_on<3>(parallel::ranks(*world), ball, 0.2, forks, {}, own / "out"),
+                       doctest::Contains("that has initialised MPI"), usage_error);
 }
