@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <vector>
 
 using namespace dovetail;
@@ -43,6 +44,27 @@ TEST_CASE("gathered gives what its partitioner gives alone, on any number of ran
       const partition::recursive_coordinate by_place; // goes by positions
       CHECK(any_distributed_partitioner(by_place).of_whole(network, cubes, 5) == by_place(cubes, 5));
       CHECK_THROWS_AS(spread.of_whole(network, three, 4), partition_error);
+    });
+}
+
+TEST_CASE("what partitions on rank 0 alone takes a graph that all ranks have as it is there") {
+  const csr_graph whole = element_graph(dovetail_test::jittered_cubes(4), 1);
+  for (const int ranks : {1, 3})
+    parallel::run_ranks(ranks, [&](parallel::in_process& mine) {
+      any_communicator network(mine);
+      const any_distributed_partitioner by_halves = [&](const csr_graph& graph, int) {
+        CHECK(&graph == &whole);
+        CHECK(mine.rank() == 0);
+        std::vector<local_id> part(graph.node_weights.size(), 0);
+        std::fill(part.begin() + graph.node_count() / 2, part.end(), 1);
+        return part;
+      };
+      const auto part = by_halves.of_whole(network, whole, 2);
+      CHECK(part.size() == whole.node_weights.size());
+      CHECK(part.front() == 0);
+      CHECK(part.back() == 1);
+      CHECK_THROWS_WITH_AS(by_halves.of_whole(network, whole, 3), doctest::Contains("without a node"),
+                           partition_error);
     });
 }
 

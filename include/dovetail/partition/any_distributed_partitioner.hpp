@@ -31,6 +31,7 @@ public:
       depends_on_ranks_ = policy.depends_on_ranks();
       call_ = std::move(policy);
     } else {
+      of_whole_ = policy;
       call_ = partition::gathered<P>{std::move(policy)};
     }
   }
@@ -45,9 +46,20 @@ public:
     return {all.begin() + graph.first(), all.begin() + graph.end()};
   }
 
-  /// Of a graph that all ranks have: the part of every node, on all ranks. Collective.
+  /// Of a graph that all ranks have: the part of every node, on all ranks. Collective. Who would have to
+  /// gather it on rank 0 takes what is there.
   std::vector<local_id> of_whole(any_communicator& network, const csr_graph& graph, int parts) const {
-    return parts_of_all(network, rows_of_rank(graph, network.rank(), network.size()), parts);
+    if (!of_whole_)
+      return parts_of_all(network, rows_of_rank(graph, network.rank(), network.size()), parts);
+    const auto who = [&] { return named_policy("partitioner", name_); };
+    const byte_buffer known = network.once([&] {
+      byte_writer to;
+      to.array(call_policy<partition_error>(who, [&] { return of_whole_(graph, parts); }));
+      return to.take();
+    });
+    auto all = byte_reader(known).array<local_id>();
+    detail::require_partition(all, graph.node_weights.size(), parts, who);
+    return all;
   }
 
 private:
@@ -66,6 +78,8 @@ private:
   std::string name_;
   bool depends_on_ranks_ = false;
   std::function<std::vector<local_id>(any_communicator&, const distributed_csr_graph&, int)> call_;
+  std::function<std::vector<local_id>(const csr_graph&, int)>
+      of_whole_; ///< none where rows need not be gathered
 };
 static_assert(distributed_graph_partitioner<any_distributed_partitioner>);
 
