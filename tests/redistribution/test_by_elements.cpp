@@ -122,6 +122,19 @@ TEST_CASE("by elements, ranks of uneven pieces are even and connected, and old i
     }
 }
 
+TEST_CASE("a warning says how uneven ranks are that could not be made even") {
+  const auto mesh = stacked_cubes{.cells = 1, .cuts = 1}.distributed(); // of 6 elements
+  CHECK(by_elements(mesh, 2).summary.warnings.empty());
+  const auto warnings = by_elements(mesh, 4).summary.warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "the largest rank has 1.333 times the average of elements, more than the 1.03 that were "
+        "tried for: connected ranks came no nearer");
+  auto how = by_elements;
+  how.imbalance = 1.4;
+  CHECK(how(mesh, 4).summary.warnings.empty());
+}
+
 TEST_CASE("the lighter old interfaces weigh, the more of them stay") {
   const auto mesh = lumps(60, 2, 0.5);
   auto how = by_elements;

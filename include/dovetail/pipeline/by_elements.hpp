@@ -29,9 +29,9 @@ namespace dovetail::redistribution_by {
 struct elements {
   any_distributed_partitioner partitioner = partition::greedy{};
   any_simplification_rule simplify_by = simplifier::paper{};
-  int super_elements = 2000;       ///< about so many of each piece
-  double seam_weight = 4;          ///< of a side that is an interface already; of others it is 1
-  double imbalance = 1.03;         ///< largest over average rank that is tried for
+  int super_elements = 2000; ///< about so many of each piece
+  double seam_weight = 4;    ///< of a side that is an interface already; of others it is 1
+  double imbalance = 1.03;   ///< largest over average rank that is tried for; a warning where it is more
   double interface_angle_deg = 30; ///< smaller interface angles are counted in the summary
   any_executor run_tasks = parallel::serial{};
   std::optional<spool> store = {}; ///< where new pieces are kept; none: in memory

@@ -5,6 +5,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/io/mesh_hash.hpp"
@@ -246,6 +247,11 @@ private:
       described.warnings.push_back(named_policy("partitioner", given_.partitioner.name()) +
                                    " gives other parts on another number of ranks: the mesh is the same up "
                                    "to meshing, what each rank of the solver gets is not");
+    if (const double imbalance = described.get("imbalance"); imbalance > given_.imbalance)
+      described.warnings.push_back("the largest rank has " + number_text(imbalance, 4) +
+                                   " times the average of elements, more than the " +
+                                   number_text(given_.imbalance, 4) +
+                                   " that were tried for: connected ranks came no nearer");
     if constexpr (D == 3)
       measure_angles(described);
     described.children = std::move(summary_.children);
