@@ -22,8 +22,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -210,6 +212,26 @@ TEST_CASE("the result is the same for every executor, any number of ranks, and w
       CHECK(same(parallel::ranks(mine), spool::start(own, {{"test", "1"}}).of_one_rank()));
     });
   }
+}
+
+TEST_CASE("new pieces that a spool has are not written again") {
+  const auto mesh = stacked_cubes{.cells = 4, .cuts = 2}.distributed();
+  const scratch_folder folder("found");
+  auto how = by_elements;
+  how.store = spool::start(folder / "spool", {{"test", "1"}});
+  const auto first = how(mesh, 3);
+  const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+  std::size_t pieces = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder / "spool"))
+    if (file.path().filename().string().starts_with("redistributed_")) {
+      std::filesystem::last_write_time(file, long_ago);
+      ++pieces;
+    }
+  CHECK(pieces == first.mesh->counts.size());
+  CHECK(io::mesh_hash(*how(mesh, 3).mesh) == io::mesh_hash(*first.mesh));
+  for (const auto& file : std::filesystem::directory_iterator(folder / "spool"))
+    if (file.path().filename().string().starts_with("redistributed_"))
+      CHECK(std::filesystem::last_write_time(file) == long_ago);
 }
 
 TEST_CASE("triangles: drawings, closed shells, and edges where three sheets meet") {

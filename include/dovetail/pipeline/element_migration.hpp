@@ -152,7 +152,10 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
             piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
             static_cast<global_id>(piece.mesh.elements.size())});
         reply.value(measure_quality(piece.mesh));
-        tasks.keep(key, bytes, reply);
+        if (found)
+          tasks.keep_found(key, reply);
+        else
+          tasks.keep(key, bytes, reply);
         return reply.take();
       },
       [&](std::size_t n, byte_reader& from) {

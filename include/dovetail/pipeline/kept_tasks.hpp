@@ -56,9 +56,11 @@ struct kept_tasks {
     else
       reply.array(bytes);
   }
+  /// In a task: says that the store, a shared one, has the entity already.
+  void keep_found(content_key key, byte_writer& reply) const { reply.value(key); }
   /// After a run: gives each rank what others have kept, where their spools are not the same.
   void exchange(std::span<const content_key> keys) const { store.exchange(run_tasks.network(), keys); }
-  /// What `keep` has said.
+  /// What `keep` or `keep_found` has said.
   content_key take_kept(byte_reader& from) const {
     const auto key = from.value<content_key>();
     if (!store.is_shared())
