@@ -1,9 +1,12 @@
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/quality_codec.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <numeric>
+#include <random>
 
 using namespace dovetail;
 
@@ -116,4 +119,69 @@ TEST_CASE("counts under 6, 12, 18 and 24 degrees are exact at the bounds") {
     statistics.min_wedges.add(degrees);
   CHECK(statistics.under_6_12_18_24() == std::array<std::int64_t, 4>{1, 2, 3, 4});
   CHECK(statistics.per_million_under(12) == doctest::Approx(4e5));
+}
+
+TEST_CASE("statistics come back from few bytes as they were") {
+  std::mt19937 random(7);
+  std::normal_distribution<double> small(45, 9), large(100, 15);
+  quality_statistics many;
+  many.elements = 100000;
+  many.min_wedge_deg = 0.1 + 0.2;
+  many.max_wedge_deg = 179.9;
+  many.min_face_deg = 1e-300;
+  many.sum_of_min_wedge_deg = 4.5e6;
+  many.worst_element = 99999;
+  for (int e = 0; e < 100000; ++e) {
+    many.min_wedges.add(small(random));
+    many.max_wedges.add(large(random));
+  }
+  quality_statistics ends; // of both histograms
+  ends.min_wedges.bins.front() = 1;
+  ends.max_wedges.bins.back() = std::int64_t{1} << 62;
+  quality_statistics full;
+  full.min_wedges.bins.fill(127);
+  full.max_wedges.bins.fill(128);
+  for (const quality_statistics& quality : {many, ends, full, quality_statistics{}}) {
+    byte_writer to;
+    encode(to, quality);
+    const byte_buffer bytes = to.take();
+    byte_reader from(bytes);
+    const quality_statistics back = decode_quality(from);
+    CHECK(from.at_end());
+    CHECK(back.elements == quality.elements);
+    CHECK(back.min_wedge_deg == quality.min_wedge_deg);
+    CHECK(back.max_wedge_deg == quality.max_wedge_deg);
+    CHECK(back.min_face_deg == quality.min_face_deg);
+    CHECK(back.sum_of_min_wedge_deg == quality.sum_of_min_wedge_deg);
+    CHECK(back.worst_element == quality.worst_element);
+    CHECK(back.min_wedges.bins == quality.min_wedges.bins);
+    CHECK(back.max_wedges.bins == quality.max_wedges.bins);
+    if (quality.elements == 100000)
+      CHECK(bytes.size() < 450);
+    const byte_buffer cut(bytes.begin(), bytes.end() - 1);
+    byte_reader early(cut);
+    CHECK_THROWS_AS((void)decode_quality(early), input_error);
+  }
+}
+
+TEST_CASE("bytes that are no histogram are refused") {
+  const auto refused = [](std::uint64_t first, std::uint64_t count) {
+    byte_writer to;
+    encode_count(to, first);
+    encode_count(to, count);
+    to.array(std::vector<std::byte>(200));
+    const byte_buffer bytes = to.take();
+    byte_reader from(bytes);
+    CHECK_THROWS_AS((void)decode_histogram(from), input_error);
+  };
+  refused(181, 0);
+  refused(0, 181);
+  refused(100, 81);
+  refused(~std::uint64_t{0}, 2);
+  byte_writer to;
+  to.array(std::vector<std::uint8_t>(20, 255));
+  const byte_buffer bytes = to.take();
+  byte_reader from(bytes);
+  from.value<std::uint64_t>();
+  CHECK_THROWS_AS((void)decode_count(from), input_error);
 }

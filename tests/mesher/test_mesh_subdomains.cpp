@@ -115,8 +115,10 @@ meshing_result run_fan(const fan_mesher& mesher, const meshing_options& options 
 } // namespace
 
 TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points") {
+  meshing_options options;
+  options.store = std::make_shared<entity_store>();
   const auto result = mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
-                                      parallel::serial{});
+                                      parallel::serial{}, options);
   CHECK(result.failures.empty());
   global_id elements = 0;
   for (local_id s = 0; s < static_cast<local_id>(piece_count); ++s) {
@@ -130,8 +132,10 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
     CHECK(summary.counts.elements == static_cast<global_id>(input.boundary.boundary.elements.size()));
     CHECK(summary.counts.inner_points == 1);
     CHECK(summary.quality.elements == summary.counts.elements);
-    CHECK(summary.summary.children.at(1).get("frozen points") ==
-          static_cast<double>(input.skeleton_points.size()));
+    CHECK(summary.summary.children.at(1).name == "improver");
+    const auto kept =
+        detail::summary_of(options.store->get(result.keys[static_cast<std::size_t>(s)])).summary;
+    CHECK(kept.children.at(1).get("frozen points") == static_cast<double>(input.skeleton_points.size()));
     elements += summary.counts.elements;
   }
   CHECK(result.quality.elements == elements);
@@ -152,6 +156,46 @@ TEST_CASE("The result does not depend on the executor, its workers or the store"
     spooled.store = in_spool(spool::start(scratch.path, {}));
     CHECK(run(parallel::processes{workers}, spooled) == expected);
   }
+}
+
+/// Runs tasks one after the other and counts the bytes that they return.
+struct weighing_executor {
+  std::shared_ptr<std::size_t> bytes = std::make_shared<std::size_t>(0);
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options) const {
+    auto outcomes = parallel::serial{}.run(count, task, options);
+    for (const task_outcome& outcome : outcomes)
+      *bytes += outcome.result.size();
+    return outcomes;
+  }
+  int workers() const { return 1; }
+  bool shares_process() const { return true; }
+};
+
+TEST_CASE("With a spool a piece is a few bytes of its worker's, however large its boundary") {
+  const scratch_folder scratch;
+  meshing_options options;
+  options.store = in_spool(spool::start(scratch.path, {}));
+  const weighing_executor weigh;
+  const auto result = mesh_subdomains(
+      1,
+      [](local_id) {
+        subdomain_input input;
+        input.boundary.boundary = shapes::cube(40);
+        input.skeleton_points.resize(input.boundary.boundary.points.size());
+        return input;
+      },
+      fan_mesher{}, counting_improver{}, unit_size, weigh, options);
+  CHECK(result.pieces[0].counts.elements > 10000);
+  CHECK(*weigh.bytes < 300);
+  CHECK(*weigh.bytes > 50);
+}
+
+TEST_CASE("Loading asks for the skeleton's points where it is said") {
+  meshing_options options;
+  options.skeleton_points = [](local_id s) { return std::vector<local_id>{s, 7}; };
+  const auto result = run_fan({}, options, parallel::serial{});
+  CHECK(result.load(3).skeleton_points == std::vector<local_id>{3, 7});
 }
 
 TEST_CASE("The largest predicted cost is started first") {

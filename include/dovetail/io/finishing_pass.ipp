@@ -11,6 +11,7 @@
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesh/quality_codec.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,6 +30,17 @@ namespace detail {
 struct finished_pieces {
   mesh_hasher hash;
   quality_statistics quality;
+
+  void encode_to(byte_writer& bytes) const {
+    bytes.value(hash);
+    encode(bytes, quality);
+  }
+  static finished_pieces decoded(byte_reader& bytes) {
+    finished_pieces pieces;
+    pieces.hash = bytes.value<mesh_hasher>();
+    pieces.quality = decode_quality(bytes);
+    return pieces;
+  }
 };
 
 /// Errors travel beside the result, and are thrown again by the parent.
@@ -78,7 +90,7 @@ public:
     byte_reader taken(taken_over);
     for (std::size_t r = 0; r < ranges(); ++r)
       if (taken.value<std::uint8_t>() != 0)
-        found[r] = taken.value<finished_pieces>();
+        found[r] = finished_pieces::decoded(taken);
       else
         left.push_back(r);
     finished_mesh result;
@@ -99,14 +111,16 @@ public:
         [this](std::size_t task) {
           byte_writer done;
           if (task < ranges())
-            done.value(finish_range(task));
+            finish_range(task).encode_to(done);
           else
             others_[task - ranges()]->run();
           return done.take();
         });
     for (std::size_t k = 0; k < left.size(); ++k)
-      if (left[k] < ranges())
-        found[left[k]] = byte_reader(replies[k]).template value<finished_pieces>();
+      if (left[k] < ranges()) {
+        byte_reader reply(replies[k]);
+        found[left[k]] = finished_pieces::decoded(reply);
+      }
     result.summary.set("peak_rss_bytes", peak_rss_bytes_);
 
     mesh_hasher hash = skeleton_hash_;
@@ -203,7 +217,7 @@ private:
       const bool there = take_over(r, found);
       taken.value<std::uint8_t>(there);
       if (there)
-        taken.value(found);
+        found.encode_to(taken);
     }
     return taken.take();
   }
@@ -234,7 +248,7 @@ private:
       throw usage_error("subdomain " + std::to_string(bounds_[range]) + " is already in " +
                         first->files.front().path +
                         ", with the numbers of another decomposition; run again without resuming");
-    found = text.value<finished_pieces>();
+    found = finished_pieces::decoded(text);
     return true;
   }
 
@@ -305,7 +319,7 @@ private:
   void give_up(std::size_t range, piece_note note, const finished_pieces& done) const {
     byte_writer text;
     text.value(numbering_);
-    text.value(done);
+    done.encode_to(text);
     note.text = text.take();
     for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
       mesh_.release(p, note);

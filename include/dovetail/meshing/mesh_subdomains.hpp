@@ -43,6 +43,9 @@ struct meshing_options {
   /// store the result has one of its own, in memory. Mesher, improver and the plain sizes must be the same as
   /// long as the store is.
   std::shared_ptr<entity_store> store = {};
+  /// The `skeleton_points` of a subdomain's input, called by `load` whenever it is. Empty: `load` asks the
+  /// source, so that what that refers to must last as long as the result.
+  std::function<std::vector<local_id>(local_id)> skeleton_points = {};
   /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
   /// keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
@@ -51,7 +54,9 @@ struct meshing_options {
 
 template <int D>
 struct meshed_pieces {
-  std::vector<piece_summary> pieces;   ///< per subdomain; counts are 0 where it failed
+  /// Per subdomain; counts are 0 where it failed. Of a report only "rung", "stops_by_clock", and the seconds,
+  /// warnings and deviations of its children: counters of mesher and improver stay in the store.
+  std::vector<piece_summary> pieces;
   std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where it failed
   std::vector<piece_failure> failures; ///< by growing subdomain
   quality_statistics quality;          ///< of all pieces together

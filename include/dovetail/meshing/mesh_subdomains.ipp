@@ -8,6 +8,7 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/meshing/piece_receipt.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
@@ -32,51 +33,21 @@ namespace dovetail {
 
 namespace detail {
 
-/// What a worker sends of a piece: where it is, and what the parent needs of it without loading it.
-struct piece_receipt {
-  content_key key = {};
-  std::vector<local_id> skeleton_points = {};
-  piece_summary summary = {};
-  bool reused = false; ///< the store had it
-
-  byte_buffer encoded() const {
-    byte_writer bytes;
-    bytes.value(key);
-    bytes.array(skeleton_points);
-    encode(bytes, summary);
-    bytes.value<std::uint8_t>(reused);
-    return bytes.take();
-  }
-  static piece_receipt decoded(const byte_buffer& buffer) {
-    byte_reader bytes(buffer);
-    piece_receipt receipt;
-    receipt.key = bytes.value<content_key>();
-    receipt.skeleton_points = bytes.array<local_id>();
-    receipt.summary = decode_summary(bytes);
-    receipt.reused = bytes.value<std::uint8_t>() != 0;
-    return receipt;
-  }
-};
-
 /// Finished pieces by the numbers of the present decomposition.
 template <int D>
 class piece_shelf {
 public:
-  piece_shelf(std::size_t count, std::shared_ptr<entity_store> store)
-      : store_(std::move(store)), keys_(count), skeleton_points_(count) {}
+  piece_shelf(std::size_t count, std::shared_ptr<entity_store> store,
+              std::function<std::vector<local_id>(local_id)> skeleton_points)
+      : store_(std::move(store)), keys_(count), skeleton_points_(std::move(skeleton_points)) {}
 
   entity_store& store() const { return *store_; }
   const std::vector<content_key>& keys() const { return keys_; }
-  void place(local_id subdomain, piece_receipt receipt) {
-    const auto s = static_cast<std::size_t>(subdomain);
-    keys_[s] = receipt.key;
-    skeleton_points_[s] = std::move(receipt.skeleton_points);
-  }
+  void place(local_id subdomain, content_key key) { keys_[static_cast<std::size_t>(subdomain)] = key; }
   simplicial_piece<D> load(local_id subdomain) const {
-    const auto s = static_cast<std::size_t>(subdomain);
-    simplicial_piece<D> piece = piece_of<D>(store_->get(keys_.at(s)));
+    simplicial_piece<D> piece = piece_of<D>(store_->get(keys_.at(static_cast<std::size_t>(subdomain))));
     piece.subdomain = subdomain;
-    piece.skeleton_points = skeleton_points_[s];
+    piece.skeleton_points = skeleton_points_(subdomain);
     return piece;
   }
 
@@ -120,7 +91,7 @@ private:
 
   std::shared_ptr<entity_store> store_;
   std::vector<content_key> keys_;
-  std::vector<std::vector<local_id>> skeleton_points_;
+  std::function<std::vector<local_id>(local_id)> skeleton_points_;
 };
 
 /// The rounds of `mesh_subdomains`.
@@ -132,8 +103,10 @@ public:
                    const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
         ladder_(ladder_of(mesh_it)),
-        shelf_(std::make_shared<piece_shelf<D>>(count, options.store ? options.store
-                                                                     : std::make_shared<entity_store>())) {
+        shelf_(std::make_shared<piece_shelf<D>>(
+            count, options.store ? options.store : std::make_shared<entity_store>(),
+            options.skeleton_points ? options.skeleton_points
+                                    : [source](local_id s) { return source(s).skeleton_points; })) {
     result_.pieces.resize(count);
     pending_.resize(count);
     for (std::size_t s = 0; s < count; ++s)
@@ -201,7 +174,7 @@ private:
   /// Runs in the worker: the piece, unless it is in the store, and behind it the receipt and its length, so
   /// that neither end moves the bytes of a piece.
   byte_buffer reply(const piece_failure& piece, std::size_t rung) const {
-    piece_input<D> input = source_(piece.subdomain);
+    const piece_input<D> input = source_(piece.subdomain);
     entity_store& store = shelf_->store();
     piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
     auto finished = store.find(receipt.key);
@@ -211,7 +184,6 @@ private:
     if (!finished)
       finished = attempt(piece, input, rung);
     receipt.summary = summary_of(*finished);
-    receipt.skeleton_points = std::move(input.skeleton_points);
     byte_buffer bytes; // of the piece, where the parent keeps it
     if (!receipt.reused && store.is_shared())
       store.keep(receipt.key, *std::move(finished));
@@ -251,8 +223,8 @@ private:
       shelf_->store().keep(receipt.key, std::move(bytes));
     summary.add("reused", receipt.reused ? 1 : 0);
     receipt.summary.summary.name = piece_name(piece.subdomain);
-    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = receipt.summary;
-    shelf_->place(piece.subdomain, std::move(receipt));
+    shelf_->place(piece.subdomain, receipt.key);
+    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = std::move(receipt.summary);
     return true;
   }
 

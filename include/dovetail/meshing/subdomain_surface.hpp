@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,17 @@ struct subdomain_sides {
   simplicial_mesh<D - 1> boundary;
   std::vector<local_id> skeleton_points; ///< per point: its number in the skeleton, growing
 };
+
+/// The points of the skeleton on the boundary of one subdomain, growing. O(n log n) in its sides.
+template <int D>
+std::vector<local_id> points_of_subdomain(std::span<const simplex<D - 1>> sides,
+                                          const sides_of_subdomains& sorted, local_id subdomain) {
+  std::vector<local_id> numbers;
+  for (const local_id side : sorted[subdomain])
+    append(numbers, sides[static_cast<std::size_t>(side)]);
+  sort_unique(numbers);
+  return numbers;
+}
 
 /// Cuts the boundary of a subdomain out of the skeleton. O(n log n) in its sides.
 template <int D>
@@ -32,10 +44,9 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
     if (skeleton.subdomains[t][0] != subdomain || second_passage)
       std::swap(side[D - 2], side[D - 1]);
     made.boundary.elements.push_back(side);
-    append(made.skeleton_points, side);
   }
-  auto& numbers = made.skeleton_points;
-  sort_unique(numbers);
+  const auto& numbers = made.skeleton_points =
+      points_of_subdomain<D>(span_of(skeleton.sides), sorted, subdomain);
   for (const local_id number : numbers)
     made.boundary.points.push_back(skeleton.points[static_cast<std::size_t>(number)]);
   for (simplex<D - 1>& side : made.boundary.elements)

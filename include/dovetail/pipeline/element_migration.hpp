@@ -9,6 +9,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/quality_codec.hpp"
 #include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/kept_tasks.hpp"
@@ -151,7 +152,7 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
         reply.value(piece_counts{
             piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
             static_cast<global_id>(piece.mesh.elements.size())});
-        reply.value(measure_quality(piece.mesh));
+        encode(reply, measure_quality(piece.mesh));
         if (found)
           tasks.keep_found(key, reply);
         else
@@ -161,7 +162,7 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
       [&](std::size_t n, byte_reader& from) {
         after.merge(from.value<io::mesh_hasher>());
         to.counts[n] = from.value<piece_counts>();
-        to.quality[n] = from.value<quality_statistics>();
+        to.quality[n] = decode_quality(from);
         (*keys)[n] = tasks.take_kept(from);
       });
   if (after.value() != moves.hash.value())

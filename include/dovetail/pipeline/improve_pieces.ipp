@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/io/distributed_validity.hpp"
+#include "dovetail/mesh/quality_codec.hpp"
 #include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
@@ -94,7 +95,7 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         const byte_buffer encoded = bytes.take();
         reply.value(seconds);
         reply.value(counts);
-        reply.value(measure_quality(piece.mesh));
+        encode(reply, measure_quality(piece.mesh));
         key_maker make;
         tasks.keep(make(static_cast<std::int64_t>(p))(encoded).key(), encoded, reply);
         return reply.take();
@@ -102,7 +103,7 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
       [&](std::size_t p, byte_reader& from) {
         result.summary.add("improver_seconds", from.value<double>());
         result.mesh.counts[p] = from.value<piece_counts>();
-        result.mesh.quality[p] = from.value<quality_statistics>();
+        result.mesh.quality[p] = decode_quality(from);
         (*keys)[p] = tasks.take_kept(from);
       });
   tasks.exchange(*keys);

@@ -18,11 +18,10 @@ namespace dovetail {
 
 namespace detail {
 
-/// The input of each piece's mesher, made in the worker.
+/// The input of each piece's mesher, made in the worker. `sorted` are the skeleton's sides.
 inline piece_source<3> source_of_pieces(const any_geometry&, const simplicial_background<3>&,
-                                        const realized<3>& skeleton, bool) {
-  auto sorted = std::make_shared<const sides_of_subdomains>(
-      sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
+                                        const realized<3>& skeleton,
+                                        const std::shared_ptr<const sides_of_subdomains>& sorted, bool) {
   return [&skeleton, sorted](local_id s) {
     auto surface = boundary_of_subdomain(skeleton.fine, *sorted, s);
     piece_input<3> input;
@@ -35,11 +34,11 @@ inline piece_source<3> source_of_pieces(const any_geometry&, const simplicial_ba
 
 /// `own_model`: a model that is not thread-safe is copied for every piece.
 inline piece_source<2> source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh,
-                                        const realized<2>& skeleton, bool own_model) {
+                                        const realized<2>& skeleton,
+                                        const std::shared_ptr<const sides_of_subdomains>& sorted,
+                                        bool own_model) {
   auto rule =
       std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
-  auto sorted = std::make_shared<const sides_of_subdomains>(
-      sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   auto regions = std::make_shared<const std::vector<std::vector<local_id>>>(
       regions_of_subdomains(skeleton.coarse, skeleton.material_of_subdomain.size()));
   return [&model, &mesh, &skeleton, sorted, rule, regions, own_model](local_id s) {
@@ -92,14 +91,21 @@ meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_bac
                                  const realized<D>& skeleton, std::span<const double> weights,
                                  const refined_sizing& size, const std::shared_ptr<entity_store>& store,
                                  const any_parameters<D>& given) {
+  const auto sorted = std::make_shared<const sides_of_subdomains>(
+      sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
+  // The skeleton itself goes into the finished mesh, and its pieces may be loaded as long as that is.
+  const auto sides = std::make_shared<const shared_array<simplex<D - 1>>>(skeleton.fine.sides);
   meshing_options options;
+  options.skeleton_points = [sides, sorted](local_id s) {
+    return points_of_subdomain<D>(span_of(*sides), *sorted, s);
+  };
   options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
   options.store = store;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.on_progress = given.options.on_progress;
   const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();
   return mesh_subdomains<D>(skeleton.material_of_subdomain.size(),
-                            detail::source_of_pieces(model, mesh, skeleton, own_model), given.mesh_it,
+                            detail::source_of_pieces(model, mesh, skeleton, sorted, own_model), given.mesh_it,
                             given.improve_it, size, given.run_tasks, options);
 }
 
