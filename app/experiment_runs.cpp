@@ -183,12 +183,22 @@ run_result run_maker::make(const experiment_run& run) {
   result.record = read_json(place.file("run.json"));
   const bool is_there = result.record.is_object() && result.record.value("asked", json()) == place.asked &&
                         result.measured.is_object() && std::filesystem::exists(place.file("trace.json"));
-  if (!is_there)
+  const auto failed_before = failed_.find(place.name);
+  const bool is_known = failed_before != failed_.end();
+  if (is_known) {
+    result.record = failed_before->second;
+    result.measured = json();
+  } else if (!is_there) {
     carry_out(place, wanted, result);
+  }
   const bool failed = result.measured.is_null();
+  if (failed)
+    failed_[place.name] = result.record;
   if (!options_.quiet)
     std::fprintf(stderr, "%s: %s\n", place.name.c_str(),
-                 failed     ? ("failed: " + result.record.at("failure").get<std::string>()).c_str()
+                 failed ? ((is_known ? "failed before: " : "failed: ") +
+                           result.record.at("failure").get<std::string>())
+                              .c_str()
                  : is_there ? "is there from before, by the same build and command line"
                             : "made");
   if (!failed && wanted.workers > workers_)

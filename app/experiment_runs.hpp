@@ -26,7 +26,7 @@ public:
   run_maker(const experiment_options& options, driver_call driver);
 
   /// The run in its folder in `<out>/runs`, unless the same one is there, and those beside it. One that fails
-  /// is a result; throws `cancelled` when it was stopped.
+  /// is a result, and is not tried again by this maker; throws `cancelled` when it was stopped.
   run_result make(const experiment_run& run);
   int workers() const { return workers_; }
 
@@ -43,6 +43,7 @@ private:
   int workers_;
   std::string input_checksum_;
   run_identity build_;
+  std::map<std::string, nlohmann::ordered_json> failed_; ///< by name: the records of runs
   /// By model and number of elements: the factor of its sizes, and its own size or 0.
   std::map<std::pair<std::string, double>, std::pair<double, double>> sizes_;
 };
