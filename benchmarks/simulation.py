@@ -45,7 +45,7 @@ def seconds_of(trace):
     about = json.loads(trace.read_text())
     stages = [event for event in about["traceEvents"] if event["ph"] == "X" and event["tid"] == 0]
     names = list(dict.fromkeys(stage["name"] for stage in stages))
-    before = set(names[:names.index("meshing")]) - {"geometry"}
+    before = set(names[:names.index("meshing")]) - {"geometry", "reading"}
     return about["otherData"]["seconds"], sum(stage["dur"] for stage in stages if stage["name"] in before) / 1e6
 
 
@@ -66,8 +66,10 @@ def simulated(driver, trace, ranks, machine):
     """Seconds of the whole and of the decomposition for each number of ranks."""
     lines = subprocess.run([driver, "simulate", str(trace), "--workers", ",".join(map(str, ranks))] + machine, check=True,
                            capture_output=True, text=True).stdout.splitlines()
-    rows = [next(line for line in lines if line.strip().startswith(name)) for name in ("Entire scheme", "Domain decomposition")]
-    return list(zip(*(map(float, row.split()[-len(ranks):]) for row in rows)))
+    scheme, decomposition, besides = (
+        [float(cell) for cell in next(line for line in lines if line.strip().startswith(name)).split()[-len(ranks):]]
+        for name in ("Entire scheme", "Domain decomposition", "Reading and finishing"))
+    return list(zip(map(sum, zip(scheme, besides)), decomposition))
 
 
 def at_once(command, count):
