@@ -30,11 +30,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <set>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -189,6 +192,22 @@ TEST_CASE("One of four subdomains may be merged, two may not; of many a fraction
   CHECK(most_of(8) == 2);
   CHECK(most_of(39) == 2);
   CHECK(most_of(100) == 5);
+}
+
+TEST_CASE("The measuring of interface angles is a step of its own, with its time in the account") {
+  constexpr double slow = 0.3;
+  decomposed_shell given(0.5, 6);
+  int steps = 0;
+  given.given.options.on_progress.update = [&](std::string_view stage, std::size_t done, std::size_t total) {
+    if (stage != "intersection" || done + total > 0)
+      return;
+    ++steps;
+    std::this_thread::sleep_for(std::chrono::duration<double>(slow));
+  };
+  auto rounds = given.rounds(1);
+  rounds.realize_boundaries();
+  CHECK(steps > rounds.intersection().get("rounds")); // the searches for crossings, and this
+  CHECK(rounds.intersection().seconds >= slow * steps);
 }
 
 TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {

@@ -51,7 +51,7 @@ public:
   /// The field given, smaller where something crossed.
   any_sizing size() const { return size_.everywhere(); }
   /// What was found and done so far: "crossings", "rounds", "refinements", "merges", "merged_after_failure",
-  /// "largest_merged".
+  /// "largest_merged". Its time is also that of measuring interface angles and of finding detours.
   report intersection() const {
     report account = intersection_;
     account.add("refinements", refinements_);
@@ -120,7 +120,9 @@ private:
     while (!places.empty() && places.size() <= most_detours && detour_rounds_ < most_detour_rounds &&
            divided_.angles.count(violation_cause::remeshing) == 0) {
       const auto before = subdomain_of_element_;
+      const stopwatch clock;
       const std::size_t moved = detours_.avoid(places, subdomain_of_element_, merges_.subdomains());
+      intersection_.seconds += clock.seconds();
       if (moved == 0)
         break;
       ++detour_rounds_;
@@ -147,6 +149,8 @@ private:
 
   /// Measures the interface angles; returns the coarse sides at each that is small and not forced.
   std::vector<std::vector<local_id>> small_angles_of(const realized<D>& made) {
+    const stopwatch clock;
+    given_.options.on_progress("intersection", 0, 0);
     const byte_buffer found = given_.run_tasks.once([&] {
       angles_ = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
                                               given_.options);
@@ -161,6 +165,7 @@ private:
     std::vector<std::vector<local_id>> places;
     while (!from.at_end())
       places.push_back(from.array<local_id>());
+    intersection_.seconds += clock.seconds();
     return places;
   }
 
