@@ -53,7 +53,7 @@ check_contract() {
   expect_success "${divided[@]}" --order 2 --format vtu,msh
 }
 check_contract bisection bisection "Bisection of the fine surface" "recursive bisection"
-check_contract fine-partition fine_partition "Partition of the fine mesh" "cutting pieces"
+check_contract fine-partition fine_partition "Partition of the fine mesh" "fine partition"
 
 # Without a number of subdomains it is the number of faces that counts, and a small surface stays whole.
 expect_success mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --format none --report report.json

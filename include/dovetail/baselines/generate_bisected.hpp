@@ -19,7 +19,7 @@ namespace dovetail::baselines {
 ///
 /// The result has no plan of a decomposition and no coarse angles. Children of its summary: "background" (a
 /// coarse surface, which says how large the mesh will be), "skeleton" (the fine surface), "intersection",
-/// "recursive bisection", "meshing".
+/// "recursive bisection" (with the measuring of its interfaces' angles), "meshing".
 generated<3> generate_bisected(const any_geometry& model, const erased_sizing& size,
                                const any_parameters<3>& given, const recursive_bisection& bisect = {});
 

@@ -37,13 +37,15 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
       with_progress(std::move(made.fine), std::move(made.material_of_subdomain), rounds.size());
   made.fine = std::move(divided.fine);
   made.material_of_subdomain = std::move(divided.material_of_subdomain);
-  auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),
-                                   std::make_shared<entity_store>(given.options.store), given);
   generated<3> result;
-  result.plan = background.plan;
-  result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());
+  const stopwatch measuring; // in the stage of the bisection
   result.fine_angles =
       detail::angles_of_interfaces(made.fine, rounds.size(), given.options.interface_angle_deg);
+  divided.summary.seconds += measuring.seconds();
+  auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),
+                                   std::make_shared<entity_store>(given.options.store), given);
+  result.plan = background.plan;
+  result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());
   result.quality = meshed.quality;
   result.mesh = dovetail::detail::assemble_mesh<3>(model, std::move(made.fine), meshed);
   result.failures = std::move(meshed.failures);

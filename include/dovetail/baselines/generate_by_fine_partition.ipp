@@ -4,6 +4,7 @@
 
 #include "dovetail/baselines/generate_by_fine_partition.hpp"
 #include "dovetail/baselines/interface_angles_of_skeleton.hpp"
+#include "dovetail/baselines/labelled_elements.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
@@ -42,13 +43,16 @@ DOVETAIL_INLINE generated<3> generate_by_fine_partition(const any_geometry& mode
                                   .interface_angle_deg = given.options.interface_angle_deg,
                                   .run_tasks = given.run_tasks,
                                   .store = given.options.store,
-                                  .on_progress = given.options.on_progress}(made.mesh, made.plan.subdomains);
+                                  .on_progress = within_stage(given.options.on_progress, "fine partition")}(
+          made.mesh, made.plan.subdomains);
+  const stopwatch measuring; // in the same stage: improvement leaves interfaces as they are
+  made.fine_angles =
+      detail::angles_of_interfaces(parted.mesh->skeleton, sizes, given.options.interface_angle_deg);
+  parted.summary.seconds += measuring.seconds();
   auto improved = improve_pieces(*parted.mesh, given.improve_it, sizes, given.run_tasks,
                                  {.store = given.options.store, .on_progress = given.options.on_progress});
   made.mesh = std::move(improved.mesh);
   made.quality = improved.quality;
-  made.fine_angles =
-      detail::angles_of_interfaces(made.mesh.skeleton, sizes, given.options.interface_angle_deg);
   parted.summary.name = "fine partition";
   made.summary.children.push_back(std::move(parted.summary));
   made.summary.children.push_back(std::move(improved.summary));

@@ -35,15 +35,19 @@ struct labelled_mesh {
   global_id moved = 0;          ///< elements whose label is not the one of their old piece
 };
 
-/// The same options, but progress has one name for all that is done with them, and so have traces.
+/// The same progress, but with one name for all that is done from here on, and so have traces.
+inline progress within_stage(const progress& given, const char* stage) {
+  given(stage, 0, 0);
+  progress named = given;
+  if (given.update)
+    named.update = [stage, update = given.update](std::string_view, std::size_t done, std::size_t total) {
+      update(stage, done, total);
+    };
+  return named;
+}
 inline improving_options within_stage(const improving_options& options, const char* stage) {
   improving_options named = options;
-  named.on_progress(stage, 0, 0);
-  if (options.on_progress.update)
-    named.on_progress.update =
-        [stage, update = options.on_progress.update](std::string_view, std::size_t done, std::size_t total) {
-          update(stage, done, total);
-        };
+  named.on_progress = within_stage(options.on_progress, stage);
   return named;
 }
 
