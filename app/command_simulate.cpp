@@ -27,8 +27,13 @@ simulation::workload wanted_work(const simulate_options& options) {
   for (const std::string& trace : options.traces)
     known.push_back(simulation::workload_of(io::read_trace(trace)));
   std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.elements < b.elements; });
+  if (!options.elements && known.size() > 1)
+    throw command_line_error("several traces are for another number of elements; give --elements or one "
+                             "trace");
+  if (!(known.front().elements > 0))
+    throw usage_error("a trace of a run that made no elements cannot be simulated");
   if (!options.elements)
-    return known.back();
+    return known.front();
   if (known.size() != 2)
     throw command_line_error("--elements: a law needs two traces of different sizes; give a smaller and a "
                              "larger one");
@@ -77,6 +82,7 @@ void print_paper(const std::vector<std::int64_t>& workers) {
   std::printf("Measured by the paper, Table 9, about 1 billion tetrahedra of an aircraft\n");
   row("Entire scheme (s)", "scheme", 1);
   row("  Domain decomposition", "decomposition", 1);
+  row("  Other steps", "other", 1);
   row("Relative speed (elements/s/core)", "speed", 0);
 }
 
@@ -182,6 +188,8 @@ int run_simulate(const simulate_options& options) {
     machine.workers = workers;
     runs.push_back(simulation::simulate(work, machine));
   }
+  if (!(seconds_in(scheme_parts(), runs.front()) > 0))
+    throw usage_error("the trace has no stage of the entire scheme");
   print(options, work.elements, runs);
   if (options.cores_per_node)
     print_memory(options, work.sizes);

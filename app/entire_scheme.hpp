@@ -31,19 +31,26 @@ inline std::vector<std::string> scheme_parts() {
   return parts;
 }
 
-/// The part to which a stage of a trace belongs. What is neither before the skeleton nor after it makes the
-/// skeleton: lines, matching, detours.
+/// The part to which a stage of a trace belongs; of one that no run of the driver has, "output", which is not
+/// in the entire scheme.
 inline std::string part_of_stage(const std::string& stage) {
-  constexpr std::array<std::pair<const char*, const char*>, 20> parts{
+  constexpr std::array<std::pair<const char*, const char*>, 29> parts{
       {{"geometry", "geometry"},
+       {"reading", "geometry"},
        {"planning", "background"},
        {"background surface", "background"},
+       {"coarse surface", "background"},
        {"background volume", "background"},
        {"simplification", "simplification"},
        {"partition", "partition"},
+       {"lines", "skeleton"},
+       {"matching", "skeleton"},
+       {"skeleton", "skeleton"},
        {"intersection", "intersection"},
        {"recursive bisection", "bisection"},
+       {"fine partition", "fine_partition"},
        {"meshing", "meshing"},
+       {"meshing again", "meshing"},
        {"redistributing elements", "redistribution"},
        {"simplifying pieces", "redistribution"},
        {"cutting pieces", "redistribution"},
@@ -54,10 +61,12 @@ inline std::string part_of_stage(const std::string& stage) {
        {"redistribution", "between_passes"},
        {"second pass", "second_pass"},
        {"writing back", "writing_back"},
-       {"finishing", "output"}}};
+       {"second order", "output"},
+       {"finishing", "output"},
+       {"reading back", "output"}}};
   const auto* const found =
       std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == stage; });
-  return found == parts.end() ? "skeleton" : found->second;
+  return found == parts.end() ? "output" : found->second;
 }
 
 } // namespace dovetail::app

@@ -29,20 +29,24 @@ expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --
 grep -qE '^    not spread( +[0-9]+\.[0-9]{2}){2}$' "$sandbox/stdout" || fault "not a word on what no worker shares"
 grep -A2 "Table 9" "$sandbox/stdout" | grep -q "2648.7 *219.8" || fault "not the paper's columns"
 
+grep -A4 "Table 9" "$sandbox/stdout" | grep -qE "^    Other steps +2555.1 +159.6$" || fault "not the paper's other steps"
+
 # The entire scheme is without reading and finishing, and the speed is by that.
-stages="geometry 0 10  planning 10 5  recursive_bisection 15 3  meshing 18 20  finishing 38 7"
-{
-  echo '{"otherData": {"workers": 1, "elements": 280000, "seconds": 45},'
+# made_of STAGES ELEMENTS: a trace of stages, each with its name, beginning and seconds
+made_of() {
+  local name begin seconds separator=
+  echo '{"otherData": {"workers": 1, "elements": '"$2"', "seconds": 60},'
   echo '"traceEvents": ['
-  separator=
   while read -r name begin seconds; do
     echo "$separator"'{"ph": "X", "pid": 0, "tid": 0, "name": "'"${name/_/ }"'", "ts": '"${begin}e6, \"dur\": ${seconds}e6, \"args\": {}}"
     separator=,
-  done <<<"${stages//  /$'\n'}"
+  done <<<"${1//  /$'\n'}"
   echo ']}'
-} >"$inputs/stages.json"
+}
+stages="geometry 0 10  planning 10 5  recursive_bisection 15 3  meshing 18 20  finishing 38 7  reading_back 45 15"
+made_of "$stages" 280000 >"$inputs/stages.json"
 expect_success simulate "$inputs/stages.json" --workers 1
-for row in "Entire scheme \(s\) +28.00" "  Domain decomposition +8.00" "  Other steps +20.00" "Reading and finishing \(s\) +17.00" \
+for row in "Entire scheme \(s\) +28.00" "  Domain decomposition +8.00" "  Other steps +20.00" "Reading and finishing \(s\) +32.00" \
   "Relative speed \(elements/s/worker\) +10.0 k"; do
   grep -qE "^  $row$" "$sandbox/stdout" || fault "no row '$row'"
 done
@@ -63,6 +67,11 @@ expect_success simulate "$inputs/older.json" --cores-per-node 4
 grep -q "Memory of a node: not known" "$sandbox/stdout" || fault "memory from a trace without sizes"
 expect_usage_error "cores-per-node" simulate "$inputs/0.1.json" --memory-per-node 4
 
+made_of "geometry 0 10  finishing 10 5" 280000 >"$inputs/no_scheme.json"
+made_of "$stages" 0 >"$inputs/no_elements.json"
+expect_usage_error "give --elements or one trace" simulate "$inputs/0.1.json" "$inputs/0.06.json"
+expect_error "no stage of the entire scheme" simulate "$inputs/no_scheme.json"
+expect_error "made no elements" simulate "$inputs/no_elements.json"
 expect_usage_error "give a smaller and a larger one" simulate "$inputs/0.1.json" --elements 1e9
 expect_error "at least 1.5 times" simulate "$inputs/0.1.json" "$inputs/0.1.json" --elements 1e9
 expect_usage_error "workers" simulate "$inputs/0.1.json" --workers 0
