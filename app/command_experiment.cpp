@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,17 @@ nlohmann::ordered_json origin_of(const experiment_options& options) {
           {"dovetail", version},
           {"date", date},
           {"scale", options.scale},
+          {"input", options.input},
           {"seeds", {{"metis", partition::metis{}.seed}}}};
+}
+
+/// Where a program's error message is.
+std::string last_line_of(const std::filesystem::path& errors) {
+  std::ifstream stream(errors);
+  std::string last;
+  for (std::string line; std::getline(stream, line);)
+    last = line;
+  return last.empty() ? "no word on why" : last;
 }
 
 /// The files of one experiment, and its Markdown.
@@ -70,12 +81,13 @@ std::string write_results(const experiment_result& result, const std::filesystem
   files.commit();
   if (result.what->plots.empty())
     return text;
-  const auto picture = folder / (name + ".png");
+  const auto picture = folder / (name + ".png"), errors = folder / (name + ".png.errors");
   const std::vector<std::string> plot{"python3", folder / "experiment_plot.py", folder / (name + ".json"),
                                       picture};
-  if (run_program(plot, "/dev/null") != exit_ok)
-    std::fprintf(stderr, "%s is not made for want of python3 with matplotlib; where these are: %s\n",
-                 picture.c_str(), command_text(plot).c_str());
+  if (run_program(plot, errors) != exit_ok)
+    std::fprintf(stderr, "%s is not made: %s; it is made by python3 with matplotlib: %s\n", picture.c_str(),
+                 last_line_of(errors).c_str(), command_text(plot).c_str());
+  std::filesystem::remove(errors);
   return text;
 }
 

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace dovetail::app {
@@ -30,6 +32,15 @@ double sum_of(const summed& pointers, const json& document) {
     sum += document.at(pointer).get<double>();
   }
   return sum;
+}
+
+/// Whether all that did not fail were made by as many workers, so that none is a speedup over another.
+bool have_same_workers(const std::vector<run_result>& runs) {
+  std::set<std::int64_t> numbers;
+  for (const run_result& run : runs)
+    if (!run.measured.is_null())
+      numbers.insert(run.measured.at("workers").get<std::int64_t>());
+  return numbers.size() < 2;
 }
 
 std::vector<double> over_first(std::vector<double> values) {
@@ -249,6 +260,8 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
   }
   if (!row.over_first)
     return values;
+  if (have_same_workers(result.runs))
+    std::fill(values.measured.begin(), values.measured.end(), nothing);
   return {over_first(std::move(values.paper)), over_first(std::move(values.measured)),
           over_first(std::move(values.simulated))};
 }
@@ -263,6 +276,8 @@ std::string markdown_text(const experiment_result& result) {
   text += places.empty() ? "those of the experiment" : "the paper's";
   text += " over " + number_text(result.origin.at("scale").get<double>()) + ".\n\n" + markdown_table(result) +
           '\n';
+  if (const std::string input = result.origin.value("input", ""); !input.empty())
+    text += "- Every run is of `" + input + "`, whatever models title, labels and notes name.\n";
   for (const std::string& note : result.what->notes)
     text += "- " + note + '\n';
   text += "\nThe runs, one by one:\n\n";

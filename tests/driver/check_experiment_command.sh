@@ -56,7 +56,7 @@ for name in table{2..10} fig10 fig{13..16}; do
 done
 (($(grep -c ': made$' "$sandbox/stderr") == $(ls "$kept/runs" | wc -l) - 4)) || fault "shared runs are made again"
 for name in fig10 fig{13..16}; do
-  [[ -s $kept/$name.png ]] || grep -q "$name.png is not made for want of python3 with matplotlib" "$sandbox/stderr" ||
+  [[ -s $kept/$name.png ]] || grep -q "$name.png is not made: \(matplotlib is not there\|.*python3\)" "$sandbox/stderr" ||
     fault "neither a plot nor a word on $name"
 done
 ! grep -q failed "$sandbox/stderr" || fault "runs fail"
@@ -80,7 +80,13 @@ done
 for line in 'F16-I, Algorithm 2: `dovetail mesh .*--decomposition bisection' 'Ito: `dovetail mesh .*--improve-again=ito'; do
   grep -qE "^- $line.*, mesh [0-9a-f]{16}$" "$kept"/table{7,10}.md || fault "no line of a run: $line"
 done
+mkdir "$sandbox/bin"
+printf '#!/bin/bash\necho no such colour >&2\nexit 1\n' >"$sandbox/bin/python3"
+chmod +x "$sandbox/bin/python3"
+PATH="$sandbox/bin:$PATH" experiment fig16 --scale 50000
+grep -q "fig16.png is not made: no such colour" "$sandbox/stderr" || fault "not the message of the script that plots"
 experiment fig16 --scale 50000 --quiet
+grep -q "Every run is of .*cube.off" "$kept/fig16.md" || fault "the table does not say that the model is another"
 ! grep -q 'is there\|: [0-9.]* s$' "$sandbox/stderr" || fault "not quiet"
 
 # A run that fails is a result: nothing holds so many elements.
@@ -89,6 +95,10 @@ run_driver experiment table5 --input "$inputs/cube.off" --scale 1e-12 --workers 
 grep -qE '^dovetail: 3 of 3 runs failed: cube_[^ ]*: .*; cube_' "$sandbox/stderr" || fault "no word on runs that failed"
 grep -qE '^cube_[^ ]*: failed: [^ ]+ ' "$sandbox/stderr" || fault "failed runs are not told as they fail"
 grep -q '`, failed: ' "$sandbox/failing/table5.md" || fault "the table does not say why runs failed"
+
+run_driver experiment table3 fig16 --input "$inputs/cube.off" --scale 1e-12 --workers 1 --out "$sandbox/failing"
+(($(grep -c '^cube_.*: failed: ' "$sandbox/stderr") == 4 && $(grep -c '^cube_.*: failed before: ' "$sandbox/stderr") == 4)) ||
+  fault "runs that fail are made again for another table"
 
 # So is that of a baseline, which is told by its own message everywhere, and no failure of ours.
 run_driver experiment table10 --input "$inputs/cube.off" --scale 4e6 --workers 1 --out "$sandbox/baseline"
