@@ -78,6 +78,15 @@ inline const std::string no_repartitioning =
     "it "
     "was meshed, in the same task, and the two share the time of a task as the workers spent it.";
 
+/// Tables 2 and 3: what the steps of our method take.
+inline std::vector<experiment_row> rows_of_steps() {
+  return {
+      workers_row(),       background_row(),    elements_row(),
+      surface_row(),       subdomains_row(),    scheme_row(),
+      decomposition_row(), generation_row(),    {"Mesh repartitioning", "s", 2, {{"/repartitioning"}}, {}},
+      improvement_row(),   relative_speed_row()};
+}
+
 /// What the simplification is for, before and after remeshing, and what is left of it in the elements.
 inline std::vector<experiment_row> interface_rows() {
   const auto small = [](const std::string& of) {

@@ -2,7 +2,6 @@
 /// Figure 14 of the paper: times and speedups of both algorithms for one mesh, from Tables 3 and 8.
 #pragma once
 
-#include "fig13.hpp"
 #include "table8.hpp"
 
 namespace dovetail::app::experiments {

@@ -2,7 +2,6 @@
 /// Figure 15 of the paper: times and speedups of both algorithms for its largest mesh, from Table 9.
 #pragma once
 
-#include "fig13.hpp"
 #include "table9.hpp"
 
 namespace dovetail::app::experiments {

@@ -10,17 +10,7 @@ inline experiment table2() {
   return {.name = "table2",
           .title = "Four sizes of the aircraft, 32 workers",
           .runs = runs_of("table2", "aircraft", {"F16-I", "F16-II", "F16-III", "F16-IV"}),
-          .rows = {workers_row(),
-                   background_row(),
-                   elements_row(),
-                   surface_row(),
-                   subdomains_row(),
-                   scheme_row(),
-                   decomposition_row(),
-                   generation_row(),
-                   {"Mesh repartitioning", "s", 2, {{"/repartitioning"}}, {}},
-                   improvement_row(),
-                   relative_speed_row()},
+          .rows = rows_of_steps(),
           .notes = {no_repartitioning}};
 }
 

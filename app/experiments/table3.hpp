@@ -10,17 +10,7 @@ inline experiment table3() {
   return {.name = "table3",
           .title = "The third aircraft by 16 to 128 workers",
           .runs = runs_of("table3", "aircraft", {"16", "32", "64", "128"}),
-          .rows = {workers_row(),
-                   background_row(),
-                   elements_row(),
-                   surface_row(),
-                   subdomains_row(),
-                   scheme_row(),
-                   decomposition_row(),
-                   generation_row(),
-                   {"Mesh repartitioning", "s", 2, {{"/repartitioning"}}, {}},
-                   improvement_row(),
-                   relative_speed_row()},
+          .rows = rows_of_steps(),
           .notes = {no_repartitioning}};
 }
 
