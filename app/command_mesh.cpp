@@ -18,6 +18,7 @@
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/second_order.hpp"
 #include "dovetail/io/write_trace.hpp"
+#include "dovetail/parallel/available_processors.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
@@ -339,6 +340,16 @@ private:
     figures_.details.children = {source.summary, result.summary};
     figures_.repeatable = stops_by_clock(result.summary) == 0;
     collect_warnings(figures_.details, figures_.warnings);
+    warn_of_binding();
+  }
+
+  /// Of the rank that writes the report; a batch system starts the others alike.
+  void warn_of_binding() {
+    const int processors = parallel::available_processors();
+    if (options_.network && options_.workers > processors)
+      figures_.warnings.push_back("the " + std::to_string(options_.workers) + " workers of a rank have " +
+                                  std::to_string(processors) +
+                                  " processors: mpirun binds ranks unless it is given --bind-to none");
   }
 
   void note_sizes(const distributed_simplicial_mesh<D>& mesh) {

@@ -57,6 +57,11 @@ fresh several
 on_ranks 2 several "${mesh[@]}" --format vtu,msh --workers 2
 [[ $(figure workers several) == 4 && $(files_of several) == "$(files_of alone)" ]] || fault "not four workers, or other files"
 fresh several
+what="workers that are more than the processors of a rank"
+(cd several && taskset -c 0 "$mpirun" -n 2 "$driver" "${mesh[@]}" --format vtu,msh --workers 2 >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+grep -q "the 2 workers of a rank have 1 processors: mpirun binds" several/report.json || fault "the report does not say so"
+[[ $(files_of several) == "$(files_of alone)" ]] || fault "other files"
+fresh several
 on_ranks 3 several "${mesh[@]}" --format vtu,msh --executor serial
 [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files"
 # By the other decomposition too.
