@@ -130,7 +130,7 @@ expect_usage_error "--ranks is missing" mesh nothing.off --ghosts
 # A mesh stays in the spool while files by ranks are written, twice when it is cut anew: there is room for fewer elements.
 room() {
   run_driver mesh "$inputs/cube.off" --size 0.0003 --out out "$@"
-  sed -nE 's/.*the disk has room for about ([0-9.]+) ?([kMGT]?);.*/\1 \2/p' "$sandbox/stderr" |
+  sed -nE 's/.* has room for about ([0-9.]+) ?([kMGT]?);.*/\1 \2/p' "$sandbox/stderr" |
     awk '{ print $1 * 1000 ^ index("kMGT", $2) }'
 }
 by_pieces=$(room --ranks 4 --format msh-ranks)
@@ -138,6 +138,11 @@ by_elements=$(room --ranks 4 --format msh-ranks --redistribute by-elements)
 awk -v msh="$(room --format msh)" -v pieces="$by_pieces" -v elements="$by_elements" \
   'BEGIN { exit !(elements > 0 && elements < 0.9 * pieces && pieces < 0.9 * msh) }' ||
   fault "room for $by_pieces elements, and for $by_elements when they are cut anew"
+# A spool elsewhere takes none of the room for the files.
+own_spool=$(room --ranks 4 --format msh-ranks --redistribute by-elements --spool "$sandbox/spools")
+grep -q "its disk, or that of --spool, has room" "$sandbox/stderr" || fault "the line does not speak of two disks"
+awk -v own="$own_spool" -v both="$by_elements" 'BEGIN { exit !(own > 1.3 * both) }' ||
+  fault "room for $own_spool elements with a spool elsewhere, and for $by_elements without"
 expect_usage_error "--ghosts: none of the formats has elements of other ranks; these have: pvtu, msh-ranks" \
   mesh nothing.off --ranks 2 --ghosts --format openfoam,mfem
 expect_usage_error "--ranks: 0 is less than 1" mesh nothing.off --ranks 0
