@@ -381,6 +381,7 @@ private:
         .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
     figures_.seconds.redistribution = clock.seconds();
+    collect_warnings(given.summary, figures_.warnings);
     std::vector<local_id> ranks = given.rank_of_piece;
     if constexpr (D == 3)
       if (const auto strategy = make_improving_strategy(improvement_of_ranks(options_, D))) {

@@ -140,7 +140,7 @@ for library in ptscotch parmetis; do
   fresh several
   on_ranks 3 several "${cut[@]}" --rank-partitioner $library
   ((status == 0)) || fault "exit code is $status"
-  grep -q "gives other parts on another number of ranks" several/report.json || fault "the report does not say that the parts depend on it"
+  grep -q "gives other parts on another number of ranks" "$sandbox/stdout" || fault "the summary does not say that the parts depend on it"
   [[ $(files_of several) != "$(files_of gathered)" ]] || fault "the files of the partitioner of one rank"
   expect_success check "$sandbox/several/out/ranks.pvtu"
   fresh again
