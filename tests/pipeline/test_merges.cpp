@@ -250,8 +250,8 @@ TEST_CASE(
   options.store = spool::start(scratch, {});
   int searches = 0;
   options.on_progress.update = [&searches](std::string_view stage, std::size_t, std::size_t tasks) {
-    searches +=
-        stage == "intersection" && tasks == 0 ? 1 : 0; // where one for crossings begins, or for angles
+    // where one for crossings begins, or for angles
+    searches += stage == "intersection" && tasks == 0 ? 1 : 0;
   };
   const auto run = [&] {
     asked.clear();
