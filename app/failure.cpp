@@ -2,12 +2,18 @@
 
 #include "dovetail/core/error.hpp"
 
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <new>
 
+#include <sys/mman.h>
+
 namespace dovetail::app {
 namespace {
+
+std::atomic<bool> own_complaint = false;
+std::atomic<bool>* complaint = &own_complaint;
 
 std::string on_one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
@@ -27,6 +33,18 @@ std::string on_one_line(std::string text) {
 void complain(const std::string& text) {
   std::fflush(stdout);
   std::fprintf(stderr, "dovetail: %s\n", on_one_line(text).c_str());
+  *complaint = true;
+}
+
+bool has_complained() {
+  return *complaint;
+}
+
+void share_complaints() {
+  void* const memory =
+      ::mmap(nullptr, sizeof(*complaint), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory != MAP_FAILED)
+    complaint = new (memory) std::atomic<bool>(false);
 }
 
 int run_guarded(const std::function<int()>& command, const std::string& help) {

@@ -34,4 +34,9 @@ inline std::string stopped_line(bool can_go_on) {
 /// Writes "dovetail: <text>" on one line of the error stream.
 void complain(const std::string& text);
 
+/// Whether this process has complained, or one that it has forked since `share_complaints`: a child that is
+/// ended between its last line and its exit has said enough.
+bool has_complained();
+void share_complaints();
+
 } // namespace dovetail::app

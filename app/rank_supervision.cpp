@@ -299,7 +299,7 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
       all.push_back(decode_end(theirs));
     byte_writer code;
     if (first)
-      code.value<std::int32_t>(conclude(all, !computing.was_killed(), clean_up));
+      code.value<std::int32_t>(conclude(all, !computing.was_killed() || has_complained(), clean_up));
     const byte_buffer agreed = relays.broadcast(code.take());
     return byte_reader(agreed).value<std::int32_t>();
   } catch (const relay_lost& lost) {

@@ -61,6 +61,7 @@ supervisor::supervisor() {
   void* const memory =
       ::mmap(nullptr, sizeof(shared_lines), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   lines = memory == MAP_FAILED ? nullptr : static_cast<shared_lines*>(memory);
+  share_complaints();
   ::prctl(PR_SET_CHILD_SUBREAPER, 1); // the workers of a child that is gone can be waited for
   std::signal(SIGCHLD, SIG_DFL);      // who started us may ignore it, and then nothing is left to wait for
   auto watched_signals = stop_signals();
@@ -166,7 +167,7 @@ int run_supervised(const std::function<int()>& command, const std::function<bool
   if (watched.was_killed() || watched.code() == exit_stopped) { // its workers die with it, also in a file
     watched.await_workers();
     const bool can_go_on = cleaned_up(clean_up);
-    if (watched.was_killed())
+    if (watched.was_killed() && !has_complained())
       complain(watched.ended() ? stopped_line(can_go_on) : watched.killed_line());
   }
   return watched.code();

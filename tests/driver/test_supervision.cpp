@@ -195,6 +195,23 @@ TEST_CASE("only where something is left it is said that another run can go on fr
   CHECK(end_of(deaf, [] { return false; }).told == "dovetail: stopped\n");
 }
 
+TEST_CASE("who has said how it ends, and is ended on its way out, has said enough") {
+  const ending stopped = end_of([] {
+    complain(stopped_line(true));
+    ::kill(::getppid(), SIGTERM);
+    work(30);
+    return 0;
+  });
+  CHECK(stopped.code == exit_stopped);
+  CHECK(stopped.told == "dovetail: " + stopped_line(true) + "\n");
+  const ending failed = end_of([] {
+    complain("a.step: cannot be read");
+    return crash(SIGSEGV);
+  });
+  CHECK(failed.code == exit_failure);
+  CHECK(failed.told == "dovetail: a.step: cannot be read\n");
+}
+
 TEST_CASE("a second request ends at once, a signal that comes twice does not") {
   const ending twice = end_of([] {
     ::kill(::getppid(), SIGTERM);
