@@ -31,6 +31,6 @@ for axis, plot in zip(axes[0], result["plots"]):
     axis.set_xscale("log")
     if plot["logarithmic"]:
         axis.set_yscale("log")
-    axis.legend(fontsize="small")
-pictures.tight_layout()
-pictures.savefig(sys.argv[2], dpi=120)
+    # Below the axes, where it covers no line.
+    axis.legend(fontsize="small", ncol=2, loc="upper center", bbox_to_anchor=(0.5, -0.14))
+pictures.savefig(sys.argv[2], dpi=120, bbox_inches="tight")

@@ -6,6 +6,7 @@
 #include "../experiment.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::app::experiments {
@@ -101,6 +102,25 @@ inline std::vector<experiment_row> interface_rows() {
           {"Bad, per million", "", 1, {}, {{"/quality/bad_per_million"}}},
           {"Low quality, per million", "", 1, {}, {{"/quality/low_per_million"}}},
           scheme_row()};
+}
+
+/// The runs of ours, each on the aircraft with two seeds of the partitioner, and on another model. One run
+/// alone says little: where few elements are poor, how many depends on chance.
+inline std::vector<experiment_run> on_models_and_seeds(const std::vector<experiment_run>& runs) {
+  std::vector<experiment_run> all;
+  const auto add = [&](const std::string& label, const std::string& model,
+                       const std::vector<std::string>& options) {
+    for (experiment_run run : runs) {
+      run.label = label + ", " + run.label;
+      run.model = model;
+      run.options.insert(run.options.end(), options.begin(), options.end());
+      all.push_back(std::move(run));
+    }
+  };
+  add("aircraft", "aircraft", {});
+  add("aircraft, seed 2", "aircraft", {"--partitioner", "metis:2"});
+  add("combustor", "combustor", {});
+  return all;
 }
 
 /// Runs for columns of one of the paper's tables, on a model.

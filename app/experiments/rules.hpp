@@ -19,13 +19,13 @@ inline std::vector<experiment_run> rule_runs() {
         for (const std::string rule : {"none", "paper"})
           runs.push_back(
               {mesher + ", improver " + improver + ", background improver " + background + ", rule " + rule,
-               "aircraft",
+               "",
                "",
                "",
                {"--mesher", mesher, "--improver", improver, "--background-improver", background,
                 "--simplifier", rule},
                28e6});
-  return runs;
+  return on_models_and_seeds(runs);
 }
 
 inline experiment rules() {

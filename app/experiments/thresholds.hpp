@@ -18,7 +18,7 @@ inline std::vector<experiment_run> threshold_runs() {
       {"raw", {"--background-improver", "none"}}, {"improved", {}}};
   for (const auto& [background, options] : backgrounds) {
     const auto add = [&](const std::string& rule, const std::vector<std::string>& more) {
-      experiment_run run{background + ", " + rule, "aircraft", "", "", options, 121e6};
+      experiment_run run{background + ", " + rule, "", "", "", options, 121e6};
       run.options.insert(run.options.end(), more.begin(), more.end());
       runs.push_back(std::move(run));
     };
@@ -26,7 +26,7 @@ inline std::vector<experiment_run> threshold_runs() {
     for (const char* angle : {"0", "10", "20", "30", "40", "50"})
       add(angle, {"--wedge-angle", angle});
   }
-  return runs;
+  return on_models_and_seeds(runs);
 }
 
 inline experiment thresholds() {
@@ -34,9 +34,9 @@ inline experiment thresholds() {
           .title = "The angle that the simplification keeps, on a raw and on an improved background mesh",
           .runs = threshold_runs(),
           .rows = interface_rows(),
-          .notes = {"Runs are named by the background mesh and the rule: none, or the paper's with faces of "
-                    "at least 30 "
-                    "degrees that include at least so many with each other and the surface."},
+          .notes = {"Runs are named by the model, the background mesh and the rule: none, or the paper's "
+                    "with faces of at least 30 degrees that include at least so many with each other and "
+                    "the surface."},
           .run_per_line = true};
 }
 
