@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """How far the simulator is to be believed: benchmarks/run simulation [MODEL] [option...]
 
-A mesh is made by one process with one worker, with a trace; from it `dovetail simulate` says how long so many ranks would
-take on this machine's processors, and then so many ranks make the mesh. A table of both and of the error, for the whole and
-for the decomposition (what comes before the pieces are meshed, but for reading the model).
+A mesh is made by one process with as many workers as the machine has processors, with a trace; from it `dovetail simulate`
+says how long so many ranks would take on these processors, and then so many ranks make the mesh. A table of both and of the
+error, for the whole and for the decomposition (what comes before the pieces are meshed, but for reading the model).
 
 Where there are more ranks than processors, so many single processes that make the mesh at once say by how much work takes
 longer for each further process on a processor: that is --turns-cost.
 
 Options: --ranks 1,2,4, --latency S of a message (the relays look for one every millisecond), --turns-cost C to give what is
-measured else, --repeats N (of each the fastest counts), --size S or --elements N, and those of `dovetail mesh`.
+measured else, --repeats N (of each the fastest counts), --traced-workers N (default: as many as processors), --size S or
+--elements N, and those of `dovetail mesh`.
 """
 import argparse
 import json
@@ -95,26 +96,28 @@ def main():
     parser.add_argument("--latency", default="1e-3")
     parser.add_argument("--turns-cost", type=float)
     parser.add_argument("--repeats", type=int, default=1)
+    parser.add_argument("--traced-workers", type=int, default=len(os.sched_getaffinity(0)))
     given, options = parser.parse_known_args()
     if not {"--size", "--elements", "--sizing", "-s"} & set(options):
         options += ["--size", "700"]
     driver = str(given.build / "app" / "dovetail")
-    mesh = [driver, "mesh", given.model, "--format", "none", "--quiet", "--workers", "1"] + options
+    mesh = [driver, "mesh", given.model, "--format", "none", "--quiet"] + options
+    single = mesh + ["--workers", "1"]
     ranks = [int(count) for count in given.ranks.split(",")]
     cores = len(os.sched_getaffinity(0))
     cost = given.turns_cost
     if cost is None:
-        cost = turns_cost(mesh, cores, max(ranks), given.repeats) if max(ranks) > cores else 0
+        cost = turns_cost(single, cores, max(ranks), given.repeats) if max(ranks) > cores else 0
     machine = ["--cores", str(cores), "--latency", given.latency, "--turns-cost", f"{cost:.3f}"]
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder) / "trace.json"
-        _, mesh_hash = fastest(mesh, given.repeats, trace)
+        _, mesh_hash = fastest(mesh + ["--workers", str(given.traced_workers)], given.repeats, trace)
         expected = simulated(driver, trace, ranks, machine)
         print(f"{json.loads(trace.read_text())['otherData']['elements']:,.0f} elements, simulated with {' '.join(machine)}\n")
         print("| ranks | simulated, s | measured, s | error, % | decomposition: simulated, s | measured, s | error, % |")
         print("|--:|--:|--:|--:|--:|--:|--:|")
         for count, times in zip(ranks, expected):
-            measured, its_hash = fastest(["mpirun", "-n", str(count)] + mesh, given.repeats, trace)
+            measured, its_hash = fastest(["mpirun", "-n", str(count)] + single, given.repeats, trace)
             if its_hash != mesh_hash:
                 sys.exit("the meshes differ")
             cells = [f"{s:.2f} | {m:.2f} | {100 * (s / m - 1):+.0f}" for s, m in zip(times, measured)]
