@@ -186,18 +186,9 @@ resume_on() {
   [[ $(figure mesh_hash several) == "$(figure mesh_hash whole)" ]] || fault "another hash after resuming"
 }
 
-start_until 4 intersection "${long[@]}" # the line comes at its end
-kill -TERM $process
-process_ends_within 10
-((status != 0)) || fault "exit code is 0"
-[[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
-nothing_left several
-resume_on 2
-
 for victim in first last; do
   for stage in planning partition intersection; do
-    start_until 3 "$stage" "${long[@]}"
+    start_until 3 "$stage" "${long[@]}" # its line comes at its end
     if [[ $victim == first ]]; then
       kill -SEGV "$(computing | head -n 1)"
     else
@@ -220,7 +211,21 @@ process_ends_within 10
 nothing_left several
 resume_on 1
 
-# 4. Spools on disks that the other ranks do not see, of which one is lost.
+# 4. A run that is stopped. An mpirun that is asked to stop waits a second before it asks the ranks to.
+long[3]=0.016
+fresh whole
+on_ranks 1 whole "${long[@]}" --workers 2
+((status == 0)) || fault "exit code is $status"
+start_until 4 intersection "${long[@]}"
+kill -TERM $process
+process_ends_within 10
+((status != 0)) || fault "exit code is 0"
+[[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
+grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
+nothing_left several
+resume_on 2
+
+# 5. Spools on disks that the other ranks do not see, of which one is lost.
 disks=$sandbox/disks
 fresh several
 on_ranks 4 several "${mesh[@]}" --format vtu,msh --spool "$disks"
