@@ -60,7 +60,7 @@ expect_success mesh "$inputs/cube.off" --size 0.1 --decomposition bisection --fo
 (($(figure subdomains) == 1)) || fault "$(figure subdomains) subdomains of a small surface"
 
 # A run that is stopped goes on, and one that is finished has nothing left to do.
-long=(mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
+long=(mesh "$inputs/cube.off" --size 0.018 --subdomains 8 --decomposition bisection --out "$inputs/long" --report report.json)
 expect_success "${long[@]}" --format none
 hash=$(figure mesh_hash)
 rm -rf "$inputs/long"
@@ -72,13 +72,13 @@ for ((tenths = 0; tenths < 600; ++tenths)); do
   compgen -G "$inputs/long/spool/piece_*.blob" >/dev/null && break
   sleep 0.1
 done
-kill -TERM $job
+kill -TERM $job || fault "it had ended before"
 wait $job
 status=$?
 ((status == 130)) || fault "exit code is $status"
 cp "$sandbox/stderr" "$inputs/stopped"
 grep -q -- "--resume goes on" "$inputs/stopped" || fault "that another run can go on is not said"
-expect_error "decomposition" mesh "$inputs/cube.off" --size 0.05 --subdomains 8 --out "$inputs/long" --resume
+expect_error "decomposition" mesh "$inputs/cube.off" --size 0.018 --subdomains 8 --out "$inputs/long" --resume
 expect_success "${long[@]}" --resume
 [[ $(figure mesh_hash) == "$hash" ]] || fault "another mesh after a stop"
 expect_success "${long[@]}" --resume
