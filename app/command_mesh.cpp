@@ -210,12 +210,7 @@ private:
 
   /// Throws `usage_error` when this rank starts from something else than the one that leads.
   void require_same(const std::string& mine) const {
-    byte_writer to;
-    to.text(mine);
-    const byte_buffer bytes = to.take();
-    const byte_buffer of_first = policies_.executor.once([&] { return bytes; });
-    byte_reader from(of_first);
-    if (const std::string theirs = from.text(); mine != theirs)
+    if (const std::string theirs = policies_.executor.once([&] { return mine; }); mine != theirs)
       throw usage_error("this rank starts from '" + mine + "', and rank 0 from '" + theirs + "'");
   }
 
@@ -294,13 +289,9 @@ private:
   /// The least of all ranks, whose spools may be on disks of their own.
   double elements_with_room_everywhere(const std::filesystem::path& folder) const {
     const std::filesystem::path own_spool = options_.spool.empty() ? "" : spool_folder(options_);
-    byte_writer mine;
-    mine.value(elements_with_room(formats_, folder, own_spool));
     any_communicator network = policies_.executor.network();
-    double least = std::numeric_limits<double>::infinity();
-    for (const byte_buffer& theirs : network.all_gather(mine.take()))
-      least = std::min(least, byte_reader(theirs).value<double>());
-    return least;
+    const auto of_ranks = network.all_gather(elements_with_room(formats_, folder, own_spool));
+    return *std::min_element(of_ranks.begin(), of_ranks.end());
   }
 
   /// How many subdomains there are is known when they are made.
@@ -450,12 +441,9 @@ private:
     std::uint64_t peak = peak_rss_bytes();
     if (!options_.network)
       return peak;
-    byte_writer mine;
-    mine.value(peak);
     auto network = *options_.network;
-    for (const byte_buffer& theirs : network.all_gather(mine.take()))
-      peak = std::max(peak, byte_reader(theirs).value<std::uint64_t>());
-    return peak;
+    const auto of_ranks = network.all_gather(peak);
+    return *std::max_element(of_ranks.begin(), of_ranks.end());
   }
 
   void write_trace() const {

@@ -1,8 +1,8 @@
 #include "file_checksums.hpp"
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -41,25 +41,20 @@ std::string checksum_of_file(const std::filesystem::path& path) {
 std::vector<written_file> read_back(const std::filesystem::path& folder,
                                     const std::vector<std::string>& names, const any_executor& run_tasks,
                                     const progress& on_progress) {
-  const auto outcomes =
-      run_tasks.run(names.size(),
-                    [&](std::size_t k) {
-                      byte_writer bytes;
-                      bytes.value<std::uint64_t>(std::filesystem::file_size(folder / names[k]));
-                      bytes.text(checksum_of_file(folder / names[k]));
-                      return bytes.take();
-                    },
-                    {.limit_seconds = std::numeric_limits<double>::infinity(),
-                     .on_progress = on_progress,
-                     .stage = "reading back"});
+  auto results = map_tasks(run_tasks, names.size(),
+                           [&](std::size_t k) {
+                             return std::pair(std::uint64_t{std::filesystem::file_size(folder / names[k])},
+                                              checksum_of_file(folder / names[k]));
+                           },
+                           {.limit_seconds = std::numeric_limits<double>::infinity(),
+                            .on_progress = on_progress,
+                            .stage = "reading back"});
   std::vector<written_file> files;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (!outcomes[k].ok)
-      throw io_error("cannot read " + (folder / names[k]).string() + " back: " + outcomes[k].failure);
-    byte_reader bytes(outcomes[k].result);
-    written_file file{names[k], bytes.value<std::uint64_t>(), {}};
-    file.checksum = bytes.text();
-    files.push_back(std::move(file));
+    if (!results[k].value)
+      throw io_error("cannot read " + (folder / names[k]).string() + " back: " + results[k].failure);
+    auto& [bytes, checksum] = *results[k].value;
+    files.push_back({names[k], bytes, std::move(checksum)});
   }
   return files;
 }

@@ -44,16 +44,12 @@ neighbouring_relays::~neighbouring_relays() {
 
 void neighbouring_relays::meet(any_communicator& relays, pid_t computing) {
   const std::string here = place_of_numbers();
-  byte_writer mine;
-  mine.text(here);
-  mine.value(::getpid());
-  mine.value(computing);
   int rank = 0;
-  for (const byte_buffer& theirs : relays.all_gather(mine.take())) {
-    byte_reader from(theirs);
-    if (from.text() == here) {
-      const int relay = descriptor_of(from.value<pid_t>());
-      ranks_.push_back({rank, relay, descriptor_of(from.value<pid_t>())});
+  for (const auto& [place, of_relay, of_computing] :
+       relays.all_gather(std::tuple(here, ::getpid(), computing))) {
+    if (place == here) {
+      const int relay = descriptor_of(of_relay);
+      ranks_.push_back({rank, relay, descriptor_of(of_computing)});
       of_relays_.push_back({relay, POLLIN, 0});
     }
     ++rank;

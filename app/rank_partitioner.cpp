@@ -3,7 +3,7 @@
 #include "failure.hpp"
 #include "named_policies.hpp"
 
-#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/graph/distributed_csr_graph.hpp"
 #include "dovetail/parallel/error_codec.hpp"
@@ -21,6 +21,7 @@
 #include <exception>
 #include <optional>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include <poll.h>
@@ -47,49 +48,26 @@ struct partition_request {
   std::string partitioner;
   distributed_csr_graph graph;
   int parts = 1;
+
+  static constexpr auto fields =
+      std::tuple(&partition_request::partitioner, &partition_request::graph, &partition_request::parts);
 };
 
-byte_buffer encode_request(const std::string& partitioner, const distributed_csr_graph& graph, int parts) {
-  byte_writer to;
-  to.text(partitioner);
-  to.array(graph.first_of_rank);
-  to.value<std::int32_t>(graph.rank);
-  encode(to, graph.rows);
-  to.value<std::int32_t>(parts);
-  return to.take();
-}
+struct partition_answer {
+  std::vector<local_id> parts;
+  std::optional<byte_buffer> error; ///< in place of them (`encode_error`)
 
-partition_request decode_request(const byte_buffer& bytes) {
-  byte_reader from(bytes);
-  partition_request request;
-  request.partitioner = from.text();
-  request.graph.first_of_rank = from.array<local_id>();
-  request.graph.rank = from.value<std::int32_t>();
-  request.graph.rows = decode_csr_graph(from);
-  request.parts = from.value<std::int32_t>();
-  return request;
-}
+  static constexpr auto fields = std::tuple(&partition_answer::parts, &partition_answer::error);
+};
 
 /// The parts, or the error, which is that of all ranks.
-byte_buffer answer_to(const partition_request& request, any_communicator& relays) {
-  byte_writer to;
+partition_answer answer_to(const partition_request& request, any_communicator& relays) {
   try {
     const auto partitioner = chosen(partitioners_of_relays(), request.partitioner, "--rank-partitioner");
-    const auto part = partitioner(relays, request.graph, request.parts);
-    to.value<std::uint8_t>(true);
-    to.array(part);
+    return {partitioner(relays, request.graph, request.parts), {}};
   } catch (const std::exception&) { // not that a relay is gone
-    to.value<std::uint8_t>(false);
-    to.array(encode_error(std::current_exception()));
+    return {{}, encode_error(std::current_exception())};
   }
-  return to.take();
-}
-
-std::vector<local_id> decode_answer(const byte_buffer& bytes) {
-  byte_reader from(bytes);
-  if (from.value<std::uint8_t>() == 0)
-    throw_error(from.array<std::byte>());
-  return from.array<local_id>();
 }
 
 /// A model of `distributed_graph_partitioner` in a computing process.
@@ -100,11 +78,15 @@ public:
   static constexpr bool depends_on_ranks() { return true; }
   std::vector<local_id> operator()(any_communicator&, const distributed_csr_graph& graph, int parts) const {
     detail::socket_frames frames(relay_);
-    frames.send(graph.rank, desk_tag, encode_request(name_, graph, parts));
+    frames.send(graph.rank, desk_tag, encoded(partition_request{name_, graph, parts}));
     for (;;) {
       const bool all_sent = frames.flush();
-      if (const auto answer = frames.receive())
-        return decode_answer(answer->bytes);
+      if (const auto message = frames.receive()) {
+        auto answer = decoded<partition_answer>(message->bytes);
+        if (answer.error)
+          throw_error(*answer.error);
+        return std::move(answer.parts);
+      }
       if (frames.closed()) {
         std::this_thread::sleep_for(std::chrono::seconds(5)); // the signal that ends this process is near
         throw communication_error("the process that speaks to the other ranks is gone");
@@ -154,7 +136,8 @@ void partition_desk::serve(const std::function<void()>& pass_messages) {
   if (!asked)
     return;
   await_others(pass_messages);
-  frames_.send(relays_.rank(), desk_tag, answer_to(decode_request(asked->bytes), relays_));
+  frames_.send(relays_.rank(), desk_tag,
+               encoded(answer_to(decoded<partition_request>(asked->bytes), relays_)));
 }
 
 void partition_desk::await_others(const std::function<void()>& pass_messages) {

@@ -161,24 +161,9 @@ struct rank_end {
   int code = exit_ok;
   bool by_itself = false; ///< and was not killed because another one had ended
   std::string cause;      ///< one line, where it did not end well
+
+  static constexpr auto fields = std::tuple(&rank_end::code, &rank_end::by_itself, &rank_end::cause);
 };
-
-rank_end decode_end(const byte_buffer& bytes) {
-  byte_reader from(bytes);
-  rank_end end;
-  end.code = from.value<std::int32_t>();
-  end.by_itself = from.value<std::uint8_t>() != 0;
-  end.cause = from.text();
-  return end;
-}
-
-byte_buffer encode_end(const rank_end& end) {
-  byte_writer to;
-  to.value<std::int32_t>(end.code);
-  to.value<std::uint8_t>(end.by_itself);
-  to.text(end.cause);
-  return to.take();
-}
 
 using relay_network = watched_network<parallel::mpi>;
 
@@ -294,14 +279,11 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
     const rank_end end = relay_until_end(computing, network, neighbours, sockets.messages, desk, said);
     if (end.code != exit_ok)
       clean_up.of_rank();
-    std::vector<rank_end> all;
-    for (const byte_buffer& theirs : relays.gather(encode_end(end)))
-      all.push_back(decode_end(theirs));
-    byte_writer code;
+    const std::vector<rank_end> all = relays.gather(end);
+    byte_buffer code;
     if (first)
-      code.value<std::int32_t>(conclude(all, !computing.was_killed() || has_complained(), clean_up));
-    const byte_buffer agreed = relays.broadcast(code.take());
-    return byte_reader(agreed).value<std::int32_t>();
+      code = encoded(conclude(all, !computing.was_killed() || has_complained(), clean_up));
+    return decoded<int>(relays.broadcast(std::move(code)));
   } catch (const relay_lost& lost) {
     end_without(lost.rank, computing, neighbours, clean_up);
   }

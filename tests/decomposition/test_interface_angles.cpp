@@ -1,5 +1,5 @@
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/decomposition/interface_angles_codec.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "support/adjacency.hpp"
@@ -197,11 +197,9 @@ TEST_CASE("angles are the same after a journey as bytes") {
   angles.surface_wedge = {22, {6, 7}, {8, 9}};
   angles.violations = {{20, violation_cause::remeshing, {1, no_id}, {no_id, no_id}, no_id, {1, 2, 3}, {}},
                        {21, violation_cause::forced, {2, 3}, {4, 5}, 6, {4, 5, 6}, {{2, 11}, {1, 12}}}};
-  byte_writer to;
-  encode(to, angles);
-  const byte_buffer bytes = to.take();
+  const byte_buffer bytes = encoded(angles);
   byte_reader from(bytes);
-  const interface_angles read = decode_interface_angles(from);
+  const auto read = decode<interface_angles>(from);
   CHECK(from.at_end());
   CHECK(read.interface_faces == 7);
   for (const auto member : {&interface_angles::face_angle, &interface_angles::interface_wedge,

@@ -1,5 +1,5 @@
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/mesh/quality_codec.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -142,11 +142,9 @@ TEST_CASE("statistics come back from few bytes as they were") {
   full.min_wedges.bins.fill(127);
   full.max_wedges.bins.fill(128);
   for (const quality_statistics& quality : {many, ends, full, quality_statistics{}}) {
-    byte_writer to;
-    encode(to, quality);
-    const byte_buffer bytes = to.take();
+    const byte_buffer bytes = encoded(quality);
     byte_reader from(bytes);
-    const quality_statistics back = decode_quality(from);
+    const auto back = decode<quality_statistics>(from);
     CHECK(from.at_end());
     CHECK(back.elements == quality.elements);
     CHECK(back.min_wedge_deg == quality.min_wedge_deg);
@@ -160,28 +158,26 @@ TEST_CASE("statistics come back from few bytes as they were") {
       CHECK(bytes.size() < 450);
     const byte_buffer cut(bytes.begin(), bytes.end() - 1);
     byte_reader early(cut);
-    CHECK_THROWS_AS((void)decode_quality(early), input_error);
+    CHECK_THROWS_AS((void)decode<quality_statistics>(early), input_error);
   }
 }
 
 TEST_CASE("bytes that are no histogram are refused") {
   const auto refused = [](std::uint64_t first, std::uint64_t count) {
     byte_writer to;
-    encode_count(to, first);
-    encode_count(to, count);
-    to.array(std::vector<std::byte>(200));
+    to.count(first);
+    to.count(count);
+    for (int k = 0; k < 200; ++k)
+      to.count(0);
     const byte_buffer bytes = to.take();
     byte_reader from(bytes);
-    CHECK_THROWS_AS((void)decode_histogram(from), input_error);
+    CHECK_THROWS_AS((void)decode<angle_histogram>(from), input_error);
   };
   refused(181, 0);
   refused(0, 181);
   refused(100, 81);
   refused(~std::uint64_t{0}, 2);
-  byte_writer to;
-  to.array(std::vector<std::uint8_t>(20, 255));
-  const byte_buffer bytes = to.take();
+  const byte_buffer bytes(20, std::byte{255});
   byte_reader from(bytes);
-  from.value<std::uint64_t>();
-  CHECK_THROWS_AS((void)decode_count(from), input_error);
+  CHECK_THROWS_AS((void)from.count(), input_error);
 }

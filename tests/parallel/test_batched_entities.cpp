@@ -35,7 +35,7 @@ std::vector<content_key> keys_from(std::uint64_t first, std::uint64_t count) {
 }
 
 /// Makes what is missing of `keys`, three to a task, and checks all of them.
-std::size_t make_and_check(batched_entities& entities, const std::vector<content_key>& keys,
+std::size_t make_and_check(batched_entities<byte_buffer>& entities, const std::vector<content_key>& keys,
                            const any_executor& run) {
   const std::size_t before = entities.made();
   const auto failures = entities.make_missing(
@@ -61,7 +61,7 @@ TEST_CASE("What is there is not made again, in memory and on disk, whoever runs 
       const testing::scratch_folder scratch("batches");
       const auto store = on_disk ? std::make_shared<entity_store>(spool::start(scratch, identity))
                                  : std::make_shared<entity_store>();
-      batched_entities entities(store);
+      batched_entities<byte_buffer> entities(store);
       CHECK(make_and_check(entities, keys_from(10, 20), run) == 20);
       CHECK(make_and_check(entities, keys_from(10, 20), run) == 0);
       CHECK(make_and_check(entities, keys_from(5, 20), run) == 5);
@@ -72,10 +72,10 @@ TEST_CASE("What is there is not made again, in memory and on disk, whoever runs 
 TEST_CASE("A resumed run finds the batches of the earlier one") {
   const testing::scratch_folder scratch("batches");
   const auto keys = keys_from(1, 10);
-  batched_entities first(std::make_shared<entity_store>(spool::start(scratch, identity)));
+  batched_entities<byte_buffer> first(std::make_shared<entity_store>(spool::start(scratch, identity)));
   make_and_check(first, keys, parallel::processes{2});
   std::atomic<int> made = 0;
-  batched_entities second(std::make_shared<entity_store>(spool::resume(scratch, identity)));
+  batched_entities<byte_buffer> second(std::make_shared<entity_store>(spool::resume(scratch, identity)));
   const auto again = [&](const std::vector<std::size_t>& wanted) {
     made += static_cast<int>(wanted.size());
     return make_of(keys, wanted);
@@ -91,7 +91,7 @@ TEST_CASE("An entity is made once per batch of its cost, the costliest batch fir
   const auto keys = keys_from(0, 6);
   const std::vector<double> costs{1, 1, 1, 9, 1, 1};
   std::vector<std::vector<std::size_t>> batches;
-  batched_entities entities(std::make_shared<entity_store>());
+  batched_entities<byte_buffer> entities(std::make_shared<entity_store>());
   entities.make_missing(keys, costs, 3,
                         [&](const std::vector<std::size_t>& wanted) {
                           batches.push_back(wanted);
@@ -104,7 +104,7 @@ TEST_CASE("An entity is made once per batch of its cost, the costliest batch fir
 TEST_CASE("Of batches that fail, the entities that fail alone are named; a crash too. The others go on") {
   const auto keys = keys_from(0, 9);
   for (const bool crashes : {false, true}) {
-    batched_entities entities(std::make_shared<entity_store>());
+    batched_entities<byte_buffer> entities(std::make_shared<entity_store>());
     const auto make_all = [&](std::span<const content_key> wanted_keys, bool faulty) {
       return entities.make_missing(wanted_keys, std::vector<double>(wanted_keys.size(), 1), 3,
                                    [&](const std::vector<std::size_t>& wanted) {
@@ -133,7 +133,7 @@ TEST_CASE("No member of a batch is blamed for what only all of them together do"
   const auto keys = keys_from(0, 9);
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{1}),
                                   any_executor(parallel::processes{4})}) {
-    batched_entities entities(std::make_shared<entity_store>());
+    batched_entities<byte_buffer> entities(std::make_shared<entity_store>());
     const auto not_together = [&](const std::vector<std::size_t>& wanted) {
       if (wanted.size() > 1)
         throw mesher_error("too much for one task");
@@ -160,7 +160,7 @@ TEST_CASE("A blob that has gone is an error that names it") {
   const testing::scratch_folder scratch("batches");
   const auto disk = spool::start(scratch, identity);
   const auto keys = keys_from(1, 3);
-  batched_entities entities(std::make_shared<entity_store>(disk));
+  batched_entities<byte_buffer> entities(std::make_shared<entity_store>(disk));
   make_and_check(entities, keys, parallel::serial{});
   disk.clear();
   CHECK_THROWS_AS(entities.for_each(keys, [](std::size_t, const byte_buffer&) {}), io_error);
@@ -171,10 +171,10 @@ TEST_CASE("What no other attempt mends is thrown as what it is, and nothing is m
   for (const any_executor& run : executors) {
     const testing::scratch_folder scratch("batches");
     const auto disk = spool::start(scratch, identity);
-    batched_entities entities(std::make_shared<entity_store>(disk));
+    batched_entities<byte_buffer> entities(std::make_shared<entity_store>(disk));
     disk.clear(); // no folder to write to
     CHECK_THROWS_AS(make_and_check(entities, keys, run), io_error);
-    batched_entities others(std::make_shared<entity_store>());
+    batched_entities<byte_buffer> others(std::make_shared<entity_store>());
     const auto no_size = [](const std::vector<std::size_t>&) -> std::vector<byte_buffer> {
       throw sizing_error("the size is 0");
     };

@@ -1,4 +1,5 @@
-#include "dovetail/meshing/piece_codec.hpp"
+#include "dovetail/core/encoding.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
@@ -155,11 +156,9 @@ TEST_CASE("Pieces and reports survive encoding") {
   piece.skeleton_points = {9, 8, 7};
   for (const std::vector<local_id>& tags : {std::vector<local_id>{}, {2, 2}, {2, 3}}) {
     piece.mesh.tags = tags;
-    byte_writer writer;
-    encode(writer, piece);
-    const auto bytes = writer.take();
+    const auto bytes = encoded(piece);
     byte_reader reader(bytes);
-    const auto back = decode_piece(reader);
+    const auto back = decode<mesh_piece>(reader);
     CHECK(reader.at_end());
     CHECK(back.subdomain == 4);
     CHECK(back.material == 2);
@@ -174,11 +173,9 @@ TEST_CASE("Pieces and reports survive encoding") {
   r.set("count", 3);
   r.warnings = {"one", "two"};
   r.children.push_back(r);
-  byte_writer writer;
-  encode(writer, r);
-  const auto bytes = writer.take();
+  const auto bytes = encoded(r);
   byte_reader reader(bytes);
-  const report back = decode_report(reader);
+  const auto back = decode<report>(reader);
   CHECK(reader.at_end());
   CHECK(back.children.at(0).name == "outer");
   CHECK(back.children.at(0).warnings == r.warnings);

@@ -37,12 +37,7 @@ struct forking_mesher : mesher::tetgen {
 TEST_CASE("a program with MPI makes the mesh and the files that one process makes") {
   std::optional<scratch_folder> own;
   const any_executor run = parallel::ranks(*world);
-  const byte_buffer name = run.once([&] {
-    byte_writer to;
-    to.text(std::filesystem::path(own.emplace("mpi")).string());
-    return to.take();
-  });
-  const std::filesystem::path folder = byte_reader(name).text();
+  const auto folder = run.once([&] { return std::filesystem::path(own.emplace("mpi")); });
   const ranked_mesh alone =
       mesh_ball(parallel::serial{}, folder / ("alone_" + std::to_string(world->rank())));
   CHECK(alone.files.size() > 4);

@@ -17,7 +17,7 @@ struct two_faces {
   std::vector<vec3> points;
   coarse_skeleton skeleton;
   std::size_t matched = 0; ///< lines, by the last `remesh`
-  batched_entities made_segments{std::make_shared<entity_store>()};
+  batched_entities<face_segments> made_segments{std::make_shared<entity_store>()};
   progress on_progress = {}; ///< of the matching
 
   explicit two_faces(std::vector<vec3> corners) : points(std::move(corners)) {
@@ -28,7 +28,7 @@ struct two_faces {
 
   remeshed_skeleton remesh(double least_angle_deg) {
     const auto store = std::make_shared<entity_store>();
-    batched_entities made_lines(store);
+    batched_entities<fine_line> made_lines(store);
     region_store made_patches(store);
     const refined_sizing size(unit_size);
     numbered_lines lines;

@@ -33,7 +33,7 @@ fine_skeleton strip(const any_executor& run, const std::shared_ptr<entity_store>
     coarse.lines.push_back({{a, b}, {3, no_id}, {}, {}});
   coarse.faces = {{{0, 2, 1}, {0, 1}}, {{1, 2, 3}, {0, 1}}, {{2, 4, 3}, {1, 0}}};
   const refined_sizing size{any_sizing([](vec3) { return size_of_triangles; })};
-  batched_entities made_lines(store);
+  batched_entities<fine_line> made_lines(store);
   region_store made_patches(store);
   const numbered_lines lines = number_lines(
       coarse, remesh_lines(no_lines_on_it, coarse.lines, points, size, run, made_lines), points, {});

@@ -2,7 +2,6 @@
 /// New pieces by labels of elements.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/distributed_validity.hpp"
@@ -23,6 +22,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,6 +50,17 @@ inline improving_options within_stage(const improving_options& options, const ch
   named.on_progress = within_stage(options.on_progress, stage);
   return named;
 }
+
+/// What is known of a piece whose elements have labels.
+struct labelled_piece {
+  io::mesh_hasher hash;
+  std::vector<std::array<global_id, 2>> counts; ///< of each label, growing, and its elements
+  std::vector<local_id> at_sides;               ///< labels of the elements at its sides of the skeleton
+  kept_value kept;                              ///< the labels of all elements
+
+  static constexpr auto fields = std::tuple(&labelled_piece::hash, &labelled_piece::counts,
+                                            &labelled_piece::at_sides, &labelled_piece::kept);
+};
 
 /// Gives each element a label, in a task per piece, and puts those of one label together. `label(piece,
 /// table, listed, at_sides)` labels the elements of a piece, whose own label is `own[piece]`; the table is
@@ -88,30 +99,24 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
           labels_at_sides.push_back(labels[static_cast<std::size_t>(e)]);
         io::mesh_hasher hash;
         io::hash_elements_by_place(hash, piece);
-        byte_writer bytes, reply;
-        bytes.array(labels);
-        reply.value(hash);
-        reply.array(counts);
-        reply.array(labels_at_sides);
         key_maker make;
-        tasks.keep(make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()))(labels).key(),
-                   bytes.take(), reply);
-        return reply.take();
+        make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()));
+        return labelled_piece{hash, std::move(counts), std::move(labels_at_sides),
+                              tasks.keep_by_content(make, labels)};
       },
-      [&](std::size_t p, byte_reader& from) {
-        moves.hash.merge(from.value<io::mesh_hasher>());
-        for (const auto& [l, count] : from.array<std::array<global_id, 2>>()) {
+      [&](std::size_t p, labelled_piece labelled) {
+        moves.hash.merge(labelled.hash);
+        for (const auto& [l, count] : labelled.counts) {
           elements_of[static_cast<local_id>(l)][static_cast<local_id>(p)] = count;
           result.moved += l == own[p] ? 0 : count;
         }
-        const auto at_sides = from.array<local_id>();
         const auto listed = sides[static_cast<local_id>(p)];
         for (std::size_t i = 0; i < listed.size(); ++i) {
           const auto s = static_cast<std::size_t>(listed[i]);
           const bool behind = is_behind(mesh.skeleton, listed, i, static_cast<local_id>(p));
-          label_at_side[s][behind ? 0 : 1] = at_sides[i];
+          label_at_side[s][behind ? 0 : 1] = labelled.at_sides[i];
         }
-        keys[p] = tasks.take_kept(from);
+        keys[p] = tasks.take_kept(std::move(labelled.kept));
       });
   tasks.exchange(keys);
   moves.sizes.clear();
@@ -135,8 +140,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
     moves.beside.push_back({numbered({pair[0]})[0], pair[1] == no_id ? no_id : numbered({pair[1]})[0]});
   moves.price_of_side.assign(mesh.skeleton.sides.size(), 1);
   moves.of_piece = [&](local_id p) -> moves_of_piece {
-    const byte_buffer bytes = store->get(keys[static_cast<std::size_t>(p)]);
-    return {numbered(byte_reader(bytes).array<local_id>())};
+    return {numbered(store->value<std::vector<local_id>>(keys[static_cast<std::size_t>(p)]))};
   };
   key_maker all;
   for (const content_key key : keys)

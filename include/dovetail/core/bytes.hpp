@@ -15,20 +15,27 @@ namespace dovetail {
 
 using byte_buffer = std::vector<std::byte>;
 
-/// Appends trivially copyable values, strings and vectors of them to a buffer.
+/// Appends trivially copyable values, numbers, texts and arrays to a buffer. Types with structure:
+/// `core/encoding.hpp`.
 class byte_writer {
 public:
   template <class T>
     requires std::is_trivially_copyable_v<T>
   void value(const T& item) { append(&item, sizeof(T)); }
+  /// A number that is mostly small: seven bits to a byte.
+  void count(std::uint64_t number) {
+    for (; number >= 128; number >>= 7)
+      value(static_cast<std::uint8_t>(number | 128));
+    value(static_cast<std::uint8_t>(number));
+  }
   template <class T>
     requires std::is_trivially_copyable_v<T>
   void array(const std::vector<T>& items) {
-    value<std::uint64_t>(items.size());
+    count(items.size());
     append(items.data(), items.size() * sizeof(T));
   }
   void text(const std::string& s) {
-    value<std::uint64_t>(s.size());
+    count(s.size());
     append(s.data(), s.size());
   }
   byte_buffer take() { return std::move(buffer_); }
@@ -55,26 +62,37 @@ public:
       read(&item, sizeof(T));
       return item;
     }
+  std::uint64_t count() {
+    std::uint64_t number = 0;
+    for (int shift = 0; shift < 64; shift += 7) {
+      const auto next = value<std::uint8_t>();
+      number |= static_cast<std::uint64_t>(next & 127) << shift;
+      if (next < 128)
+        return number;
+    }
+    throw input_error("binary data have a number of more than 64 bits");
+  }
   template <class T>
     requires std::is_trivially_copyable_v<T> std::vector<T> array() {
-      const auto count = value<std::uint64_t>();
-      if (count > left_ / sizeof(T))
-        throw input_error("binary data end early");
-      std::vector<T> items(static_cast<std::size_t>(count));
+      std::vector<T> items(count_with_room(sizeof(T)));
       read(items.data(), items.size() * sizeof(T));
       return items;
     }
   std::string text() {
-    const auto count = value<std::uint64_t>();
-    if (count > left_)
-      throw input_error("binary data end early");
-    std::string s(static_cast<std::size_t>(count), '\0');
+    std::string s(count_with_room(1), '\0');
     read(s.data(), s.size());
     return s;
   }
   bool at_end() const { return left_ == 0; }
 
 private:
+  /// Of items of which so many are left; looked at before memory for them is asked for.
+  std::size_t count_with_room(std::size_t size_of_item) {
+    const std::uint64_t items = count();
+    if (items > left_ / size_of_item)
+      throw input_error("binary data end early");
+    return static_cast<std::size_t>(items);
+  }
   void read(void* to, std::size_t size) {
     if (size > left_)
       throw input_error("binary data end early");

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct report {
   std::vector<std::string> warnings;                    ///< one sentence each, naming the entity
   std::vector<report> children;
   std::vector<std::string> files = {}; ///< written by it, by their names in its folder
+
+  static constexpr auto fields = std::tuple(&report::name, &report::seconds, &report::counters,
+                                            &report::warnings, &report::children, &report::files);
 
   /// Sets a counter, replacing an earlier value.
   void set(const std::string& key, double value) {

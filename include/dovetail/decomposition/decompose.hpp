@@ -24,6 +24,7 @@
 #include "dovetail/partition/part_weights.hpp"
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -41,6 +42,12 @@ struct decomposition {
   std::vector<local_id> defective_points;
   int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these
   report summary;
+
+  static constexpr auto fields =
+      std::tuple(&decomposition::part_of_element, &decomposition::parts, &decomposition::material_of_part,
+                 &decomposition::part_weights, &decomposition::part_of_super,
+                 &decomposition::super_of_element, &decomposition::graph, &decomposition::defective_points,
+                 &decomposition::non_manifold_edges, &decomposition::summary);
 };
 
 /// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).

@@ -57,6 +57,10 @@ struct angle_violation {
   vec3 place;                                  ///< the middle of the triangle or ridge
   std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
+  static constexpr auto fields = std::tuple(
+      &angle_violation::angle_deg, &angle_violation::cause, &angle_violation::sides, &angle_violation::edge,
+      &angle_violation::subdomain, &angle_violation::place, &angle_violation::cad);
+
   bool is_wedge() const { return edge[0] != no_id; }
 };
 
@@ -73,6 +77,10 @@ struct interface_angles {
   least_angle interface_wedge;             ///< between two interface triangles
   least_angle surface_wedge;               ///< between an interface triangle and one of the CAD
   std::vector<angle_violation> violations; ///< by growing angle
+
+  static constexpr auto fields = std::tuple(&interface_angles::interface_faces, &interface_angles::face_angle,
+                                            &interface_angles::interface_wedge,
+                                            &interface_angles::surface_wedge, &interface_angles::violations);
 
   double min_wedge_deg() const { return std::min(interface_wedge.angle_deg, surface_wedge.angle_deg); }
   std::size_t count(violation_cause cause) const {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -21,6 +22,10 @@ struct csr_graph {
   std::vector<double> edge_weights;     ///< parallel to `neighbours`
   std::vector<double> node_weights;     ///< size nodes
   std::vector<vec3> positions = {};     ///< size nodes, for partitioners that go by place; or empty
+
+  static constexpr auto fields =
+      std::tuple(&csr_graph::offsets, &csr_graph::neighbours, &csr_graph::edge_weights,
+                 &csr_graph::node_weights, &csr_graph::positions);
 
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
   std::span<const local_id> row(local_id node) const {

@@ -2,12 +2,12 @@
 /// A graph whose rows are spread over the ranks of a run.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -17,6 +17,9 @@ struct distributed_csr_graph {
   std::vector<local_id> first_of_rank{0}; ///< size ranks + 1; the last is the number of all nodes
   int rank = 0;
   csr_graph rows; ///< of this rank's nodes; neighbours by their numbers in the whole graph
+
+  static constexpr auto fields = std::tuple(&distributed_csr_graph::first_of_rank,
+                                            &distributed_csr_graph::rank, &distributed_csr_graph::rows);
 
   local_id first() const { return first_of_rank[static_cast<std::size_t>(rank)]; }
   local_id end() const { return first_of_rank[static_cast<std::size_t>(rank) + 1]; }
@@ -46,24 +49,6 @@ inline distributed_csr_graph rows_of_rank(const csr_graph& whole, int rank, int 
   if (!whole.positions.empty())
     copy(whole.positions, first, end, rows.positions);
   return share;
-}
-
-inline void encode(byte_writer& to, const csr_graph& graph) {
-  to.array(graph.offsets);
-  to.array(graph.neighbours);
-  to.array(graph.edge_weights);
-  to.array(graph.node_weights);
-  to.array(graph.positions);
-}
-
-inline csr_graph decode_csr_graph(byte_reader& from) {
-  csr_graph graph;
-  graph.offsets = from.array<std::int64_t>();
-  graph.neighbours = from.array<local_id>();
-  graph.edge_weights = from.array<double>();
-  graph.node_weights = from.array<double>();
-  graph.positions = from.array<vec3>();
-  return graph;
 }
 
 } // namespace dovetail

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/library_pieces.hpp"
-#include "dovetail/improver/library_process.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mesh_3/tet_soup_to_c3t3.h>
@@ -87,7 +87,8 @@ inline simplicial_mesh<3> remesh_with_cgal(const cgal& parameters, const library
 inline report cgal::operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                                const any_sizing& size) const {
   return improve_by_library("CGAL", mesh, frozen, [&](const library_piece& piece) {
-    return detail::run_in_child(limit_seconds, [&] { return detail::remesh_with_cgal(*this, piece, size); });
+    return run_in_child("its process", limit_seconds,
+                        [&] { return detail::remesh_with_cgal(*this, piece, size); });
   });
 }
 

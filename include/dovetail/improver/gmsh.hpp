@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/library_pieces.hpp"
-#include "dovetail/improver/library_process.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 
 #include <gmsh.h>
 
@@ -101,7 +101,7 @@ inline simplicial_mesh<3> optimise_with_gmsh(const gmsh& parameters, const libra
 inline report gmsh::operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                                const any_sizing&) const {
   return improve_by_library("Gmsh", mesh, frozen, [this](const library_piece& piece) {
-    return detail::run_in_child(limit_seconds, [&] {
+    return run_in_child("its process", limit_seconds, [&] {
       try {
         return detail::optimise_with_gmsh(*this, piece);
       } catch (const std::string& text) { // what Gmsh throws

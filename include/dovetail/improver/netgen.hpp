@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/library_pieces.hpp"
-#include "dovetail/improver/library_process.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 
 namespace nglib {
 #include <nglib.h>
@@ -76,7 +76,8 @@ inline simplicial_mesh<3> optimise_with_netgen(const netgen& parameters, const l
 inline report netgen::operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                                  const any_sizing&) const {
   return improve_by_library("Netgen", mesh, frozen, [this](const library_piece& piece) {
-    return detail::run_in_child(limit_seconds, [&] { return detail::optimise_with_netgen(*this, piece); });
+    return run_in_child("its process", limit_seconds,
+                        [&] { return detail::optimise_with_netgen(*this, piece); });
   });
 }
 

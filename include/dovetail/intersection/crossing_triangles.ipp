@@ -12,7 +12,7 @@
 #include "dovetail/intersection/triangle_separation.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -202,31 +202,20 @@ crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> tri
   };
   const auto cells = searcher().start(most_tasks);
   const std::size_t tasks = std::min(cells.size(), most_tasks);
-  const auto outcomes = run.run(
-      tasks,
+  auto results = map_tasks(
+      run, tasks,
       [&](std::size_t task) {
         auto search = searcher();
         std::vector<triangle_pair> found;
         for (std::size_t c = task; c < cells.size(); c += tasks)
           search.search(search.with_triangles(cells[c]), found);
-        std::vector<local_id> flat;
-        for (const auto& [i, j] : found) {
-          flat.push_back(i);
-          flat.push_back(j);
-        }
-        byte_writer out;
-        out.array(flat);
-        return out.take();
+        return found;
       },
       run_options{.on_progress = on_progress, .stage = "intersection"});
 
   std::vector<triangle_pair> pairs;
-  for (const task_outcome& outcome : outcomes) {
-    detail::require_done(outcome, "the intersection test");
-    const auto flat = byte_reader(outcome.result).array<local_id>();
-    for (std::size_t k = 0; k < flat.size(); k += 2)
-      pairs.push_back({flat[k], flat[k + 1]});
-  }
+  for (const auto& found : values_of(std::move(results), "the intersection test"))
+    append(pairs, found);
   sort_unique(pairs);
   return pairs;
 }

@@ -2,16 +2,16 @@
 /// What `finishing_pass.hpp` declares.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/core/report_codec.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/finishing_pass.hpp"
 #include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/mesh/quality_codec.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,6 +20,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace dovetail::io {
@@ -31,20 +32,17 @@ struct finished_pieces {
   mesh_hasher hash;
   quality_statistics quality;
 
-  void encode_to(byte_writer& bytes) const {
-    bytes.value(hash);
-    encode(bytes, quality);
-  }
-  static finished_pieces decoded(byte_reader& bytes) {
-    finished_pieces pieces;
-    pieces.hash = bytes.value<mesh_hasher>();
-    pieces.quality = decode_quality(bytes);
-    return pieces;
-  }
+  static constexpr auto fields = std::tuple(&finished_pieces::hash, &finished_pieces::quality);
 };
 
-/// Errors travel beside the result, and are thrown again by the parent.
-enum class finishing_reply : std::uint8_t { finished, not_written, no_mesh };
+/// What a task gives back; that the mesh is none is an error of its own, which the parent throws.
+template <class T>
+struct finishing_reply {
+  T done = {};
+  std::optional<std::string> no_mesh = {};
+
+  static constexpr auto fields = std::tuple(&finishing_reply::done, &finishing_reply::no_mesh);
+};
 
 /// What the files of pieces depend on beside the pieces: the numbers of all points and elements.
 inline std::uint64_t hash_of_numbering(const mesh_hasher& skeleton, const global_numbering& numbers) {
@@ -85,12 +83,11 @@ public:
 
   finished_mesh run(const any_executor& run_tasks, const finishing_options& options) {
     std::vector<finished_pieces> found(ranges());
-    const byte_buffer taken_over = run_tasks.once([&] { return take_over_all(); });
+    auto taken = run_tasks.once([&] { return take_over_all(); });
     std::vector<std::size_t> left; // ranges, and behind them the other files
-    byte_reader taken(taken_over);
     for (std::size_t r = 0; r < ranges(); ++r)
-      if (taken.value<std::uint8_t>() != 0)
-        found[r] = finished_pieces::decoded(taken);
+      if (taken[r])
+        found[r] = *taken[r];
       else
         left.push_back(r);
     finished_mesh result;
@@ -105,22 +102,18 @@ public:
     tasks.stage = "finishing";
     prepare(run_tasks, tasks);
     tasks.order = largest_first(left);
-    const auto replies = replies_of(
+    const auto done = done_by(
         run_tasks, left, tasks,
         [this](std::size_t task) { return task < ranges() ? name_of(task) : others_[task - ranges()]->name; },
         [this](std::size_t task) {
-          byte_writer done;
           if (task < ranges())
-            finish_range(task).encode_to(done);
-          else
-            others_[task - ranges()]->run();
-          return done.take();
+            return finish_range(task);
+          others_[task - ranges()]->run();
+          return finished_pieces{};
         });
     for (std::size_t k = 0; k < left.size(); ++k)
-      if (left[k] < ranges()) {
-        byte_reader reply(replies[k]);
-        found[left[k]] = finished_pieces::decoded(reply);
-      }
+      if (left[k] < ranges())
+        found[left[k]] = done[k];
     result.summary.set("peak_rss_bytes", peak_rss_bytes_);
 
     mesh_hasher hash = skeleton_hash_;
@@ -134,19 +127,19 @@ public:
 
   /// All files are complete before the first gets its final name.
   void finish(const std::filesystem::path& folder, const any_executor& run_tasks, report& summary) const {
-    const byte_buffer said = run_tasks.once([&] {
+    append(summary.children, run_tasks.once([&] {
       for (const auto& output : outputs_)
         output.complete();
-      byte_writer reports;
+      std::vector<report> said;
       for (const auto& output : outputs_)
-        encode(reports, output.finish(folder));
-      return reports.take();
-    });
-    for (byte_reader reports(said); !reports.at_end();)
-      summary.children.push_back(decode_report(reports));
+        said.push_back(output.finish(folder));
+      return said;
+    }));
   }
 
 private:
+  using numbered_pieces = std::pair<std::uint64_t, finished_pieces>; ///< with the `hash_of_numbering`
+
   std::size_t ranges() const { return bounds_.size() - 1; }
   std::string name_of(std::size_t range) const {
     const auto [first, last] = std::pair(bounds_[range], bounds_[range + 1] - 1);
@@ -167,7 +160,7 @@ private:
       return;
     std::vector<std::size_t> tasks(counts_.size());
     std::iota(tasks.begin(), tasks.end(), std::size_t{0});
-    const auto counted = replies_of(
+    const auto counted = done_by(
         run_tasks, tasks, options, [this](std::size_t task) { return counts_[task]->name; },
         [this](std::size_t task) { return counts_[task]->run(); });
     run_tasks.once([&] {
@@ -177,7 +170,6 @@ private:
         if (first != next)
           output.prepare({first, next});
       }
-      return byte_buffer();
     });
   }
 
@@ -209,22 +201,17 @@ private:
         .string();
   }
 
-  /// Of each range whether it is taken over, and the result.
-  byte_buffer take_over_all() const {
-    byte_writer taken;
-    for (std::size_t r = 0; r < ranges(); ++r) {
-      finished_pieces found;
-      const bool there = take_over(r, found);
-      taken.value<std::uint8_t>(there);
-      if (there)
-        found.encode_to(taken);
-    }
-    return taken.take();
+  /// Of each range the result, where it is taken over.
+  std::vector<std::optional<finished_pieces>> take_over_all() const {
+    std::vector<std::optional<finished_pieces>> taken;
+    for (std::size_t r = 0; r < ranges(); ++r)
+      taken.push_back(take_over(r));
+    return taken;
   }
-  /// Takes the result of a range whose pieces an earlier run gave up; false when there is none.
-  bool take_over(std::size_t range, finished_pieces& found) const {
+  /// The result of a range whose pieces an earlier run gave up; nothing when there is none.
+  std::optional<finished_pieces> take_over(std::size_t range) const {
     if (!mesh_.released)
-      return false;
+      return std::nullopt;
     const auto first = mesh_.released(bounds_[range]);
     std::vector<std::string> expected;
     for (const auto& output : outputs_)
@@ -242,47 +229,48 @@ private:
         mesh_.release(p, {first->files, {}});
     }
     if (!ours)
-      return false;
-    byte_reader text(first->text);
-    if (text.value<std::uint64_t>() != numbering_)
+      return std::nullopt;
+    const auto [numbering, found] = decoded<numbered_pieces>(first->text);
+    if (numbering != numbering_)
       throw usage_error("subdomain " + std::to_string(bounds_[range]) + " is already in " +
                         first->files.front().path +
                         ", with the numbers of another decomposition; run again without resuming");
-    found = finished_pieces::decoded(text);
-    return true;
+    return found;
   }
 
   /// Runs tasks, and gives what each returns; errors of theirs are thrown here.
-  std::vector<byte_buffer> replies_of(const any_executor& run_tasks, const std::vector<std::size_t>& tasks,
-                                      const run_options& options,
-                                      const std::function<std::string(std::size_t)>& name_of_task,
-                                      const task_function& run_task) {
-    const auto outcomes = run_tasks.run(
-        tasks.size(), [&](std::size_t k) { return reply([&] { return run_task(tasks[k]); }); }, options);
-    std::vector<byte_buffer> replies;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      replies.push_back(accept(name_of_task(tasks[k]), outcomes[k]));
-      peak_rss_bytes_ = std::max(peak_rss_bytes_, static_cast<double>(outcomes[k].peak_rss_bytes));
+  template <class Task>
+  auto done_by(const any_executor& run_tasks, const std::vector<std::size_t>& tasks,
+               const run_options& options, const std::function<std::string(std::size_t)>& name_of_task,
+               const Task& run_task) {
+    using value = decltype(run_task(0));
+    auto results = map_tasks(
+        run_tasks, tasks.size(),
+        [&](std::size_t k) -> finishing_reply<value> {
+          try {
+            return {run_task(tasks[k])};
+          } catch (const mesh_error& problem) {
+            return {{}, problem.what()};
+          }
+        },
+        options);
+    std::vector<value> done;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      auto& result = results[k];
+      if (!result.value)
+        throw io_error(name_of_task(tasks[k]) + " could not be written: " + result.failure +
+                       (result.crashed
+                            ? "; run again from what is kept, with fewer workers where memory is short"
+                            : ""));
+      if (result.value->no_mesh)
+        throw mesh_error(*result.value->no_mesh);
+      done.push_back(std::move(result.value->done));
+      peak_rss_bytes_ = std::max(peak_rss_bytes_, static_cast<double>(result.peak_rss_bytes));
     }
-    return replies;
+    return done;
   }
 
   /// Runs in the worker, as all below.
-  static byte_buffer reply(const std::function<byte_buffer()>& run_task) {
-    byte_writer bytes;
-    try {
-      const byte_buffer done = run_task();
-      bytes.value(finishing_reply::finished);
-      bytes.array(done);
-    } catch (const io_error& problem) {
-      bytes.value(finishing_reply::not_written);
-      bytes.text(problem.what());
-    } catch (const mesh_error& problem) {
-      bytes.value(finishing_reply::no_mesh);
-      bytes.text(problem.what());
-    }
-    return bytes.take();
-  }
   finished_pieces finish_range(std::size_t range) const {
     finished_pieces done;
     piece_note note;
@@ -317,30 +305,10 @@ private:
     return done;
   }
   void give_up(std::size_t range, piece_note note, const finished_pieces& done) const {
-    byte_writer text;
-    text.value(numbering_);
-    done.encode_to(text);
-    note.text = text.take();
+    note.text = encoded(numbered_pieces{numbering_, done});
     for (local_id p = bounds_[range]; p < bounds_[range + 1]; ++p) {
       mesh_.release(p, note);
       note.text.clear();
-    }
-  }
-
-  /// Back in the parent.
-  static byte_buffer accept(const std::string& name, const task_outcome& outcome) {
-    if (!outcome.ok)
-      throw io_error(
-          name + " could not be written: " + outcome.failure +
-          (outcome.crashed ? "; run again from what is kept, with fewer workers where memory is short" : ""));
-    byte_reader bytes(outcome.result);
-    switch (bytes.value<finishing_reply>()) {
-    case finishing_reply::not_written:
-      throw io_error(bytes.text());
-    case finishing_reply::no_mesh:
-      throw mesh_error(bytes.text());
-    default:
-      return bytes.array<std::byte>();
     }
   }
 

@@ -3,7 +3,7 @@
 /// parts are copied to their places.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/sequence.hpp"
@@ -23,6 +23,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct msh_piece_table {
   std::uint64_t ghosts = 0;
   std::uint64_t ghost_bytes = 0;
   std::uint64_t point_bytes = 0;
+
+  static constexpr auto fields = std::tuple(&msh_piece_table::blocks, &msh_piece_table::ghosts,
+                                            &msh_piece_table::ghost_bytes, &msh_piece_table::point_bytes);
 
   std::uint64_t element_bytes() const {
     return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},
@@ -89,12 +93,7 @@ public:
     table_.point_bytes = file_.size() - before_points;
   }
   std::uint64_t close() {
-    byte_writer bytes;
-    bytes.array(table_.blocks);
-    bytes.value(table_.ghosts);
-    bytes.value(table_.ghost_bytes);
-    bytes.value(table_.point_bytes);
-    const byte_buffer table = bytes.take();
+    const byte_buffer table = encoded(table_);
     file_.bytes(table.data(), table.size());
     file_.value<std::uint64_t>(table.size());
     file_.commit();
@@ -162,13 +161,7 @@ inline msh_piece_table read_msh_piece_table(const std::filesystem::path& path) {
   byte_buffer bytes(file && size <= whole ? size : 0);
   if (bytes.empty() || !file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
     throw io_error("cannot read " + path.string() + ", a piece's part of an MSH file");
-  byte_reader from(bytes);
-  msh_piece_table table;
-  table.blocks = from.array<msh_piece_table::block>();
-  table.ghosts = from.value<std::uint64_t>();
-  table.ghost_bytes = from.value<std::uint64_t>();
-  table.point_bytes = from.value<std::uint64_t>();
-  return table;
+  return decoded<msh_piece_table>(bytes);
 }
 
 /// The files of all pieces. Their contents are copied to the whole file and go: of each piece first the

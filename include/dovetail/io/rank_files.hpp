@@ -3,7 +3,7 @@
 /// at its place in one that all have, so that nothing is gathered.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/concepts.hpp"
@@ -77,16 +77,12 @@ struct rank_writer {
       output.prepare = [source, format = format, paths](const std::vector<byte_buffer>& counted) {
         std::vector<rank_counts> counts;
         for (const byte_buffer& of_rank : counted)
-          counts.push_back(byte_reader(of_rank).value<rank_counts>());
+          counts.push_back(decoded<rank_counts>(of_rank));
         format.lay_out(*source, counts, paths);
       };
       for (local_id q = 0; q < of_ranks; ++q) {
         const std::string name = "the share of rank " + std::to_string(q) + " in " + text_of(of_all);
-        output.counts.push_back({name, [source, q] {
-                                   byte_writer counts;
-                                   counts.value(source->counts_of(q));
-                                   return counts.take();
-                                 }});
+        output.counts.push_back({name, [source, q] { return encoded(source->counts_of(q)); }});
         output.others.push_back({name, [source, q, format = format, paths] {
                                    format.write(*source, source->mesh_of(q), paths);
                                  }});

@@ -2,7 +2,6 @@
 /// What `second_order.hpp` declares.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
@@ -12,12 +11,14 @@
 #include "dovetail/io/moving_middles.hpp"
 #include "dovetail/io/second_order.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace dovetail::io {
@@ -34,6 +35,15 @@ struct checked_piece {
 struct moved_edge {
   local_id edge;
   halvings moved;
+};
+/// The result, as it is kept.
+struct kept_middles {
+  std::vector<vec3> points;
+  std::vector<global_id> inner;
+  std::vector<std::pair<std::string, double>> counters; ///< of the summary
+
+  static constexpr auto fields =
+      std::tuple(&kept_middles::points, &kept_middles::inner, &kept_middles::counters);
 };
 
 template <int D>
@@ -53,9 +63,9 @@ public:
       };
     const content_key key = key_of_result();
     entity_store store(options_.store, "middles");
-    const auto find_kept = [&] { return store.find(key).value_or(byte_buffer{}); };
-    if (const auto kept = options_.store ? run_.once(find_kept) : byte_buffer{}; !kept.empty()) {
-      take(kept, summary);
+    const auto find_kept = [&] { return store.find_value<kept_middles>(key); };
+    if (auto kept = options_.store ? run_.once(find_kept) : std::nullopt) {
+      take(*std::move(kept), summary);
       return nodes_;
     }
     find_hosts();
@@ -63,7 +73,7 @@ public:
     check();
     summarize(summary);
     if (options_.store && run_.leads())
-      store.keep(key, bytes_of_result(summary));
+      store.keep_value(key, kept_middles{nodes_->points, nodes_->inner, summary.counters});
     return nodes_;
   }
 
@@ -82,22 +92,11 @@ private:
       make(piece.inner_points)(piece.elements);
     return make.key();
   }
-  static constexpr std::array<const char*, 6> counters{"nodes",      "on_cad",       "not_found",
-                                                       "moved_back", "straightened", "rounds"};
-  byte_buffer bytes_of_result(const report& summary) const {
-    byte_writer bytes;
-    bytes.array(nodes_->points);
-    bytes.array(nodes_->inner);
-    for (const char* counter : counters)
-      bytes.value(summary.get(counter));
-    return bytes.take();
-  }
-  void take(const byte_buffer& kept, report& summary) {
-    byte_reader bytes(kept);
-    nodes_->points = bytes.array<vec3>();
-    nodes_->inner = bytes.array<global_id>();
-    for (const char* counter : counters)
-      summary.set(counter, bytes.value<double>());
+  void take(kept_middles kept, report& summary) {
+    nodes_->points = std::move(kept.points);
+    nodes_->inner = std::move(kept.inner);
+    for (const auto& [counter, value] : kept.counters)
+      summary.set(counter, value);
   }
 
   local_id edge_of(const simplex<1>& vertices) const {
@@ -136,12 +135,10 @@ private:
           for (std::size_t k = 0; k < faces.size(); ++k)
             if (edges.in_skeleton[k] != no_id)
               found.push_back({edges.in_skeleton[k], faces[k].id});
-          byte_writer bytes;
-          bytes.array(found);
-          return bytes.take();
+          return found;
         },
-        [this](std::size_t, byte_reader& bytes) {
-          for (const auto& [edge, face] : bytes.array<face_of_edge>())
+        [this](std::size_t, const std::vector<face_of_edge>& found) {
+          for (const auto& [edge, face] : found)
             host_of(edge) = {2, face};
         });
   }
@@ -165,17 +162,14 @@ private:
         const auto point = [&](local_id v) { return mesh_.skeleton.points[static_cast<std::size_t>(v)]; };
         found.find(middle, point(a), point(b), hosts_[static_cast<std::size_t>(order[i])]);
       }
-      byte_writer bytes;
-      bytes.value(found.not_found);
-      bytes.array(found.points);
-      return bytes.take();
+      return std::pair(found.not_found, std::move(found.points));
     };
-    const auto outcomes = run_.run((order.size() + batch - 1) / batch, task, how());
-    for (std::size_t t = 0; t < outcomes.size(); ++t) {
-      byte_reader bytes = result_of(outcomes[t], "the skeleton");
-      not_found_ += bytes.template value<std::int64_t>();
+    auto results = map_tasks(run_, (order.size() + batch - 1) / batch, task, how());
+    for (std::size_t t = 0; t < results.size(); ++t) {
+      const auto [not_found, points] = result_of(std::move(results[t]), "the skeleton");
+      not_found_ += not_found;
       std::size_t i = t * batch;
-      for (const vec3 p : bytes.template array<vec3>())
+      for (const vec3 p : points)
         middles_.curved[static_cast<std::size_t>(order[i++])] = p;
     }
   }
@@ -188,9 +182,9 @@ private:
       std::vector<bool> changed(nodes_->edges.size(), false);
       run_pieces(
           unchecked, [this](const simplicial_piece<D>& piece) { return check_piece(piece); },
-          [&](std::size_t piece, byte_reader& bytes) {
-            of_piece_[piece] = bytes.value<checked_piece>();
-            for (const auto& [edge, moved] : bytes.array<moved_edge>()) {
+          [&](std::size_t piece, const std::pair<checked_piece, std::vector<moved_edge>>& checked) {
+            of_piece_[piece] = checked.first;
+            for (const auto& [edge, moved] : checked.second) {
               auto& known = middles_.moved[static_cast<std::size_t>(edge)];
               changed[static_cast<std::size_t>(edge)] = true;
               known = std::max(known, moved);
@@ -220,7 +214,7 @@ private:
   }
 
   /// Runs in a worker.
-  byte_buffer check_piece(const simplicial_piece<D>& piece) const {
+  std::pair<checked_piece, std::vector<moved_edge>> check_piece(const simplicial_piece<D>& piece) const {
     const auto edges = edges_of(piece, *nodes_);
     found_middles inner;
     moving_middles middles = middles_of(model_, piece, edges, inner);
@@ -239,10 +233,7 @@ private:
         result.straightened += middles.moved[k] == all_the_way ? 1 : 0;
       } else if (middles.moved[k] > middles_.moved[static_cast<std::size_t>(shared)])
         moved.push_back({shared, middles.moved[k]});
-    byte_writer bytes;
-    bytes.value(result);
-    bytes.array(moved);
-    return bytes.take();
+    return {result, std::move(moved)};
   }
 
   /// Those of inner edges; of the others the straight ones.
@@ -291,20 +282,19 @@ private:
     tasks.stage = "second order";
     return tasks;
   }
-  static byte_reader result_of(const task_outcome& outcome, const std::string& of) {
-    if (!outcome.ok)
-      throw mesh_error("the middles of edges of " + of + " could not be found: " + outcome.failure);
-    return byte_reader(outcome.result);
+  template <class T>
+  static T result_of(task_result<T> result, const std::string& of) {
+    if (!result.value)
+      throw mesh_error("the middles of edges of " + of + " could not be found: " + result.failure);
+    return *std::move(result.value);
   }
   template <class Task, class Take>
   void run_pieces(const std::vector<std::size_t>& pieces, const Task& task, const Take& take) {
-    const auto outcomes = run_.run(
-        pieces.size(),
+    auto results = map_tasks(
+        run_, pieces.size(),
         [&](std::size_t i) { return task(load_checked(mesh_, static_cast<local_id>(pieces[i]))); }, how());
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      byte_reader bytes = result_of(outcomes[i], "subdomain " + std::to_string(pieces[i]));
-      take(pieces[i], bytes);
-    }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      take(pieces[i], result_of(std::move(results[i]), "subdomain " + std::to_string(pieces[i])));
   }
 
   void summarize(report& summary) const {

@@ -5,6 +5,8 @@
 
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
+#include <tuple>
+
 namespace dovetail {
 
 template <int D>
@@ -16,6 +18,8 @@ struct simplicial_background<2> {
   surface_mesh surface;
 
   const simplicial_mesh<2>& elements() const { return surface.mesh; }
+
+  static constexpr auto fields = std::tuple(&simplicial_background::surface);
 };
 
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
@@ -26,6 +30,8 @@ struct simplicial_background<3> {
   simplicial_mesh<3> volume;
 
   const simplicial_mesh<3>& elements() const { return volume; }
+
+  static constexpr auto fields = std::tuple(&simplicial_background::surface, &simplicial_background::volume);
 };
 
 using background_mesh = simplicial_background<3>;

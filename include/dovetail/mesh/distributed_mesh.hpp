@@ -13,12 +13,14 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -53,6 +55,38 @@ struct simplicial_piece {
   local_id material = 0;
   simplicial_mesh<D> mesh;
   std::vector<local_id> skeleton_points; ///< index in the skeleton of each of the first points
+
+  /// As bytes (`core/encoding.hpp`): tags only where they differ from the material.
+  void encode(byte_writer& to) const {
+    to.value(subdomain);
+    to.value(material);
+    to.array(skeleton_points);
+    to.array(mesh.points);
+    to.array(mesh.elements);
+    const auto& tags = mesh.tags;
+    const bool one_material =
+        std::all_of(tags.begin(), tags.end(), [&](local_id tag) { return tag == material; });
+    to.value(tags.empty() ? tags_kept::none : one_material ? tags_kept::material : tags_kept::each);
+    if (!one_material)
+      to.array(tags);
+  }
+  static simplicial_piece decode(byte_reader& from) {
+    simplicial_piece piece;
+    piece.subdomain = from.value<local_id>();
+    piece.material = from.value<local_id>();
+    piece.skeleton_points = from.array<local_id>();
+    piece.mesh.points = from.array<vec3>();
+    piece.mesh.elements = from.array<simplex<D>>();
+    const auto kept = from.value<tags_kept>();
+    if (kept == tags_kept::material)
+      piece.mesh.tags.assign(piece.mesh.elements.size(), piece.material);
+    else if (kept == tags_kept::each)
+      piece.mesh.tags = from.array<local_id>();
+    return piece;
+  }
+
+private:
+  enum class tags_kept : std::uint8_t { none, material, each };
 };
 
 using mesh_piece = simplicial_piece<3>;
@@ -80,6 +114,9 @@ struct piece_counts {
   local_id material = 0;
   global_id inner_points = 0;
   global_id elements = 0;
+
+  static constexpr auto fields =
+      std::tuple(&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements);
 };
 
 /// What its store keeps in place of a piece that it has given up.
@@ -87,9 +124,13 @@ struct piece_note {
   struct file {
     std::string path; ///< absolute
     std::uint64_t bytes = 0;
+
+    static constexpr auto fields = std::tuple(&file::path, &file::bytes);
   };
   std::vector<file> files; ///< where the piece is now; when one of them is missing, so is the piece
   byte_buffer text;        ///< for whoever gave the piece up
+
+  static constexpr auto fields = std::tuple(&piece_note::files, &piece_note::text);
 };
 
 template <int D>

@@ -2,6 +2,8 @@
 /// Angles of elements, and statistics of them that can be merged from pieces.
 #pragma once
 
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
@@ -14,6 +16,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -148,6 +151,30 @@ struct angle_histogram {
     return count;
   }
   std::int64_t total() const { return below(180); }
+
+  /// As bytes (`core/encoding.hpp`): where the bins that are not empty begin, how many there are from the
+  /// first to the last, and these; a tenth of what they take in memory.
+  void encode(byte_writer& to) const {
+    std::size_t first = 0, end = bins.size();
+    while (end > 0 && bins[end - 1] == 0)
+      --end;
+    while (first < end && bins[first] == 0)
+      ++first;
+    to.count(first);
+    to.count(end - first);
+    for (std::size_t k = first; k < end; ++k)
+      to.count(static_cast<std::uint64_t>(bins[k]));
+  }
+  /// Throws `input_error` for what `encode` has not written.
+  static angle_histogram decode(byte_reader& from) {
+    angle_histogram histogram;
+    const std::uint64_t first = from.count(), count = from.count();
+    if (first > histogram.bins.size() || count > histogram.bins.size() - first)
+      throw input_error("binary data have more than 180 degrees");
+    for (std::uint64_t k = first; k < first + count; ++k)
+      histogram.bins[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(from.count());
+    return histogram;
+  }
 };
 
 /// Statistics of the angles of a mesh. Those of pieces merge into those of the whole.
@@ -163,6 +190,11 @@ struct quality_statistics {
   global_id worst_element = -1;    ///< the element with the smallest wedge angle; the first of several
   angle_histogram min_wedges;      ///< each element's smallest wedge angle
   angle_histogram max_wedges;      ///< each element's largest wedge angle
+
+  static constexpr auto fields = std::tuple(
+      &quality_statistics::elements, &quality_statistics::min_wedge_deg, &quality_statistics::max_wedge_deg,
+      &quality_statistics::min_face_deg, &quality_statistics::sum_of_min_wedge_deg,
+      &quality_statistics::worst_element, &quality_statistics::min_wedges, &quality_statistics::max_wedges);
 
   /// Elements with a wedge angle under 6, 12, 18 and 24 degrees.
   std::array<std::int64_t, 4> under_6_12_18_24() const {

@@ -6,6 +6,7 @@
 #include "dovetail/mesh/simplex.hpp"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -27,6 +28,9 @@ struct simplicial_mesh {
   std::vector<simplex<D>> elements; ///< positively oriented (D = 3) or along the host's normal (D = 2)
   std::vector<local_id>
       tags; ///< per element: material (D = 3), CAD face (D = 2), CAD curve (D = 1); or empty
+
+  static constexpr auto fields =
+      std::tuple(&simplicial_mesh::points, &simplicial_mesh::elements, &simplicial_mesh::tags);
 };
 
 /// A triangulation of CAD faces, conforming across their curves. `mesh.tags` are CAD faces.
@@ -44,6 +48,9 @@ struct surface_mesh {
     std::array<double, 2> t; ///< curve parameters of the two vertices
   };
   std::vector<curve_edge> curve_edges;
+
+  static constexpr auto fields = std::tuple(&surface_mesh::mesh, &surface_mesh::corner_uv,
+                                            &surface_mesh::vertex_hosts, &surface_mesh::curve_edges);
 };
 
 } // namespace dovetail

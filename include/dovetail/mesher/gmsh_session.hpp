@@ -10,8 +10,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/given_points_first.hpp"
 #include "dovetail/mesher/shells.hpp"
-#include "dovetail/parallel/fresh_memory.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 
 #include <gmsh.h>
 
@@ -33,31 +32,15 @@ struct gmsh_settings {
   double limit_seconds = 0;      ///< the child's wall clock
 };
 
-/// What the child sends back; an error's text, when not empty, stands for the mesh.
+/// What the child sends back.
 struct gmsh_answer {
-  std::string sizing_failure;
   std::vector<vec3> points;
   std::vector<simplex<3>> elements;
   std::size_t sizing_calls = 0;
-};
 
-inline byte_buffer encode(const gmsh_answer& answer) {
-  byte_writer bytes;
-  bytes.text(answer.sizing_failure);
-  bytes.array(answer.points);
-  bytes.array(answer.elements);
-  bytes.value(answer.sizing_calls);
-  return bytes.take();
-}
-inline gmsh_answer decode_gmsh_answer(const byte_buffer& bytes) {
-  byte_reader reader(bytes);
-  gmsh_answer answer;
-  answer.sizing_failure = reader.text();
-  answer.points = reader.array<vec3>();
-  answer.elements = reader.array<simplex<3>>();
-  answer.sizing_calls = reader.value<std::size_t>();
-  return answer;
-}
+  static constexpr auto fields =
+      std::tuple(&gmsh_answer::points, &gmsh_answer::elements, &gmsh_answer::sizing_calls);
+};
 
 /// One use of Gmsh, in a process that ends right after it.
 class gmsh_session {
@@ -90,6 +73,8 @@ public:
       return scale_ * size_at({x, y, z});
     });
     gmsh::model::mesh::generate(3);
+    if (!failure_.empty())
+      throw sizing_error(failure_);
     return answer();
   }
 
@@ -131,7 +116,6 @@ private:
 
   gmsh_answer answer() const {
     gmsh_answer result;
-    result.sizing_failure = failure_;
     result.sizing_calls = calls_;
     std::vector<std::size_t> nodes;
     std::vector<double> coordinates;
@@ -162,17 +146,15 @@ private:
 
 /// Runs in the child. Gmsh throws its messages as std::string. On used memory the same input gives other
 /// meshes: HXT reads what it has not initialised.
-inline byte_buffer run_gmsh(const gmsh_settings& settings, const simplicial_mesh<2>& boundary,
+inline gmsh_answer run_gmsh(const gmsh_settings& settings, const simplicial_mesh<2>& boundary,
                             const std::vector<bounded_body>& bodies, const any_sizing& size) {
-  return on_fresh_memory([&] {
-    try {
-      return encode(gmsh_session(settings, size).mesh(boundary, bodies));
-    } catch (const std::string& text) {
-      throw mesher_error(text);
-    } catch (const int code) {
-      throw mesher_error("error " + std::to_string(code));
-    }
-  });
+  try {
+    return gmsh_session(settings, size).mesh(boundary, bodies);
+  } catch (const std::string& text) {
+    throw mesher_error(text);
+  } catch (const int code) {
+    throw mesher_error("error " + std::to_string(code));
+  }
 }
 
 /// Meshes a piece in a child with fresh memory, and checks the result. Throws `mesher_error` when Gmsh fails,
@@ -187,17 +169,8 @@ inline mesher_result<3> mesh_with_gmsh(const gmsh_settings& settings, const mesh
     throw mesher_error(settings.name +
                        " does not take triangles that have elements on both sides; use TetGen");
   const auto bodies = bodies_of(input.boundary);
-  run_options alone;
-  alone.limit_seconds = settings.limit_seconds;
-  auto outcomes = parallel::processes{1}.run(
-      1, [&](std::size_t) { return run_gmsh(settings, input.boundary, bodies, size); }, alone);
-  task_outcome& outcome = outcomes.front();
-  require_done(outcome, settings.name);
-  auto answer = decode_gmsh_answer(outcome.result);
-  outcome.result = {};
-  if (!answer.sizing_failure.empty())
-    throw sizing_error(answer.sizing_failure);
-
+  auto answer = run_in_child(settings.name, settings.limit_seconds,
+                             [&] { return run_gmsh(settings, input.boundary, bodies, size); });
   mesher_result<3> result;
   result.mesh = with_given_points_first(input.boundary.points, answer.points, std::move(answer.elements));
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);

@@ -6,8 +6,7 @@
 
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/parameter_square.hpp"
-#include "dovetail/parallel/fresh_memory.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
 
 #include <gmsh.h>
@@ -84,8 +83,7 @@ public:
       : surface_(surface), boundary_(boundary), size_(size), size_factor_(size_factor),
         square_(surface, boundary) {}
 
-  /// The patch mesh, after the text of a sizing failure, which is empty when there was none.
-  byte_buffer run() {
+  patch_mesh run() {
     patch_mesh mesh;
     const auto loops = triangulate_loops(square_.xy, boundary_.segments);
     mesh.crossings = loops.crossings;
@@ -95,12 +93,11 @@ public:
       start();
       describe(sorted_segments(boundary_.segments, same_as_, square_.xy));
       gmsh::model::mesh::generate(2);
+      if (!failure_.empty())
+        throw sizing_error(failure_);
       collect(mesh);
     }
-    byte_writer out;
-    out.text(failure_);
-    out.array(encode(mesh));
-    return out.take();
+    return mesh;
   }
 
 private:
@@ -229,23 +226,13 @@ struct gmsh_frontal {
   patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
                         const any_sizing& size) const {
     const stopwatch clock;
-    run_options alone;
-    alone.limit_seconds = limit_seconds;
-    const auto run = [&](std::size_t) {
-      return dovetail::detail::on_fresh_memory([&] {
-        try {
-          return dovetail::detail::gmsh_patch_session(surface, boundary, size, size_scale).run();
-        } catch (const std::string& text) { // as Gmsh throws its messages
-          throw mesher_error(text);
-        }
-      });
-    };
-    auto outcomes = parallel::processes{1}.run(1, run, alone);
-    dovetail::detail::require_done(outcomes.front(), "Gmsh's surface mesher");
-    byte_reader in(outcomes.front().result);
-    if (const std::string failure = in.text(); !failure.empty())
-      throw sizing_error(failure);
-    patch_mesh mesh = decode_patch_mesh(in.array<std::byte>());
+    patch_mesh mesh = run_in_child("Gmsh's surface mesher", limit_seconds, [&] {
+      try {
+        return dovetail::detail::gmsh_patch_session(surface, boundary, size, size_scale).run();
+      } catch (const std::string& text) { // as Gmsh throws its messages
+        throw mesher_error(text);
+      }
+    });
     mesh.summary.name = "gmsh_frontal";
     mesh.summary.seconds = clock.seconds();
     return mesh;

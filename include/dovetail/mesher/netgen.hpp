@@ -10,8 +10,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/given_points_first.hpp"
 #include "dovetail/mesher/shells.hpp"
-#include "dovetail/parallel/fresh_memory.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/parallel/run_in_child.hpp"
 
 namespace nglib {
 #include <nglib.h>
@@ -146,24 +145,15 @@ private:
 
 /// Runs in the child, whose standard streams the worker has silenced. Netgen orders work by addresses, hence
 /// the fresh memory.
-inline byte_buffer run_netgen(const mesher::netgen& parameters, const simplicial_mesh<2>& boundary,
-                              const any_sizing& size) {
-  return on_fresh_memory([&] {
-    byte_writer bytes;
-    try {
-      const simplicial_mesh<3> mesh = netgen_session(parameters, size).mesh(boundary);
-      bytes.text("");
-      bytes.array(mesh.points);
-      bytes.array(mesh.elements);
-    } catch (const sizing_error& e) {
-      bytes.text(e.what());
-    } catch (const mesher_error&) {
-      throw;
-    } catch (...) { // Netgen has exceptions of its own
-      throw mesher_error("Netgen threw an exception");
-    }
-    return bytes.take();
-  });
+inline simplicial_mesh<3> run_netgen(const mesher::netgen& parameters, const simplicial_mesh<2>& boundary,
+                                     const any_sizing& size) {
+  try {
+    return netgen_session(parameters, size).mesh(boundary);
+  } catch (const error&) {
+    throw;
+  } catch (...) { // Netgen has exceptions of its own
+    throw mesher_error("Netgen threw an exception");
+  }
 }
 
 } // namespace dovetail::detail
@@ -177,17 +167,10 @@ inline mesher_result<3> netgen::operator()(const mesher_input<3>& input, const a
   if (sides.entries().size() != input.boundary.elements.size())
     throw mesher_error("Netgen does not take triangles that have elements on both sides; use TetGen");
   bodies_of(input.boundary); // throws on wrong orientation, where Netgen would not end
-  run_options alone;
-  alone.limit_seconds = limit_seconds;
-  auto outcomes = parallel::processes{1}.run(
-      1, [&](std::size_t) { return detail::run_netgen(*this, input.boundary, size); }, alone);
-  dovetail::detail::require_done(outcomes.front(), "Netgen");
-  byte_reader answer(outcomes.front().result);
-  if (const std::string failure = answer.text(); !failure.empty())
-    throw sizing_error(failure);
-  const auto points = answer.array<vec3>();
+  auto made =
+      run_in_child("Netgen", limit_seconds, [&] { return detail::run_netgen(*this, input.boundary, size); });
   mesher_result<3> result;
-  result.mesh = with_given_points_first(input.boundary.points, points, answer.array<simplex<3>>());
+  result.mesh = with_given_points_first(input.boundary.points, made.points, std::move(made.elements));
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
   check_mesher_result(input, result.mesh);
   result.summary.name = "netgen";

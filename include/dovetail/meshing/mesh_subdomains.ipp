@@ -12,7 +12,7 @@
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/final_errors.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 
 #include <algorithm>
@@ -25,6 +25,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -32,6 +33,14 @@
 namespace dovetail {
 
 namespace detail {
+
+/// What is kept in place of a piece that was given up.
+struct released_piece {
+  piece_summary summary;
+  piece_note note;
+
+  static constexpr auto fields = std::tuple(&released_piece::summary, &released_piece::note);
+};
 
 /// Finished pieces by the numbers of the present decomposition.
 template <int D>
@@ -45,7 +54,8 @@ public:
   const std::vector<content_key>& keys() const { return keys_; }
   void place(local_id subdomain, content_key key) { keys_[static_cast<std::size_t>(subdomain)] = key; }
   simplicial_piece<D> load(local_id subdomain) const {
-    simplicial_piece<D> piece = piece_of<D>(store_->get(keys_.at(static_cast<std::size_t>(subdomain))));
+    auto piece =
+        store_->template value<finished_piece<D>>(keys_.at(static_cast<std::size_t>(subdomain))).piece;
     piece.subdomain = subdomain;
     piece.skeleton_points = skeleton_points_(subdomain);
     return piece;
@@ -55,35 +65,25 @@ public:
   /// run needs them all and no note is kept.
   void release(local_id subdomain, const piece_note& note) const {
     const content_key key = keys_.at(static_cast<std::size_t>(subdomain));
-    if (D == 3 && !note.files.empty()) {
-      byte_writer bytes;
-      encode(bytes, summary_of(store_->get(key)));
-      dovetail::encode(bytes, note);
-      store_->keep(key_of_note(key), bytes.take());
-    }
+    if (D == 3 && !note.files.empty())
+      store_->keep_value(key_of_note(key),
+                         released_piece{store_->template value<finished_piece<D>>(key).summary, note});
     store_->release(key);
   }
   std::optional<piece_note> released(local_id subdomain) const {
-    const auto found = find_released(keys_.at(static_cast<std::size_t>(subdomain)));
-    if (!found)
-      return std::nullopt;
-    byte_reader bytes(*found);
-    decode_summary(bytes);
-    return decode_note(bytes);
+    auto found = find_released(keys_.at(static_cast<std::size_t>(subdomain)));
+    return found ? std::optional(std::move(found->note)) : std::nullopt;
   }
-  /// The summary, and behind it the note, of a piece that was given up and is in the files of the note.
-  std::optional<byte_buffer> find_released(content_key key) const {
-    auto found = store_->find(key_of_note(key));
-    if (!found)
-      return std::nullopt;
-    byte_reader bytes(*found);
-    decode_summary(bytes);
-    const auto files = decode_note(bytes).files;
-    const bool there = std::all_of(files.begin(), files.end(), [](const piece_note::file& file) {
+  /// A piece that was given up and is in the files of the note.
+  std::optional<released_piece> find_released(content_key key) const {
+    auto found = store_->template find_value<released_piece>(key_of_note(key));
+    const auto is_there = [](const piece_note::file& file) {
       std::error_code missing;
       return std::filesystem::file_size(file.path, missing) == file.bytes && !missing;
-    });
-    return there ? std::move(found) : std::nullopt;
+    };
+    if (found && !std::all_of(found->note.files.begin(), found->note.files.end(), is_there))
+      found.reset();
+    return found;
   }
 
 private:
@@ -135,7 +135,7 @@ private:
   std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
   box3 place(const piece_input<D>& input) const { return size_.is_refined() ? place_of(input) : box3{}; }
 
-  byte_buffer attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
+  finished_piece<D> attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
     const bool climbs = rung < ladder_.size();
     return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
                          faster_in(size_.near(place(input)), box_around(input.boundary.boundary.points)),
@@ -147,12 +147,11 @@ private:
     round.order = largest_first();
     round.on_progress = options_.on_progress;
     round.stage = rung == 0 ? "meshing" : "meshing again";
-    auto outcomes = run_tasks_.run(
-        pending_.size(),
-        [&](std::size_t k) { return with_final_errors([&] { return reply(pending_[k], rung); }); }, round);
+    auto results = map_tasks(
+        run_tasks_, pending_.size(), [&](std::size_t k) { return receipt_of(pending_[k], rung); }, round);
     std::vector<piece_failure> failed;
-    for (std::size_t k = 0; k < outcomes.size(); ++k)
-      if (!accept(pending_[k], outcomes[k]))
+    for (std::size_t k = 0; k < results.size(); ++k)
+      if (!accept(pending_[k], results[k]))
         failed.push_back(std::move(pending_[k]));
     if (rung == 0)
       result_.summary.set("retried", static_cast<double>(failed.size()));
@@ -171,56 +170,49 @@ private:
     return order;
   }
 
-  /// Runs in the worker: the piece, unless it is in the store, and behind it the receipt and its length, so
-  /// that neither end moves the bytes of a piece.
-  byte_buffer reply(const piece_failure& piece, std::size_t rung) const {
+  /// Runs in the worker: makes the piece, unless the store has it.
+  piece_receipt receipt_of(const piece_failure& piece, std::size_t rung) const {
     const piece_input<D> input = source_(piece.subdomain);
     entity_store& store = shelf_->store();
     piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
-    auto finished = store.find(receipt.key);
-    if (!finished && store.is_common())
-      finished = shelf_->find_released(receipt.key);
-    receipt.reused = finished.has_value();
-    if (!finished)
-      finished = attempt(piece, input, rung);
-    receipt.summary = summary_of(*finished);
-    byte_buffer bytes; // of the piece, where the parent keeps it
-    if (!receipt.reused && store.is_shared())
-      store.keep(receipt.key, *std::move(finished));
-    else if (!receipt.reused)
-      bytes = *std::move(finished);
-    const byte_buffer said = receipt.encoded();
-    byte_writer length;
-    length.value<std::uint64_t>(said.size());
-    append(bytes, said);
-    append(bytes, length.take());
-    return bytes;
+    if (auto summary = find_summary(receipt.key)) {
+      receipt.reused = true;
+      receipt.summary = *std::move(summary);
+    } else {
+      auto finished = attempt(piece, input, rung);
+      byte_buffer bytes = encoded(finished);
+      if (store.is_shared())
+        store.keep(receipt.key, std::move(bytes));
+      else
+        receipt.piece = std::move(bytes);
+      receipt.summary = std::move(finished.summary);
+    }
+    receipt.summary.summary = brief(receipt.summary.summary);
+    return receipt;
   }
 
-  static std::pair<piece_receipt, byte_buffer> parts_of(byte_buffer reply) {
-    const auto cut = [&](std::size_t length) {
-      const byte_buffer tail(reply.end() - static_cast<std::ptrdiff_t>(length), reply.end());
-      reply.resize(reply.size() - length);
-      return tail;
-    };
-    const byte_buffer length = cut(sizeof(std::uint64_t));
-    const byte_buffer said = cut(static_cast<std::size_t>(byte_reader(length).value<std::uint64_t>()));
-    return {piece_receipt::decoded(said), std::move(reply)};
+  /// That of a piece which the store has, or had until it was given up.
+  std::optional<piece_summary> find_summary(content_key key) const {
+    if (auto kept = shelf_->store().template find_value<finished_piece<D>>(key))
+      return std::move(kept->summary);
+    if (auto released = shelf_->store().is_common() ? shelf_->find_released(key) : std::nullopt)
+      return std::move(released->summary);
+    return std::nullopt;
   }
 
-  /// Takes one outcome; false when the subdomain failed.
-  bool accept(piece_failure& piece, task_outcome& outcome) {
+  /// Takes one result; false when the subdomain failed.
+  bool accept(piece_failure& piece, task_result<piece_receipt>& result) {
     report& summary = result_.summary;
     summary.set("peak_rss_bytes",
-                std::max(summary.get("peak_rss_bytes"), static_cast<double>(outcome.peak_rss_bytes)));
-    if (!outcome.ok) {
-      piece.reasons.push_back(outcome.failure.empty() ? "the executor gave no reason" : outcome.failure);
-      piece.timed_out = piece.timed_out || outcome.timed_out;
+                std::max(summary.get("peak_rss_bytes"), static_cast<double>(result.peak_rss_bytes)));
+    if (!result.value) {
+      piece.reasons.push_back(result.failure);
+      piece.timed_out = piece.timed_out || result.timed_out;
       return false;
     }
-    auto [receipt, bytes] = parts_of(without_final_errors(std::move(outcome.result)));
-    if (!bytes.empty())
-      shelf_->store().keep(receipt.key, std::move(bytes));
+    piece_receipt receipt = *std::move(result.value);
+    if (receipt.piece)
+      shelf_->store().keep(receipt.key, *std::move(receipt.piece));
     summary.add("reused", receipt.reused ? 1 : 0);
     receipt.summary.summary.name = piece_name(piece.subdomain);
     shelf_->place(piece.subdomain, receipt.key);

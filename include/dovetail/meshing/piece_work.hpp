@@ -1,8 +1,7 @@
 /// @file
-/// What a worker does for one subdomain: mesh, improve, check, measure, and turn the piece into bytes.
+/// What a worker does for one subdomain: mesh, improve, check and measure.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
@@ -12,7 +11,6 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
-#include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
@@ -20,6 +18,7 @@
 #include <cstddef>
 #include <exception>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,6 +39,18 @@ struct piece_summary {
   piece_counts counts;
   quality_statistics quality;
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
+
+  static constexpr auto fields =
+      std::tuple(&piece_summary::counts, &piece_summary::quality, &piece_summary::summary);
+};
+
+/// A piece as it is kept: without numbers that only the present skeleton gives it.
+template <int D>
+struct finished_piece {
+  piece_summary summary;
+  simplicial_piece<D> piece;
+
+  static constexpr auto fields = std::tuple(&finished_piece::summary, &finished_piece::piece);
 };
 
 /// The box in which a piece looks for refined sizes: that of its closed boundary, or of its regions.
@@ -93,39 +104,6 @@ inline std::string piece_name(local_id subdomain) {
   return "piece_" + std::to_string(subdomain);
 }
 
-inline void encode(byte_writer& to, const piece_summary& s) {
-  to.value(s.counts);
-  to.value(s.quality);
-  dovetail::encode(to, s.summary);
-}
-inline piece_summary decode_summary(byte_reader& from) {
-  piece_summary s;
-  s.counts = from.value<piece_counts>();
-  s.quality = from.value<quality_statistics>();
-  s.summary = decode_report(from);
-  return s;
-}
-
-/// A finished piece as bytes: its summary, and the mesh behind it, without numbers that only the present
-/// skeleton gives it.
-template <int D>
-byte_buffer finished_bytes(const piece_summary& summary, const simplicial_piece<D>& piece) {
-  byte_writer bytes;
-  encode(bytes, summary);
-  dovetail::encode(bytes, piece);
-  return bytes.take();
-}
-inline piece_summary summary_of(const byte_buffer& finished) {
-  byte_reader reader(finished);
-  return decode_summary(reader);
-}
-template <int D>
-simplicial_piece<D> piece_of(const byte_buffer& finished) {
-  byte_reader reader(finished);
-  decode_summary(reader);
-  return decode_piece<D>(reader);
-}
-
 /// Does a policy's work on a piece, so that what goes wrong in it names the policy. Errors that no other
 /// policy can mend stay what they are.
 template <class Work>
@@ -173,14 +151,14 @@ report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, con
   return summary;
 }
 
-/// From the boundary of a subdomain to its finished bytes. `failed` are the reasons of the attempts before,
+/// From the boundary of a subdomain to its piece. `failed` are the reasons of the attempts before,
 /// and `stopped_by_clock` whether a time limit was among them; the summary keeps both. The piece stays as
 /// meshed when `improve` is null, for the last attempt, or holds nothing. Throws what the mesher, the
 /// improver and the checks throw, as `mesher_error` that names the policy.
 template <int D>
-byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
-                       const any_improver<D>* improve, const any_sizing& size,
-                       const std::vector<std::string>& failed, bool stopped_by_clock) {
+finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
+                             const any_improver<D>* improve, const any_sizing& size,
+                             const std::vector<std::string>& failed, bool stopped_by_clock) {
   const stopwatch clock;
   auto made =
       by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
@@ -203,7 +181,7 @@ byte_buffer make_piece(local_id subdomain, const piece_input<D>& input, const an
       static_cast<global_id>(made.mesh.points.size() - input.boundary.boundary.points.size());
   summary.quality = measure_quality(made.mesh);
   summary.summary.seconds = clock.seconds();
-  return finished_bytes<D>(summary, {no_id, input.boundary.material, std::move(made.mesh), {}});
+  return {std::move(summary), {no_id, input.boundary.material, std::move(made.mesh), {}}};
 }
 
 } // namespace detail

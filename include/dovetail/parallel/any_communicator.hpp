@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/communicator.hpp"
 #include "dovetail/parallel/error_codec.hpp"
@@ -120,18 +121,23 @@ public:
     return all;
   }
 
+  /// The same of values.
+  template <encodable T>
+    requires(!std::same_as<T, byte_buffer>)
+  std::vector<T> all_gather(const T& value) { return values_of<T>(all_gather(encoded(value))); }
+  template <encodable T>
+    requires(!std::same_as<T, byte_buffer>)
+  std::vector<T> gather(const T& value, int root = 0) { return values_of<T>(gather(encoded(value), root)); }
+
   /// The sum of the values of all lower ranks, and of all ranks.
   struct scan {
     std::int64_t before = 0;
     std::int64_t in_all = 0;
   };
   scan exclusive_scan(std::int64_t value) {
-    byte_writer bytes;
-    bytes.value(value);
     scan sums;
     int from = 0;
-    for (const byte_buffer& part : all_gather(bytes.take())) {
-      const auto theirs = byte_reader(part).value<std::int64_t>();
+    for (const std::int64_t theirs : all_gather(value)) {
       sums.before += from++ < rank() ? theirs : 0;
       sums.in_all += theirs;
     }
@@ -141,10 +147,10 @@ public:
   /// To some ranks (`peer` of each message), none twice, the own one allowed; returns what has come, by rank.
   /// Nobody needs to know from whom something comes. Tags are not looked at.
   std::vector<rank_message> exchange(std::vector<rank_message> out) {
-    byte_writer to;
+    std::vector<std::int32_t> to;
     for (const rank_message& message : out)
-      to.value(static_cast<std::int32_t>(message.peer));
-    const std::vector<byte_buffer> receivers = all_gather(to.take());
+      to.push_back(static_cast<std::int32_t>(message.peer));
+    const auto receivers = all_gather(to);
     const std::int32_t tag = next_tag();
     std::vector<rank_message> in;
     for (rank_message& message : out)
@@ -153,9 +159,8 @@ public:
       else
         send(message.peer, tag, std::move(message.bytes));
     std::size_t coming = 0;
-    for (const byte_buffer& theirs : receivers)
-      for (byte_reader from(theirs); !from.at_end();)
-        coming += from.value<std::int32_t>() == rank() ? 1 : 0;
+    for (const auto& theirs : receivers)
+      coming += static_cast<std::size_t>(std::count(theirs.begin(), theirs.end(), rank()));
     while (in.size() < coming)
       in.push_back(await(tag));
     std::sort(in.begin(), in.end(), [](const auto& a, const auto& b) { return a.peer < b.peer; });
@@ -187,6 +192,15 @@ public:
     return made;
   }
 
+  /// The same of a value, which where there is one rank need not become bytes.
+  template <class Work>
+  auto once(const Work& work) requires(!std::same_as<decltype(work()), byte_buffer>) {
+    using value = decltype(work());
+    return size() == 1
+               ? work()
+               : decoded<value>(once(std::function<byte_buffer()>([&] { return encoded<value>(work()); })));
+  }
+
   /// Returns when all ranks have come here. Where one comes with an error, all throw it: that of the lowest
   /// rank, of the same type.
   void agree(const std::exception_ptr& failure = nullptr) {
@@ -196,6 +210,14 @@ public:
   }
 
 private:
+  template <class T>
+  static std::vector<T> values_of(const std::vector<byte_buffer>& all) {
+    std::vector<T> values;
+    for (const byte_buffer& bytes : all)
+      values.push_back(decoded<T>(bytes));
+    return values;
+  }
+
   struct link {
     virtual ~link() = default;
     virtual int rank() = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,22 +50,18 @@ public:
   bool leads() const { return network_.leads(); }
   /// Whether other processes go through the same program, so that what is made `once` has to be bytes.
   bool has_others() const { return network_.size() > 1; }
-  /// What `work()` returns, bytes or a plain value, made by the process that leads alone; an error of it is
-  /// thrown by all.
+  /// What `work()` returns, made by the process that leads alone; an error of it is thrown by all. A value
+  /// is sent to the others (`encodable`).
   template <class Work>
   auto once(const Work& work) const {
-    using result = decltype(work());
-    if (!has_others())
-      return work();
-    if constexpr (std::same_as<result, byte_buffer>) {
-      return once_(work);
+    using value = decltype(work());
+    if constexpr (std::is_void_v<value>) {
+      if (!has_others())
+        work();
+      else
+        once_([&] { return work(), byte_buffer{}; });
     } else {
-      const byte_buffer known = once_([&] {
-        byte_writer to;
-        to.value(work());
-        return to.take();
-      });
-      return byte_reader(known).template value<result>();
+      return has_others() ? decoded<value>(once_([&] { return encoded<value>(work()); })) : work();
     }
   }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,

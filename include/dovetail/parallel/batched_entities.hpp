@@ -5,18 +5,21 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/final_errors.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -29,13 +32,26 @@ struct entity_failure {
   std::string reason;
 };
 
-/// Entities by their keys. Consecutive ones that are missing make a batch, which is one task and one blob of
-/// the store; its key is that of its members, so a resumed run, where the same ones are missing, finds it
-/// again. Here are only keys: 40 bytes per entity, and the blobs where the store has no disk.
+namespace detail {
+
+/// What a worker says of a batch.
+struct made_batch {
+  bool is_new = false;              ///< and was not found
+  std::optional<byte_buffer> bytes; ///< where the worker cannot reach the store
+
+  static constexpr auto fields = std::tuple(&made_batch::is_new, &made_batch::bytes);
+};
+
+} // namespace detail
+
+/// Values of one type by their keys. Consecutive ones that are missing make a batch, which is one task and
+/// one blob of the store; its key is that of its members, so a resumed run, where the same ones are missing,
+/// finds it again. Here are only keys: 40 bytes per entity, and the blobs where the store has no disk.
+template <encodable Entity>
 class batched_entities {
 public:
   /// Makes the entities of the given numbers; runs in a task.
-  using maker = std::function<std::vector<byte_buffer>(const std::vector<std::size_t>& entities)>;
+  using maker = std::function<std::vector<Entity>(const std::vector<std::size_t>& entities)>;
 
   explicit batched_entities(std::shared_ptr<entity_store> store) : store_(std::move(store)) {}
 
@@ -64,13 +80,13 @@ public:
     return failures;
   }
 
-  /// Calls `use(i, bytes)` for each key in turn. A blob is read once, and held from its first entity in
+  /// Calls `use(i, entity)` for each key in turn. A blob is read once, and held from its first entity in
   /// `keys` to its last. Throws `io_error` when one is missing or damaged.
   template <class Use>
   void for_each(std::span<const content_key> keys, const Use& use) const {
     struct open_batch {
       std::size_t uses = 0;
-      std::vector<byte_buffer> members;
+      std::vector<Entity> members;
     };
     std::unordered_map<content_key, open_batch, content_key_hash> open;
     for (const content_key key : keys)
@@ -79,7 +95,7 @@ public:
       const place at = places_.at(keys[i]);
       open_batch& held = open[at.batch];
       if (held.members.empty())
-        held.members = members_of(store_->get(at.batch));
+        held.members = store_->value<std::vector<Entity>>(at.batch);
       use(i, std::as_const(held.members[at.member]));
       if (--held.uses == 0)
         open.erase(at.batch);
@@ -139,20 +155,18 @@ private:
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
     stable_sort_all(options.order,
                     [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
-    auto outcomes = run.run(
-        batches.size(),
-        [&](std::size_t b) {
-          return detail::with_final_errors([&] { return make_batch(batches[b], make); });
-        },
-        options);
+    auto results = map_tasks(
+        run, batches.size(), [&](std::size_t b) { return make_batch(batches[b], make); }, options);
     std::vector<content_key> kept;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       const std::vector<std::size_t>& members = batches[b].members;
-      if (!outcomes[b].ok) {
-        fail(batches[b], std::move(outcomes[b].failure));
+      if (!results[b].value) {
+        fail(batches[b], std::move(results[b].failure));
         continue;
       }
-      accept(batches[b], detail::without_final_errors(std::move(outcomes[b].result)));
+      made_ += results[b].value->is_new ? members.size() : 0;
+      if (auto& bytes = results[b].value->bytes)
+        store_->keep(batches[b].key, *std::move(bytes));
       kept.push_back(batches[b].key);
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
@@ -160,33 +174,15 @@ private:
     store_->exchange(run.network(), kept);
   }
 
-  /// In a worker: the blob, unless the worker has put that into the store itself, and behind it whether it
-  /// was made and not found.
-  byte_buffer make_batch(const batch& wanted, const maker& make) const {
-    const bool found = store_->is_shared() && store_->find(wanted.key);
-    byte_writer bytes;
-    if (!found)
-      for (const byte_buffer& member : make(wanted.members))
-        bytes.array(member);
-    if (!found && store_->is_shared())
-      store_->keep(wanted.key, std::exchange(bytes, {}).take());
-    bytes.value<std::uint8_t>(!found);
-    return bytes.take();
-  }
-
-  void accept(const batch& finished, byte_buffer reply) {
-    if (reply.back() != std::byte{0})
-      made_ += finished.members.size();
-    reply.pop_back();
+  /// In a worker, which puts it into the store itself where it can.
+  detail::made_batch make_batch(const batch& wanted, const maker& make) const {
+    if (store_->is_shared() && store_->find(wanted.key))
+      return {false, {}};
+    byte_buffer bytes = encoded(make(wanted.members));
     if (!store_->is_shared())
-      store_->keep(finished.key, std::move(reply));
-  }
-
-  static std::vector<byte_buffer> members_of(const byte_buffer& bytes) {
-    std::vector<byte_buffer> members;
-    for (byte_reader in(bytes); !in.at_end();)
-      members.push_back(in.array<std::byte>());
-    return members;
+      return {true, std::move(bytes)};
+    store_->keep(wanted.key, std::move(bytes));
+    return {true, {}};
   }
 
   std::shared_ptr<entity_store> store_;

@@ -6,7 +6,7 @@
 #include "dovetail/core/shared_array.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/final_errors.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
 
 #include <algorithm>
@@ -43,33 +43,24 @@ public:
     if (run.has_others() && store.is_common())
       file_ = store.place_of_file(name);
     if (file_)
-      run_.once([this] {
-        make_file();
-        return true;
-      });
+      run_.once([this] { make_file(); });
     else if (run.has_others() || run.shares_process())
       memory_ = own_memory();
     else
       memory_ = mapped(-1, PROT_READ | PROT_WRITE);
   }
 
-  /// Runs `task(i)` for each i: which write, and return what is wanted on all ranks. An error of a task is
-  /// thrown.
-  std::vector<byte_buffer> fill(std::size_t count, const task_function& task, const run_options& options) {
-    std::vector<byte_buffer> results;
+  /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
+  template <class Task>
+  void fill(std::size_t count, const Task& task, const run_options& options) {
     if (run_.has_others() && !file_) {
       for (std::size_t i = 0; i < count; ++i)
-        results.push_back(task(i));
-      return results;
+        task(i);
+      return;
     }
-    auto outcomes = run_.run(
-        count, [&](std::size_t i) { return detail::with_final_errors([&] { return task(i); }); }, options);
-    for (task_outcome& outcome : outcomes) {
-      if (!outcome.ok)
-        throw mesh_error(options.stage + ": " + outcome.failure);
-      results.push_back(detail::without_final_errors(std::move(outcome.result)));
-    }
-    return results;
+    for (const auto& result : map_tasks(run_, count, task, options))
+      if (!result.value)
+        throw mesh_error(options.stage + ": " + result.failure);
   }
 
   /// In a task: no two write the same bytes. Throws `io_error`, when the disk is full for example.

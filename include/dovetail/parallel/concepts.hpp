@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -24,6 +25,10 @@ struct task_outcome {
   bool timed_out = false; ///< a wall-clock limit, the last resort, was reached: the task's, or within it
   double seconds = 0;     ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
+
+  static constexpr auto fields =
+      std::tuple(&task_outcome::ok, &task_outcome::result, &task_outcome::failure, &task_outcome::crashed,
+                 &task_outcome::timed_out, &task_outcome::seconds, &task_outcome::peak_rss_bytes);
 };
 
 /// How a batch of tasks is run.

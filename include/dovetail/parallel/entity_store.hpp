@@ -4,6 +4,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
@@ -46,6 +47,23 @@ public:
     for (const content_key key : keys)
       names.push_back(name_of(key));
     exchange_blobs(*disk_, network, names);
+  }
+
+  /// A value that was kept; nothing when it is not there, or its file is damaged.
+  template <encodable T>
+  std::optional<T> find_value(content_key key) const {
+    const auto bytes = find(key);
+    return bytes ? std::optional(decoded<T>(*bytes)) : std::nullopt;
+  }
+  /// Throws `io_error` when it is missing or damaged.
+  template <encodable T>
+  T value(content_key key) const {
+    return decoded<T>(get(key));
+  }
+  /// Throws `io_error` when it cannot be written.
+  template <encodable T>
+  void keep_value(content_key key, const T& value) {
+    keep(key, encoded(value));
   }
 
   /// Nothing when the entity is not there, or its file is damaged.

@@ -2,7 +2,6 @@
 /// Where the ranks of a run are, and which of them work at a time. Linux.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/available_processors.hpp"
@@ -13,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,9 @@ struct rank_place {
   std::string machine;                  ///< the same for ranks of one machine, whatever container they are in
   std::vector<std::int32_t> processors; ///< that it may use
   std::int32_t workers = 1;
+
+  static constexpr auto fields =
+      std::tuple(&rank_place::machine, &rank_place::processors, &rank_place::workers);
 };
 
 /// That of the calling rank. Ranks that are threads of one process count as machines: they stand for such.
@@ -38,20 +41,7 @@ inline rank_place own_place(const any_communicator& network, int workers) {
 
 /// Those of all ranks. Collective.
 inline std::vector<rank_place> all_places(any_communicator network, int workers) {
-  const rank_place own = own_place(network, workers);
-  byte_writer to;
-  to.text(own.machine);
-  to.array(own.processors);
-  to.value(own.workers);
-  std::vector<rank_place> places;
-  for (const byte_buffer& theirs : network.all_gather(to.take())) {
-    byte_reader from(theirs);
-    rank_place& place = places.emplace_back();
-    place.machine = from.text();
-    place.processors = from.array<std::int32_t>();
-    place.workers = from.value<std::int32_t>();
-  }
-  return places;
+  return network.all_gather(own_place(network, workers));
 }
 
 /// The ranks of one machine that work in a run of tasks: as many as it has processors for their workers, at

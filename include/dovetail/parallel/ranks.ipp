@@ -42,30 +42,6 @@ inline std::vector<task_outcome> run_here(std::size_t count, const task_function
   return outcomes;
 }
 
-inline void encode_outcome(byte_writer& to, std::size_t index, const task_outcome& outcome) {
-  to.value<std::uint64_t>(index);
-  to.value<std::uint8_t>(outcome.ok);
-  to.value<std::uint8_t>(outcome.crashed);
-  to.value<std::uint8_t>(outcome.timed_out);
-  to.value(outcome.seconds);
-  to.value(outcome.peak_rss_bytes);
-  to.text(outcome.failure);
-  to.array(outcome.result);
-}
-
-inline void decode_outcomes(const byte_buffer& bytes, std::vector<task_outcome>& outcomes) {
-  for (byte_reader from(bytes); !from.at_end();) {
-    task_outcome& outcome = outcomes.at(static_cast<std::size_t>(from.value<std::uint64_t>()));
-    outcome.ok = from.value<std::uint8_t>() != 0;
-    outcome.crashed = from.value<std::uint8_t>() != 0;
-    outcome.timed_out = from.value<std::uint8_t>() != 0;
-    outcome.seconds = from.value<double>();
-    outcome.peak_rss_bytes = from.value<std::uint64_t>();
-    outcome.failure = from.text();
-    outcome.result = from.array<std::byte>();
-  }
-}
-
 } // namespace dovetail::detail
 
 namespace dovetail::parallel {
@@ -92,12 +68,13 @@ DOVETAIL_INLINE std::vector<task_outcome> ranks::run(std::size_t count, const ta
           ? detail::process_pool(count, task, options, static_cast<std::size_t>(worker_count_), &feed).run()
           : detail::run_here(count, task, options, feed, network_);
   const auto order = detail::start_order(count, options);
-  byte_writer done;
+  std::vector<std::pair<std::size_t, task_outcome>> done; // with the numbers of the tasks
   for (const std::size_t place : feed.finished_places())
-    detail::encode_outcome(done, order[place], mine[order[place]]);
+    done.emplace_back(order[place], std::move(mine[order[place]]));
   auto network = network_;
-  for (const byte_buffer& theirs : network.all_gather(done.take()))
-    detail::decode_outcomes(theirs, mine);
+  for (auto& theirs : network.all_gather(done))
+    for (auto& [number, outcome] : theirs)
+      mine.at(number) = std::move(outcome);
   options.on_progress(options.stage, count, count);
   return mine;
 }

@@ -2,7 +2,7 @@
 /// What ranks with spools of their own, on disks that the others do not see, give each other.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
@@ -13,10 +13,23 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+namespace detail {
+
+/// One of the named blobs on its way to a rank.
+struct sent_blob {
+  std::size_t name = 0;
+  std::optional<byte_buffer> blob; ///< none where it was damaged
+
+  static constexpr auto fields = std::tuple(&sent_blob::name, &sent_blob::blob);
+};
+
+} // namespace detail
 
 /// Gives each rank the blobs of these names that its spool has not and another one's has, from the lowest
 /// such rank; one that is damaged there counts as absent. Collective, with the same names; throws `io_error`
@@ -24,14 +37,10 @@ namespace dovetail {
 inline void exchange_blobs(const spool& mine, any_communicator network,
                            const std::vector<std::string>& names) {
   constexpr std::size_t at_once = 16;
-  byte_writer listing;
   std::vector<std::uint8_t> here;
   for (const std::string& name : names)
     here.push_back(mine.has(name) ? 1 : 0);
-  listing.array(here);
-  std::vector<std::vector<std::uint8_t>> of_rank;
-  for (const byte_buffer& theirs : network.all_gather(listing.take()))
-    of_rank.push_back(byte_reader(theirs).array<std::uint8_t>());
+  const std::vector<std::vector<std::uint8_t>> of_rank = network.all_gather(here);
   const auto owner_of = [&](std::size_t i) {
     return std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& has) { return has[i] != 0; }) -
            of_rank.begin();
@@ -48,27 +57,20 @@ inline void exchange_blobs(const spool& mine, any_communicator network,
         coming += here[i] != 0 ? 0 : 1;
         continue;
       }
-      std::optional<byte_buffer> message; // read once, if anybody wants it
+      std::optional<byte_buffer> message; // a `sent_blob`, read once, if anybody wants it
       for (std::size_t r = 0; r < of_rank.size(); ++r)
         if (of_rank[r][i] == 0) {
-          if (!message) {
-            byte_writer to;
-            to.value<std::uint64_t>(i);
-            if (const auto blob = mine.read(names[i]))
-              to.array(*blob);
-            message = to.take();
-          }
+          if (!message)
+            message = encoded(detail::sent_blob{i, mine.read(names[i])});
           network.send(static_cast<int>(r), tag, *message);
         }
     }
     for (; coming > 0; --coming) {
-      const byte_buffer message = network.await(tag).bytes;
-      byte_reader from(message);
-      const auto i = static_cast<std::size_t>(from.value<std::uint64_t>());
-      if (from.at_end())
+      const auto sent = decoded<detail::sent_blob>(network.await(tag).bytes);
+      if (!sent.blob)
         continue;
       try {
-        mine.write(names[i], from.array<std::byte>());
+        mine.write(names[sent.name], *sent.blob);
       } catch (...) {
         failure = std::current_exception();
       }
@@ -80,16 +82,14 @@ inline void exchange_blobs(const spool& mine, any_communicator network,
 /// The same of all blobs that any of the ranks has whole; damaged ones are removed first. For a run that goes
 /// on, maybe with other ranks. Reads all blobs.
 inline void exchange_all_blobs(const spool& mine, any_communicator network) {
-  byte_writer listing;
+  std::vector<std::string> whole, names;
   for (const std::string& name : mine.names())
     if (mine.read(name))
-      listing.text(name);
+      whole.push_back(name);
     else
       mine.remove(name);
-  std::vector<std::string> names;
-  for (const byte_buffer& theirs : network.all_gather(listing.take()))
-    for (byte_reader from(theirs); !from.at_end();)
-      names.push_back(from.text());
+  for (const auto& theirs : network.all_gather(whole))
+    append(names, theirs);
   sort_unique(names);
   exchange_blobs(mine, std::move(network), names);
 }

@@ -2,7 +2,6 @@
 /// Any distributed graph partitioner behind one type.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
@@ -52,12 +51,8 @@ public:
     if (!of_whole_)
       return parts_of_all(network, rows_of_rank(graph, network.rank(), network.size()), parts);
     const auto who = [&] { return named_policy("partitioner", name_); };
-    const byte_buffer known = network.once([&] {
-      byte_writer to;
-      to.array(call_policy<partition_error>(who, [&] { return of_whole_(graph, parts); }));
-      return to.take();
-    });
-    auto all = byte_reader(known).array<local_id>();
+    auto all = network.once(
+        [&] { return call_policy<partition_error>(who, [&] { return of_whole_(graph, parts); }); });
     detail::require_partition(all, graph.node_weights.size(), parts, who);
     return all;
   }
@@ -66,11 +61,10 @@ private:
   std::vector<local_id> parts_of_all(any_communicator& network, const distributed_csr_graph& graph,
                                      int parts) const {
     const auto who = [&] { return named_policy("partitioner", name_); };
-    byte_writer mine;
-    mine.array(call_policy<partition_error>(who, [&] { return call_(network, graph, parts); }));
+    const auto mine = call_policy<partition_error>(who, [&] { return call_(network, graph, parts); });
     std::vector<local_id> all;
-    for (const byte_buffer& theirs : network.all_gather(mine.take()))
-      append(all, byte_reader(theirs).array<local_id>());
+    for (const auto& theirs : network.all_gather(mine))
+      append(all, theirs);
     detail::require_partition(all, static_cast<std::size_t>(graph.node_count()), parts, who);
     return all;
   }

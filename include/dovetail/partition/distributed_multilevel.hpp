@@ -2,7 +2,6 @@
 /// What surrounds a library that partitions distributed graphs, so that it keeps the promises of the role.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/gathered.hpp"
@@ -39,11 +38,9 @@ struct graph_sums {
 
 /// Collective.
 inline graph_sums sums_of(any_communicator& network, const csr_graph& rows) {
-  byte_writer mine;
-  mine.value(graph_sums{sums_of(rows.node_weights), sums_of(rows.edge_weights)});
   graph_sums all;
-  for (const byte_buffer& theirs : network.all_gather(mine.take())) {
-    const auto more = byte_reader(theirs).value<graph_sums>();
+  for (const graph_sums& more :
+       network.all_gather(graph_sums{sums_of(rows.node_weights), sums_of(rows.edge_weights)})) {
     all.nodes.add(more.nodes);
     all.edges.add(more.edges);
   }
@@ -59,14 +56,11 @@ inline bool keeps_promise(any_communicator& network, const csr_graph& rows, cons
   const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
     std::transform(from.begin(), from.end(), to.begin(), to.begin(), std::plus<>());
   };
-  byte_writer mine;
-  mine.array(nodes);
-  mine.array(part_weights(rows, part, parts));
   std::vector<double> all_nodes(nodes.size(), 0), weights(nodes.size(), 0);
-  for (const byte_buffer& theirs : network.all_gather(mine.take())) {
-    byte_reader from(theirs);
-    add(from.array<double>(), all_nodes);
-    add(from.array<double>(), weights);
+  for (const auto& [their_nodes, their_weights] :
+       network.all_gather(std::pair(nodes, part_weights(rows, part, parts)))) {
+    add(their_nodes, all_nodes);
+    add(their_weights, weights);
   }
   return *std::min_element(all_nodes.begin(), all_nodes.end()) > 0 &&
          *std::max_element(weights.begin(), weights.end()) <= most * (1 + 1e-12);
@@ -98,11 +92,9 @@ std::vector<local_id> partition_distributed(any_communicator& network, const dis
   if (keeps_promise(network, graph.rows, part, parts, most))
     return part;
   const csr_graph whole = gather_rows(network, graph);
-  byte_writer mine;
-  mine.array(part);
   std::vector<local_id> all;
-  for (const byte_buffer& theirs : network.gather(mine.take()))
-    append(all, byte_reader(theirs).array<local_id>());
+  for (const auto& theirs : network.gather(part))
+    append(all, theirs);
   return own_share(network, graph, [&] {
     finish_partition(whole, all, parts, imbalance, 0);
     return all;

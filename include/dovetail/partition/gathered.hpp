@@ -2,7 +2,6 @@
 /// Any partitioner on a graph whose rows are spread over ranks.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/distributed_csr_graph.hpp"
@@ -21,12 +20,8 @@ namespace dovetail {
 inline csr_graph gather_rows(any_communicator& network, const distributed_csr_graph& graph) {
   if (network.size() == 1)
     return graph.rows;
-  byte_writer mine;
-  encode(mine, graph.rows);
   csr_graph whole;
-  for (const byte_buffer& theirs : network.gather(mine.take())) {
-    byte_reader from(theirs);
-    const csr_graph rows = decode_csr_graph(from);
+  for (const csr_graph& rows : network.gather(graph.rows)) {
     const std::int64_t edges_before = whole.offsets.back();
     for (std::size_t v = 1; v < rows.offsets.size(); ++v)
       whole.offsets.push_back(edges_before + rows.offsets[v]);
@@ -44,12 +39,7 @@ namespace detail {
 template <class Work>
 std::vector<local_id> own_share(any_communicator& network, const distributed_csr_graph& graph,
                                 const Work& work) {
-  const byte_buffer known = network.once([&] {
-    byte_writer to;
-    to.array(std::vector<local_id>(work()));
-    return to.take();
-  });
-  const auto all = byte_reader(known).array<local_id>();
+  const std::vector<local_id> all = network.once([&] { return std::vector<local_id>(work()); });
   if (all.size() != static_cast<std::size_t>(graph.node_count()))
     throw partition_error("the partitioner put " + std::to_string(all.size()) +
                           " nodes into parts, the graph has " + std::to_string(graph.node_count()));

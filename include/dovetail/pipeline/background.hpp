@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 namespace dovetail {
@@ -39,6 +40,10 @@ struct mesh_plan {
   int subdomains = 1;
   double coarse_scale = 1; ///< factor between coarse and final size
   double size_scale = 1;   ///< factor between final size and that given (`generate_options::enlarged_above`)
+
+  static constexpr auto fields =
+      std::tuple(&mesh_plan::predicted_elements, &mesh_plan::relative_error, &mesh_plan::subdomains,
+                 &mesh_plan::coarse_scale, &mesh_plan::size_scale);
 };
 
 /// The field given as the plan has it.
@@ -84,6 +89,10 @@ struct background_result {
   std::vector<size_ball> bounds; ///< where the surface asks for smaller sizes (D = 2)
   any_sizing size;               ///< the field given, times the plan's factor, within these bounds
   report summary;
+
+  /// All but the field, which is a function.
+  static constexpr auto fields = std::tuple(&background_result::mesh, &background_result::plan,
+                                            &background_result::bounds, &background_result::summary);
 };
 
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as

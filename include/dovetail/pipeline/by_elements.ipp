@@ -29,6 +29,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -111,23 +112,18 @@ private:
         [&](std::size_t p) {
           const auto id = static_cast<local_id>(p);
           const auto piece = io::load_checked(mesh_, id);
-          const auto [known, supers] =
+          auto [known, supers] =
               simplify_piece<D>(piece, mesh_.skeleton, sides_[id], given_.simplify_by, given_.super_elements);
           io::mesh_hasher hash;
           io::hash_elements_by_place(hash, piece);
-          byte_writer reply;
-          reply.value(hash);
-          encode(reply, known);
-          const byte_buffer bytes = supers.encoded();
           key_maker make;
-          tasks_.keep(make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()))(bytes).key(), bytes,
-                      reply);
-          return reply.take();
+          make(std::int64_t{id})(static_cast<std::int64_t>(hash.value()));
+          return std::tuple(hash, std::move(known), tasks_.keep_by_content(make, supers));
         },
-        [&](std::size_t p, byte_reader& from) {
-          hash_.merge(from.value<io::mesh_hasher>());
-          pieces[p] = decode_simplified_piece(from);
-          keys_[p] = tasks_.take_kept(from);
+        [&](std::size_t p, std::tuple<io::mesh_hasher, simplified_piece, kept_value> made) {
+          hash_.merge(std::get<0>(made));
+          pieces[p] = std::move(std::get<1>(made));
+          keys_[p] = tasks_.take_kept(std::move(std::get<2>(made)));
         });
     tasks_.exchange(keys_);
     joined_ = join_supers<D>(mesh_.skeleton, pieces, given_.seam_weight);
@@ -141,12 +137,8 @@ private:
     const stopwatch clock;
     any_communicator network = given_.run_tasks.network();
     std::vector<local_id> part = given_.partitioner.of_whole(network, joined_.graph, ranks_);
-    const byte_buffer known = given_.run_tasks.once([&] {
-      byte_writer to;
-      to.array(connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance));
-      return to.take();
-    });
-    rank_of_super_ = byte_reader(known).template array<local_id>();
+    rank_of_super_ = given_.run_tasks.once(
+        [&] { return connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance); });
     const auto material_of = [&](std::size_t p) { return mesh_.counts[p].material; };
     const auto for_each_super = [&](const auto& visit) {
       for (std::size_t p = 0; p < old_pieces(); ++p)
@@ -181,7 +173,7 @@ private:
 
   /// In a task: where the elements of an old piece go.
   moves_of_piece moves_of(local_id p) const {
-    auto supers = elements_of_supers::decoded(store_->get(keys_[index(p)]));
+    auto supers = store_->template value<elements_of_supers>(keys_[index(p)]);
     for (local_id& at : supers.super_of_element)
       at = piece_of_super_[index(joined_.first_of_piece[index(p)] + at)];
     return {std::move(supers.super_of_element), std::move(supers.refused)};

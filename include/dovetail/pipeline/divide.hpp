@@ -23,6 +23,11 @@ struct divided_background {
   decomposition pieces;
   interface_angles angles;
   report simplification, partition;
+
+  /// All but the sides, which follow from the mesh.
+  static constexpr auto fields = std::tuple(
+      &divided_background::weights, &divided_background::side_states, &divided_background::pieces,
+      &divided_background::angles, &divided_background::simplification, &divided_background::partition);
 };
 
 /// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws what the rule, the

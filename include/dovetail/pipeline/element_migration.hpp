@@ -9,8 +9,6 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/mesh/quality_codec.hpp"
-#include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/redistribution/piece_cut.hpp"
@@ -22,6 +20,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -74,28 +73,21 @@ std::vector<piece_cut<D>> cut_old_pieces(const distributed_simplicial_mesh<D>& m
         const moves_of_piece goes_to = moves.of_piece(p);
         const auto table = build_sides(piece.mesh);
         const auto on_skeleton = find_skeleton_sides<D>(piece, table, mesh.skeleton, sides[p]);
-        byte_writer reply;
-        encode(reply, cut_piece<D>(piece, table, on_skeleton, goes_to.new_piece_of_element, goes_to.refused));
-        return reply.take();
+        return cut_piece<D>(piece, table, on_skeleton, goes_to.new_piece_of_element, goes_to.refused);
       },
-      [&](std::size_t k, byte_reader& from) {
-        cuts[static_cast<std::size_t>(to_cut[k])] = decode_cut<D>(from);
-      });
+      [&](std::size_t k, piece_cut<D> cut) { cuts[static_cast<std::size_t>(to_cut[k])] = std::move(cut); });
   return cuts;
 }
 
-/// The bytes of a new piece.
 template <int D>
-byte_buffer gather_elements(const distributed_simplicial_mesh<D>& mesh, const element_moves& moves,
-                            const new_skeleton<D>& made, const std::vector<std::vector<local_id>>& own_points,
-                            std::size_t n) {
+simplicial_piece<D> gather_elements(const distributed_simplicial_mesh<D>& mesh, const element_moves& moves,
+                                    const new_skeleton<D>& made,
+                                    const std::vector<std::vector<local_id>>& own_points, std::size_t n) {
   gathered_piece<D> gathered(static_cast<local_id>(n), moves.materials[n]);
   for (const local_id p : moves.sources[n])
     gathered.add(io::load_checked(mesh, p), moves.of_piece(p).new_piece_of_element, made,
                  own_points[static_cast<std::size_t>(p)]);
-  byte_writer bytes;
-  encode(bytes, gathered.finish(made.fine));
-  return bytes.take();
+  return gathered.finish(made.fine);
 }
 
 } // namespace detail
@@ -141,29 +133,21 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
       "moving elements", moves.sizes,
       [&](std::size_t n) {
         const content_key key = key_maker(moves.key)(static_cast<std::int64_t>(n)).key();
-        const auto found = store->is_shared() ? store->find(key) : std::nullopt;
-        const byte_buffer bytes = found ? *found : detail::gather_elements(mesh, moves, made, own_points, n);
-        byte_reader written(bytes);
-        const auto piece = decode_piece<D>(written);
+        const auto found = store->is_shared() ? store->find_value<simplicial_piece<D>>(key) : std::nullopt;
+        const auto piece = found ? *found : detail::gather_elements(mesh, moves, made, own_points, n);
         io::mesh_hasher hash;
         io::hash_elements_by_place(hash, piece);
-        byte_writer reply;
-        reply.value(hash);
-        reply.value(piece_counts{
+        const piece_counts counts{
             piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
-            static_cast<global_id>(piece.mesh.elements.size())});
-        encode(reply, measure_quality(piece.mesh));
-        if (found)
-          tasks.keep_found(key, reply);
-        else
-          tasks.keep(key, bytes, reply);
-        return reply.take();
+            static_cast<global_id>(piece.mesh.elements.size())};
+        return std::tuple(hash, counts, measure_quality(piece.mesh),
+                          found ? kept_value{key} : tasks.keep(key, piece));
       },
-      [&](std::size_t n, byte_reader& from) {
-        after.merge(from.value<io::mesh_hasher>());
-        to.counts[n] = from.value<piece_counts>();
-        to.quality[n] = decode_quality(from);
-        (*keys)[n] = tasks.take_kept(from);
+      [&](std::size_t n, std::tuple<io::mesh_hasher, piece_counts, quality_statistics, kept_value> moved) {
+        after.merge(std::get<0>(moved));
+        to.counts[n] = std::get<1>(moved);
+        to.quality[n] = std::get<2>(moved);
+        (*keys)[n] = tasks.take_kept(std::move(std::get<3>(moved)));
       });
   if (after.value() != moves.hash.value())
     throw mesh_error("elements were changed or lost on their way to other pieces");
@@ -172,9 +156,7 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
   result.seams = made.seams;
   to.skeleton = std::move(made.fine);
   to.load = [store, keys](local_id n) {
-    const byte_buffer bytes = store->get(keys->at(static_cast<std::size_t>(n)));
-    byte_reader from(bytes);
-    return decode_piece<D>(from);
+    return store->value<simplicial_piece<D>>(keys->at(static_cast<std::size_t>(n)));
   };
   to.material_names = mesh.material_names;
   to.face_names = mesh.face_names;

@@ -5,7 +5,7 @@
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/core/report_codec.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
@@ -97,10 +97,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   report account; // of decompositions that were given up
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     const content_key key = detail::key_of_given_up(background);
-    const auto find_given_up = [&] { return given_up->find(key).value_or(byte_buffer{}); };
-    if (const auto found = given_up ? given.run_tasks.once(find_given_up) : byte_buffer{}; !found.empty()) {
-      byte_reader from(found);
-      account = decode_report(from);
+    const auto find_given_up = [&] { return given_up->find_value<report>(key); };
+    if (auto found = given_up ? given.run_tasks.once(find_given_up) : std::nullopt) {
+      account = *std::move(found);
       continue;
     }
     try {
@@ -119,9 +118,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
         report kept = account;
         if (watch.stops() > 0)
           kept.add("stops_by_clock", watch.stops());
-        byte_writer to;
-        encode(to, kept);
-        given_up->keep(key, to.take());
+        given_up->keep_value(key, kept);
       }
     }
   }

@@ -6,8 +6,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/mesh/quality_codec.hpp"
-#include "dovetail/meshing/piece_codec.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
 #include "dovetail/pipeline/kept_tasks.hpp"
@@ -19,6 +17,7 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -90,28 +89,20 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         piece_counts counts = mesh.counts[p];
         counts.elements = static_cast<global_id>(piece.mesh.elements.size());
         counts.inner_points = static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size());
-        byte_writer bytes, reply;
-        encode(bytes, piece);
-        const byte_buffer encoded = bytes.take();
-        reply.value(seconds);
-        reply.value(counts);
-        encode(reply, measure_quality(piece.mesh));
         key_maker make;
-        tasks.keep(make(static_cast<std::int64_t>(p))(encoded).key(), encoded, reply);
-        return reply.take();
+        return std::tuple(seconds, counts, measure_quality(piece.mesh),
+                          tasks.keep_by_content(make(static_cast<std::int64_t>(p)), piece));
       },
-      [&](std::size_t p, byte_reader& from) {
-        result.summary.add("improver_seconds", from.value<double>());
-        result.mesh.counts[p] = from.value<piece_counts>();
-        result.mesh.quality[p] = decode_quality(from);
-        (*keys)[p] = tasks.take_kept(from);
+      [&](std::size_t p, std::tuple<double, piece_counts, quality_statistics, kept_value> improved) {
+        result.summary.add("improver_seconds", std::get<0>(improved));
+        result.mesh.counts[p] = std::get<1>(improved);
+        result.mesh.quality[p] = std::get<2>(improved);
+        (*keys)[p] = tasks.take_kept(std::move(std::get<3>(improved)));
       });
   tasks.exchange(*keys);
   result.quality = quality_of_whole(result.mesh);
   result.mesh.load = [store, keys](local_id p) {
-    const byte_buffer bytes = store->get(keys->at(static_cast<std::size_t>(p)));
-    byte_reader from(bytes);
-    return decode_piece<3>(from);
+    return store->value<mesh_piece>(keys->at(static_cast<std::size_t>(p)));
   };
   result.summary.seconds = clock.seconds();
   return result;

@@ -1,11 +1,9 @@
 /// @file
-/// The background mesh as bytes: in the spool of a run, where a resumed run finds it, or to be sent to those
-/// who share no memory with the one who made it. A sizing field is a function and stays with the caller; what
-/// the surface asks of it are data.
+/// The background mesh in the spool of a run, where a resumed run finds it. A sizing field is a function and
+/// stays with the caller; what the surface asks of it are data.
 #pragma once
 
-#include "dovetail/core/report_codec.hpp"
-#include "dovetail/mesh/mesh_codec.hpp"
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/background.hpp"
@@ -13,30 +11,6 @@
 #include <optional>
 
 namespace dovetail {
-
-template <int D>
-byte_buffer encode(const background_result<D>& background) {
-  byte_writer to;
-  encode(to, background.mesh);
-  to.value(background.plan);
-  to.array(background.bounds);
-  encode(to, background.summary);
-  return to.take();
-}
-
-/// Reads back what `encode` wrote, for the field that it was made by. Throws `input_error` when the data end
-/// early.
-template <int D>
-background_result<D> decode_background_result(const byte_buffer& bytes, const erased_sizing& size) {
-  byte_reader from(bytes);
-  background_result<D> background;
-  background.mesh = decode_background<D>(from);
-  background.plan = from.value<mesh_plan>();
-  background.bounds = from.array<size_ball>();
-  background.size = allowed_size<D>(enlarged(size, background.plan), background.bounds);
-  background.summary = decode_report(from);
-  return background;
-}
 
 namespace detail {
 
@@ -62,16 +36,15 @@ std::optional<background_result<D>> find_background(const std::optional<spool>& 
   const stopwatch clock;
   if (!disk)
     return std::nullopt;
-  const byte_buffer bytes = run.once([&] {
+  auto found = run.once([&] {
     return entity_store(disk, "background")
-        .find(detail::background_key(D, model, size))
-        .value_or(byte_buffer{});
+        .find_value<background_result<D>>(detail::background_key(D, model, size));
   });
-  if (bytes.empty())
+  if (!found)
     return std::nullopt;
-  auto found = decode_background_result<D>(bytes, size);
-  found.summary.seconds = clock.seconds(); // of this run
-  found.summary.set("kept", 1);
+  found->size = allowed_size<D>(enlarged(size, found->plan), found->bounds);
+  found->summary.seconds = clock.seconds(); // of this run
+  found->summary.set("kept", 1);
   return found;
 }
 
@@ -80,7 +53,7 @@ template <int D>
 void keep_background(const std::optional<spool>& disk, const any_geometry& model, const erased_sizing& size,
                      const background_result<D>& background, const any_executor& run) {
   if (disk && run.leads())
-    entity_store(disk, "background").keep(detail::background_key(D, model, size), encode(background));
+    entity_store(disk, "background").keep_value(detail::background_key(D, model, size), background);
 }
 
 } // namespace dovetail

@@ -1,34 +1,44 @@
 /// @file
-/// Tasks over pieces whose results are kept in an entity store: by the task itself where it can, else by the
-/// process that started it.
+/// Tasks over pieces, each of which makes a value that is kept in an entity store, by the task itself where
+/// it can, else by the process that started it.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/final_errors.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// What a task says of a value that is kept.
+struct kept_value {
+  content_key key = {};
+  std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
+
+  static constexpr auto fields = std::tuple(&kept_value::key, &kept_value::bytes);
+};
 
 struct kept_tasks {
   const any_executor& run_tasks;
   entity_store& store;
   progress on_progress = {};
 
-  /// Runs `task(i)` for each size, the largest first, and then `take(i, reader of what it gave)` in turn.
-  /// Throws `mesh_error` that names stage and task when one fails, the `io_error`, `sizing_error` and
-  /// `usage_error` of a task, and `cancelled`.
+  /// Runs `task(i)` for each size, the largest first, and then `take(i, what it gave)` in turn. Throws
+  /// `mesh_error` that names stage and task when one fails, what `map_tasks` throws, and `cancelled`.
   template <class Task, class Take>
   void run(const char* stage, const std::vector<global_id>& sizes, const Task& task, const Take& take) const {
     run_options options;
@@ -37,35 +47,40 @@ struct kept_tasks {
     stable_sort_all(options.order, [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
     options.on_progress = on_progress;
     options.stage = stage;
-    auto outcomes = run_tasks.run(
-        sizes.size(), [&](std::size_t i) { return detail::with_final_errors([&] { return task(i); }); },
-        options);
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      if (!outcomes[i].ok)
-        throw mesh_error(std::string(stage) + ", number " + std::to_string(i) + ": " + outcomes[i].failure);
-      const byte_buffer said = detail::without_final_errors(std::move(outcomes[i].result));
-      byte_reader from(said);
-      take(i, from);
+    auto results = map_tasks(run_tasks, sizes.size(), task, options);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!results[i].value)
+        throw mesh_error(std::string(stage) + ", number " + std::to_string(i) + ": " + results[i].failure);
+      take(i, *std::move(results[i].value));
     }
   }
-  /// In a task: keeps bytes under their key, or adds them to its reply.
-  void keep(content_key key, const byte_buffer& bytes, byte_writer& reply) const {
-    reply.value(key);
-    if (store.is_shared())
-      store.keep(key, bytes);
-    else
-      reply.array(bytes);
+  /// In a task: keeps a value under a key.
+  template <encodable T>
+  kept_value keep(content_key key, const T& value) const {
+    return keep_bytes(key, encoded(value));
   }
-  /// In a task: says that the store, a shared one, has the entity already.
-  void keep_found(content_key key, byte_writer& reply) const { reply.value(key); }
+  /// The same under a key of its own content; `make` has what tells it from equal ones of other tasks.
+  template <encodable T>
+  kept_value keep_by_content(key_maker make, const T& value) const {
+    byte_buffer bytes = encoded(value);
+    const content_key key = make(bytes).key();
+    return keep_bytes(key, std::move(bytes));
+  }
   /// After a run: gives each rank what others have kept, where their spools are not the same.
   void exchange(std::span<const content_key> keys) const { store.exchange(run_tasks.network(), keys); }
-  /// What `keep` or `keep_found` has said.
-  content_key take_kept(byte_reader& from) const {
-    const auto key = from.value<content_key>();
+  /// The key of what a task has said.
+  content_key take_kept(kept_value said) const {
+    if (said.bytes)
+      store.keep(said.key, *std::move(said.bytes));
+    return said.key;
+  }
+
+private:
+  kept_value keep_bytes(content_key key, byte_buffer bytes) const {
     if (!store.is_shared())
-      store.keep(key, from.array<std::byte>());
-    return key;
+      return {key, std::move(bytes)};
+    store.keep(key, std::move(bytes));
+    return {key, {}};
   }
 };
 

@@ -2,7 +2,6 @@
 /// The super-elements of one piece: its fine elements, joined by the rule that coarse sides are judged by.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/multilevel.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
@@ -13,6 +12,7 @@
 #include <cstddef>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,19 +23,8 @@ struct elements_of_supers {
   std::vector<local_id> super_of_element;
   std::vector<local_id> refused;
 
-  byte_buffer encoded() const {
-    byte_writer to;
-    to.array(super_of_element);
-    to.array(refused);
-    return to.take();
-  }
-  static elements_of_supers decoded(const byte_buffer& bytes) {
-    byte_reader from(bytes);
-    elements_of_supers supers;
-    supers.super_of_element = from.array<local_id>();
-    supers.refused = from.array<local_id>();
-    return supers;
-  }
+  static constexpr auto fields =
+      std::tuple(&elements_of_supers::super_of_element, &elements_of_supers::refused);
 };
 
 namespace detail {

@@ -6,6 +6,7 @@
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
+#include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 #include <memory>
@@ -31,10 +32,10 @@ struct skeleton_store {
   explicit skeleton_store(const std::shared_ptr<entity_store>& store)
       : lines(store), patches(store), segments(store) {}
 
-  batched_entities lines;
+  batched_entities<fine_line> lines;
   region_store patches;
-  batched_entities segments;              ///< of lines, per interface face
-  std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
+  batched_entities<face_segments> segments; ///< of lines, per interface face
+  std::vector<content_key> patches_apart;   ///< growing; of a skeleton of which no two triangles cross
 };
 
 /// Finds the skeleton of a decomposition into `subdomains` and remeshes what bounds its pieces, each line and

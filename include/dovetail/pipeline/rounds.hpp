@@ -8,7 +8,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/detours.hpp"
-#include "dovetail/decomposition/interface_angles_codec.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/pipeline/crossings.hpp"
@@ -151,22 +151,15 @@ private:
   std::vector<std::vector<local_id>> small_angles_of(const realized<D>& made) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
-    const byte_buffer found = given_.run_tasks.once([&] {
-      angles_ = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
-                                              given_.options);
-      byte_writer to;
-      encode(to, angles_);
-      for (const auto& sides : detail::places_of_small_angles(made, divided_.sides, angles_))
-        to.array(sides);
-      return to.take();
+    auto [angles, places] = given_.run_tasks.once([&] {
+      auto measured = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
+                                                    given_.options);
+      auto small = detail::places_of_small_angles(made, divided_.sides, measured);
+      return std::pair(std::move(measured), std::move(small));
     });
-    byte_reader from(found);
-    angles_ = decode_interface_angles(from);
-    std::vector<std::vector<local_id>> places;
-    while (!from.at_end())
-      places.push_back(from.array<local_id>());
+    angles_ = std::move(angles);
     intersection_.seconds += clock.seconds();
-    return places;
+    return std::move(places);
   }
 
   /// Whether nothing is to be done; does it otherwise.

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,29 +31,10 @@ struct piece_cut {
   std::vector<simplex<D - 1>> sides;
   std::vector<std::array<local_id, 2>> subdomains; ///< of the new pieces; oriented outwards of [0]
   std::vector<std::uint8_t> refused;               ///< not zero: the side ought to have been removed
+
+  static constexpr auto fields = std::tuple(&piece_cut::points, &piece_cut::places, &piece_cut::hosts,
+                                            &piece_cut::sides, &piece_cut::subdomains, &piece_cut::refused);
 };
-
-template <int D>
-void encode(byte_writer& to, const piece_cut<D>& cut) {
-  to.array(cut.points);
-  to.array(cut.places);
-  to.array(cut.hosts);
-  to.array(cut.sides);
-  to.array(cut.subdomains);
-  to.array(cut.refused);
-}
-
-template <int D>
-piece_cut<D> decode_cut(byte_reader& from) {
-  piece_cut<D> cut;
-  cut.points = from.array<local_id>();
-  cut.places = from.array<vec3>();
-  cut.hosts = from.array<host>();
-  cut.sides = from.array<simplex<D - 1>>();
-  cut.subdomains = from.array<std::array<local_id, 2>>();
-  cut.refused = from.array<std::uint8_t>();
-  return cut;
-}
 
 /// Cuts a piece between elements that go to different new pieces. `on_skeleton` is what
 /// `find_skeleton_sides` has found, `refused` lists sides of the table, growing. Linear.

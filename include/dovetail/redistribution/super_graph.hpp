@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -81,21 +82,10 @@ struct simplified_piece {
   csr_graph graph;                     ///< of its super-elements; nodes weigh their elements
   std::vector<local_id> super_at_side; ///< per side of the skeleton, as in `sides_of_piece`
   std::vector<double> price_of_side;   ///< of each such side as an interface; 1 for a good one
+
+  static constexpr auto fields = std::tuple(&simplified_piece::graph, &simplified_piece::super_at_side,
+                                            &simplified_piece::price_of_side);
 };
-
-inline void encode(byte_writer& to, const simplified_piece& piece) {
-  encode(to, piece.graph);
-  to.array(piece.super_at_side);
-  to.array(piece.price_of_side);
-}
-
-inline simplified_piece decode_simplified_piece(byte_reader& from) {
-  simplified_piece piece;
-  piece.graph = decode_csr_graph(from);
-  piece.super_at_side = from.array<local_id>();
-  piece.price_of_side = from.array<double>();
-  return piece;
-}
 
 /// The super-elements of a whole mesh.
 struct joined_supers {

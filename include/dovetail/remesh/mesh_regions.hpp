@@ -83,7 +83,7 @@ struct region_store {
   };
 
   std::shared_ptr<entity_store> entities;
-  batched_entities meshes;
+  batched_entities<patch_mesh> meshes;
   std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
 
   explicit region_store(std::shared_ptr<entity_store> store) : entities(std::move(store)), meshes(entities) {}
@@ -117,8 +117,7 @@ struct meshed_regions {
         regions.push_back(r);
         there.push_back(keys[r]);
       }
-    store.meshes.for_each(
-        there, [&](std::size_t i, const byte_buffer& bytes) { use(regions[i], decode_patch_mesh(bytes)); });
+    store.meshes.for_each(there, [&](std::size_t i, const patch_mesh& mesh) { use(regions[i], mesh); });
   }
 };
 

@@ -186,10 +186,10 @@ private:
         keys, costs, options_.triangles_per_task,
         [&](const std::vector<std::size_t>& wanted) {
           const task_model own(model_, run_);
-          std::vector<byte_buffer> encoded;
+          std::vector<patch_mesh> meshes;
           for (const std::size_t i : wanted)
-            encoded.push_back(encode(make(own.get(), regions[i])));
-          return encoded;
+            meshes.push_back(make(own.get(), regions[i]));
+          return meshes;
         },
         run_, run_options{.on_progress = options_.on_progress, .stage = options_.stage});
     for (const entity_failure& failure : failures)

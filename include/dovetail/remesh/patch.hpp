@@ -2,8 +2,7 @@
 /// The input and output of the patch remesher: one part of a surface with a planar parameter domain.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
-#include "dovetail/core/report_codec.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/simplex.hpp"
@@ -11,6 +10,7 @@
 #include <array>
 #include <concepts>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -64,38 +64,13 @@ struct patch_mesh {
   std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
   report summary;
 
+  static constexpr auto fields = std::tuple(
+      &patch_mesh::inner_uv, &patch_mesh::inner_points, &patch_mesh::triangles, &patch_mesh::crossings,
+      &patch_mesh::misplaced, &patch_mesh::folded, &patch_mesh::repeated_edges, &patch_mesh::summary);
+
   bool ok() const {
     return crossings.empty() && misplaced.empty() && folded.empty() && repeated_edges.empty();
   }
 };
-
-/// Encodes a patch mesh for executors.
-inline byte_buffer encode(const patch_mesh& mesh) {
-  byte_writer out;
-  out.array(mesh.inner_uv);
-  out.array(mesh.inner_points);
-  out.array(mesh.triangles);
-  out.array(mesh.crossings);
-  out.array(mesh.misplaced);
-  out.array(mesh.folded);
-  out.array(mesh.repeated_edges);
-  encode(out, mesh.summary);
-  return out.take();
-}
-
-/// Reads back what `encode` wrote; throws `input_error` when the data end early.
-inline patch_mesh decode_patch_mesh(const byte_buffer& buffer) {
-  byte_reader in(buffer);
-  patch_mesh mesh;
-  mesh.inner_uv = in.array<vec2>();
-  mesh.inner_points = in.array<vec3>();
-  mesh.triangles = in.array<simplex<2>>();
-  mesh.crossings = in.array<std::array<local_id, 2>>();
-  mesh.misplaced = in.array<local_id>();
-  mesh.folded = in.array<local_id>();
-  mesh.repeated_edges = in.array<std::array<local_id, 2>>();
-  mesh.summary = decode_report(in);
-  return mesh;
-}
 
 } // namespace dovetail

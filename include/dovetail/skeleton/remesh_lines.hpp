@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -22,6 +23,8 @@ struct fine_line {
   std::vector<vec3> points;
   std::vector<double> t; ///< curve parameters, for a line on a CAD curve
   std::vector<vec2> uv;  ///< face parameters, for a line on a CAD face
+
+  static constexpr auto fields = std::tuple(&fine_line::points, &fine_line::t, &fine_line::uv);
 };
 
 namespace detail {
@@ -144,7 +147,7 @@ inline content_key key_of(const skeleton_line& line, std::span<const vec3> coars
 /// Throws `mesher_error` naming what could not be evaluated.
 inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
                                            std::span<const vec3> coarse_points, const refined_sizing& size,
-                                           const any_executor& run, batched_entities& made,
+                                           const any_executor& run, batched_entities<fine_line>& made,
                                            const progress& on_progress = {}) {
   constexpr double lines_per_task = 256;
   std::vector<content_key> keys;
@@ -155,28 +158,17 @@ inline std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<
       keys, costs, lines_per_task,
       [&](const std::vector<std::size_t>& wanted) {
         const task_model own(model, run);
-        std::vector<byte_buffer> encoded;
-        for (const std::size_t l : wanted) {
-          const fine_line fine =
-              remesh_line(own.get(), lines[l], coarse_points, size.near(place_of(lines[l], coarse_points)));
-          byte_writer out;
-          out.array(fine.points);
-          out.array(fine.t);
-          out.array(fine.uv);
-          encoded.push_back(out.take());
-        }
-        return encoded;
+        std::vector<fine_line> fine;
+        for (const std::size_t l : wanted)
+          fine.push_back(
+              remesh_line(own.get(), lines[l], coarse_points, size.near(place_of(lines[l], coarse_points))));
+        return fine;
       },
       run, run_options{.on_progress = on_progress, .stage = "lines"});
   if (!failures.empty())
     throw mesher_error("remeshing of skeleton lines failed: " + failures.front().reason);
   std::vector<fine_line> fine(lines.size());
-  made.for_each(keys, [&](std::size_t l, const byte_buffer& bytes) {
-    byte_reader in(bytes);
-    fine[l].points = in.array<vec3>();
-    fine[l].t = in.array<double>();
-    fine[l].uv = in.array<vec2>();
-  });
+  made.for_each(keys, [&](std::size_t l, const fine_line& line) { fine[l] = line; });
   return fine;
 }
 

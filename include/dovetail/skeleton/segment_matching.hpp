@@ -6,6 +6,7 @@
 
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
+#include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 #include <cstddef>
@@ -25,7 +26,7 @@ std::size_t match_segments(const any_geometry& model, std::span<const vec3> coar
                            coarse_skeleton& skeleton, std::vector<fine_line> lines,
                            const remeshed_skeleton& remeshed, const refined_sizing& size,
                            double threshold_deg, const any_surface_mesher& mesher, const any_executor& run,
-                           batched_entities& made, const progress& on_progress = {});
+                           batched_entities<face_segments>& made, const progress& on_progress = {});
 
 } // namespace dovetail
 

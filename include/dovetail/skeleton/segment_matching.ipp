@@ -2,11 +2,10 @@
 /// What `segment_matching.hpp` declares.
 #pragma once
 
-#include "dovetail/core/bytes.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
@@ -26,7 +25,7 @@ namespace detail {
 class segment_matcher {
 public:
   segment_matcher(const any_geometry& model, matched_skeleton skeleton, const any_surface_mesher& mesher,
-                  const any_executor& run, batched_entities& made, const progress& on_progress)
+                  const any_executor& run, batched_entities<face_segments>& made, const progress& on_progress)
       : model_(model), skeleton_(std::move(skeleton)), mesher_(mesher), run_(run), made_(made),
         on_progress_(on_progress) {
     for (const skeleton_line& line : skeleton_.coarse.lines)
@@ -100,30 +99,16 @@ private:
         [&](const std::vector<std::size_t>& wanted) {
           const task_model own(model_, run_);
           segment_trials trials(own.get(), skeleton_, mesher_);
-          std::vector<byte_buffer> encoded;
-          for (const std::size_t i : wanted) {
-            byte_writer out;
-            for (const line_segments& line : trials.mend(faces[i])) {
-              out.value(line.count);
-              out.value(line.bias);
-            }
-            encoded.push_back(out.take());
-          }
-          return encoded;
+          std::vector<face_segments> chosen;
+          for (const std::size_t i : wanted)
+            chosen.push_back(trials.mend(faces[i]));
+          return chosen;
         },
         run_, run_options{.on_progress = on_progress_, .stage = "matching"});
     if (!failures.empty())
       throw mesher_error("trials of other segments for the lines of an interface face failed: " +
                          failures.front().reason);
-    made_.for_each(keys, [&](std::size_t i, const byte_buffer& bytes) {
-      byte_reader in(bytes);
-      face_segments chosen;
-      for (line_segments& line : chosen) {
-        line.count = in.value<int>();
-        line.bias = in.value<double>();
-      }
-      accept(faces[i], chosen);
-    });
+    made_.for_each(keys, [&](std::size_t i, const face_segments& chosen) { accept(faces[i], chosen); });
   }
 
   void accept(local_id f, const face_segments& chosen) {
@@ -144,7 +129,7 @@ private:
   matched_skeleton skeleton_;
   const any_surface_mesher& mesher_;
   const any_executor& run_;
-  batched_entities& made_;
+  batched_entities<face_segments>& made_;
   const progress& on_progress_;
   std::vector<content_key> line_keys_;
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed
@@ -159,8 +144,8 @@ inline std::vector<local_id> faces_with_small_angles(const coarse_skeleton& skel
     return smallest_corner_angle(corners(span_of(made.fine.points), t)) < threshold_deg;
   };
   const std::size_t count = skeleton.faces.size();
-  const auto outcomes = run.run(
-      (count + faces_per_task - 1) / faces_per_task,
+  auto results = map_tasks(
+      run, (count + faces_per_task - 1) / faces_per_task,
       [&](std::size_t task) {
         std::vector<local_id> small;
         for (std::size_t f = task * faces_per_task; f < std::min(count, (task + 1) * faces_per_task); ++f) {
@@ -169,16 +154,12 @@ inline std::vector<local_id> faces_with_small_angles(const coarse_skeleton& skel
           if (std::any_of(made.fine.sides.begin() + first[0], made.fine.sides.begin() + first[1], is_small))
             small.push_back(static_cast<local_id>(f));
         }
-        byte_writer out;
-        out.array(small);
-        return out.take();
+        return small;
       },
       run_options{.on_progress = on_progress, .stage = "matching"});
   std::vector<local_id> faces;
-  for (const task_outcome& outcome : outcomes) {
-    require_done(outcome, "the search for small angles");
-    append(faces, byte_reader(outcome.result).array<local_id>());
-  }
+  for (const auto& small : values_of(std::move(results), "the search for small angles"))
+    append(faces, small);
   return faces;
 }
 
@@ -188,7 +169,7 @@ DOVETAIL_INLINE std::size_t match_segments(const any_geometry& model, std::span<
                                            coarse_skeleton& skeleton, std::vector<fine_line> lines,
                                            const remeshed_skeleton& remeshed, const refined_sizing& size,
                                            double threshold_deg, const any_surface_mesher& mesher,
-                                           const any_executor& run, batched_entities& made,
+                                           const any_executor& run, batched_entities<face_segments>& made,
                                            const progress& on_progress) {
   if (!remeshed.patches.failures.empty())
     return 0;

@@ -10,6 +10,7 @@
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
+#include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 
@@ -24,16 +25,6 @@
 #include <vector>
 
 namespace dovetail::detail {
-
-/// Other segments for a line; none leave it as it is.
-struct line_segments {
-  int count = 0;
-  double bias = 0;
-
-  friend auto operator<=>(const line_segments&, const line_segments&) = default;
-};
-/// Of the lines of a face.
-using face_segments = std::array<line_segments, 3>;
 
 /// A skeleton whose lines may get other segments, and the lines as they are.
 struct matched_skeleton {

@@ -67,7 +67,6 @@ public:
                   memory.write(subdomains_at + side * sizeof(std::array<local_id, 2>), part.subdomains);
                   memory.write(sides_at + side * sizeof(simplex<2>), part.sides);
                   memory.write(side_hosts_at + side * sizeof(local_id), part.side_hosts);
-                  return byte_buffer{};
                 },
                 {.on_progress = on_progress, .stage = "skeleton"});
     memory.close();

@@ -1,6 +1,7 @@
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/report_codec.hpp"
-#include "dovetail/mesh/mesh_codec.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/mesh/background_mesh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,20 +24,13 @@ simplicial_background<3> two_tetrahedra() {
   return background;
 }
 
-template <int D>
-byte_buffer bytes_of(const simplicial_background<D>& background) {
-  byte_writer to;
-  encode(to, background);
-  return to.take();
-}
-
 } // namespace
 
 TEST_CASE("A background mesh comes back from its bytes, array by array") {
   const auto whole = two_tetrahedra();
-  const byte_buffer bytes = bytes_of(whole);
+  const byte_buffer bytes = encoded(whole);
   byte_reader from(bytes);
-  const auto read = decode_background<3>(from);
+  const auto read = decode<simplicial_background<3>>(from);
   CHECK(from.at_end());
   CHECK(read.volume.points == whole.volume.points);
   CHECK(read.volume.elements == whole.volume.elements);
@@ -49,17 +43,17 @@ TEST_CASE("A background mesh comes back from its bytes, array by array") {
   REQUIRE(read.surface.curve_edges.size() == 1);
   CHECK(read.surface.curve_edges[0].vertices == whole.surface.curve_edges[0].vertices);
   CHECK(read.surface.curve_edges[0].t == whole.surface.curve_edges[0].t);
-  CHECK(bytes_of(simplicial_background<2>{whole.surface}) ==
-        byte_buffer(bytes.begin(),
-                    bytes.begin() + static_cast<std::ptrdiff_t>(bytes_of<2>({whole.surface}).size())));
+  const byte_buffer of_surface = encoded(simplicial_background<2>{whole.surface});
+  CHECK(of_surface ==
+        byte_buffer(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(of_surface.size())));
 }
 
 TEST_CASE("Bytes cut short anywhere are an error") {
-  const byte_buffer bytes = bytes_of(two_tetrahedra());
+  const byte_buffer bytes = encoded(two_tetrahedra());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const byte_buffer cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     byte_reader from(cut);
-    CHECK_THROWS_AS(decode_background<3>(from), input_error);
+    CHECK_THROWS_AS(decode<simplicial_background<3>>(from), input_error);
   }
 }
 
@@ -67,11 +61,9 @@ TEST_CASE("A report comes back with its counters, warnings and children") {
   report whole{"stage", 1.5, {}, {"careful"}, {}};
   whole.set("elements", 12);
   whole.children.push_back({"part", 0.5, {}, {}, {}});
-  byte_writer to;
-  encode(to, whole);
-  const byte_buffer bytes = to.take();
+  const byte_buffer bytes = encoded(whole);
   byte_reader from(bytes);
-  const report read = decode_report(from);
+  const auto read = decode<report>(from);
   CHECK(from.at_end());
   CHECK(read.name == "stage");
   CHECK(read.seconds == 1.5);

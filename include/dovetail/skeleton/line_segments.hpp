@@ -1,0 +1,20 @@
+/// @file
+/// Numbers of segments that lines are given in place of those which the sizing field asks for.
+#pragma once
+
+#include <array>
+#include <compare>
+
+namespace dovetail {
+
+/// Other segments for a line; none leave it as it is.
+struct line_segments {
+  int count = 0;
+  double bias = 0;
+
+  friend auto operator<=>(const line_segments&, const line_segments&) = default;
+};
+/// Of the lines of a face.
+using face_segments = std::array<line_segments, 3>;
+
+} // namespace dovetail
