@@ -64,7 +64,12 @@ struct decomposed_shell {
     divided.side_states = simplified.side_states;
     divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
                                   given.partition_it, parts);
-    given.options.interface_angle_deg = 0; // interfaces stay where they are
+    want(1e-3); // interfaces stay where they are
+  }
+
+  /// A rule that wants such interface angles; nothing is simplified by it any more.
+  void want(double angle_deg) {
+    given.simplify_by = simplifier::paper{.volume_wedge_deg = angle_deg, .volume_shape_deg = angle_deg};
   }
 
   /// The rounds, of which so large a fraction of the subdomains may be merged.
@@ -313,7 +318,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
   decomposed_shell given(0.5, 16);
   const auto realize_with = [&](const any_surface_mesher& mesher, double least_angle_deg) {
     given.given.mesh_surface = mesher;
-    given.given.options.interface_angle_deg = least_angle_deg;
+    given.want(least_angle_deg);
     skeleton_store store(std::make_shared<entity_store>());
     return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), given.background.size, store,
@@ -332,7 +337,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
       mesh.crossings = {{0, 1}};
     return mesh;
   };
-  const auto unmatched = realize_with(any_surface_mesher(remembers), 0);
+  const auto unmatched = realize_with(any_surface_mesher(remembers), 1e-3);
   CHECK(unmatched.summary.get("matched_lines") == 0);
   CHECK(unmatched.fine.points != matched.fine.points);
   const auto taken_back = realize_with(any_surface_mesher(refuses_others), 30);
@@ -352,7 +357,7 @@ TEST_CASE("Interfaces make detours around small angles; one by which something c
   const auto stays = given.rounds(0.05).realize_boundaries();
   CHECK(stays.summary.get("detours") == 0);
 
-  given.given.options.interface_angle_deg = 24;
+  given.want(24);
   given.given.mesh_surface = {};
   auto rounds = given.rounds(0.05);
   const auto goes = rounds.realize_boundaries();

@@ -39,8 +39,7 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   made.material_of_subdomain = std::move(divided.material_of_subdomain);
   generated<3> result;
   const stopwatch measuring; // in the stage of the bisection
-  result.fine_angles =
-      detail::angles_of_interfaces(made.fine, rounds.size(), given.options.interface_angle_deg);
+  result.fine_angles = detail::angles_of_interfaces(made.fine, rounds.size(), given.simplify_by);
   divided.summary.seconds += measuring.seconds();
   auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),
                                    std::make_shared<entity_store>(given.options.store), given);

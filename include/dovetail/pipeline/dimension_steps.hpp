@@ -4,10 +4,8 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/corner_angles.hpp"
 #include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
@@ -57,33 +55,24 @@ simplification simplify_background(const simplicial_background<D>& mesh, const s
   return std::move(coupled.volume);
 }
 
-inline interface_angles coarse_interface_angles(const simplicial_background<3>& mesh,
-                                                const side_table<3>& sides,
-                                                std::span<const side_state> side_states,
-                                                std::span<const local_id> subdomain_of_element,
-                                                const any_sizing& size, const generate_options& options) {
-  const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
-  const auto origins = triangle_origins(boundary, side_states);
-  auto angles = measure_interface_angles(
-      {span_of(mesh.volume.points), span_of(boundary.sides), span_of(boundary.subdomains), span_of(origins)},
-      options.interface_angle_deg);
-  const auto on_curves = edges_on_curves(mesh.surface);
-  std::vector<local_id> curves;
-  for (const auto& edge : mesh.surface.curve_edges)
-    curves.push_back(edge.curve);
-  find_forced(angles, boundary.sides,
-              {mesh.volume.points, mesh.surface.mesh.elements, mesh.surface.mesh.tags, on_curves, curves},
-              size, options.interface_angle_deg);
+/// Measured through the elements. In D = 3 the CAD entities are found that force an angle.
+template <int D>
+interface_angles coarse_interface_angles(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                         std::span<const side_state> side_states,
+                                         std::span<const local_id> subdomain_of_element,
+                                         const any_sizing& size, const wanted_angles& wanted) {
+  auto angles =
+      measure_interface_angles<D>({mesh.elements(), sides, side_states, subdomain_of_element}, wanted);
+  if constexpr (D == 3) {
+    const auto on_curves = edges_on_curves(mesh.surface);
+    std::vector<local_id> curves;
+    for (const auto& edge : mesh.surface.curve_edges)
+      curves.push_back(edge.curve);
+    find_forced(angles, sides.vertices,
+                {mesh.volume.points, mesh.surface.mesh.elements, mesh.surface.mesh.tags, on_curves, curves},
+                size, wanted);
+  }
   return angles;
-}
-
-inline interface_angles coarse_interface_angles(const simplicial_background<2>& mesh,
-                                                const side_table<2>& sides,
-                                                std::span<const side_state> side_states,
-                                                std::span<const local_id> subdomain_of_element,
-                                                const any_sizing&, const generate_options& options) {
-  return measure_corner_angles({mesh.surface.mesh, sides, side_states, subdomain_of_element},
-                               options.surface_angle_deg);
 }
 
 /// Of the edges at which a wedge may be small: not those inside of a plane interface face, nor those inside
@@ -107,22 +96,18 @@ inline std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skel
 inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
                                               const side_table<3>& sides,
                                               std::span<const side_state> side_states, const any_sizing& size,
-                                              const generate_options& options) {
+                                              const wanted_angles& wanted) {
   const auto& first = skeleton.patches.first_triangle;
-  std::vector<triangle_origin> origins(skeleton.fine.sides.size(), triangle_origin::cad);
+  const fine_skeleton& fine = skeleton.fine;
+  std::vector<std::uint8_t> refused(fine.sides.size(), 0);
   for (std::size_t f = 0; f < skeleton.coarse.faces.size(); ++f) {
     const auto side = static_cast<std::size_t>(find_side<3>(sides, skeleton.coarse.faces[f].vertices));
     const std::size_t patch = skeleton.coarse.regions.size() + f;
-    std::fill(origins.begin() + first[patch], origins.begin() + first[patch + 1],
-              side_states[side] == side_state::refused ? triangle_origin::refused : triangle_origin::kept);
+    std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1],
+              side_states[side] == side_state::refused ? 1 : 0);
   }
-  const fine_skeleton& fine = skeleton.fine;
-  const std::vector<std::uint32_t> half_edges = half_edges_that_matter(skeleton);
-  auto angles = measure_interface_angles({span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains),
-                                          span_of(origins), span_of(half_edges)},
-                                         options.interface_angle_deg);
-  find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
-              size, options.interface_angle_deg);
+  auto angles = measure_skeleton_angles(fine, wanted, refused, half_edges_that_matter(skeleton));
+  find_forced(angles, fine.sides, cad_of(fine), size, wanted);
   return angles;
 }
 
@@ -132,7 +117,7 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
                                               const simplicial_background<2>& mesh,
                                               const side_table<2>& sides,
                                               std::span<const side_state> side_states, const any_sizing&,
-                                              const generate_options& options) {
+                                              const wanted_angles& wanted) {
   const auto leaves = [&](local_id side, local_id vertex) {
     const auto& ends = sides.vertices[static_cast<std::size_t>(side)];
     const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
@@ -140,9 +125,8 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
     const auto& points = skeleton.lines.points;
     return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
   };
-  auto angles =
-      measure_corner_angles({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
-                            options.surface_angle_deg);
+  auto angles = measure_interface_angles<2>(
+      {mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves}, wanted);
   const auto& fine = skeleton.fine;
   angles.interface_faces = 0;
   for (std::size_t e = 0; e < fine.sides.size(); ++e)

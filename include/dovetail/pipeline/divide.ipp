@@ -70,8 +70,9 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   result.pieces =
       decompose<D>(coarse.elements(), result.sides, simplified.super_of_element, simplified.graph,
                    materials_of(coarse), given.partition_it, subdomains, 1.05, options.on_progress);
-  result.angles = coarse_interface_angles(coarse, result.sides, simplified.side_states,
-                                          result.pieces.part_of_element, size, options);
+  result.angles =
+      coarse_interface_angles(coarse, result.sides, simplified.side_states, result.pieces.part_of_element,
+                              size, wanted_angles_of<D>(given.simplify_by));
   result.side_states = std::move(simplified.side_states);
   result.partition = std::move(result.pieces.summary);
   result.partition.seconds = partition_clock.seconds();

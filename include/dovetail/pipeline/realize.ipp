@@ -82,8 +82,8 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   const stopwatch matching_clock;
   const std::size_t matched =
       match_segments(model, mesh.volume.points, result.coarse, result.lines.lines, remeshed, size,
-                     given.options.interface_angle_deg, given.mesh_surface, given.run_tasks, made.segments,
-                     given.options.on_progress);
+                     wanted_angles_of<3>(given.simplify_by).face_deg, given.mesh_surface, given.run_tasks,
+                     made.segments, given.options.on_progress);
   result.summary.set("matched_lines", static_cast<double>(matched));
   result.summary.set("matching_seconds", matching_clock.seconds());
   const auto fill_again = [&] {

@@ -153,7 +153,7 @@ private:
     given_.options.on_progress("intersection", 0, 0);
     const byte_buffer found = given_.run_tasks.once([&] {
       angles_ = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
-                                              given_.options);
+                                              wanted_angles_of<D>(given_.simplify_by));
       byte_writer to;
       encode(to, angles_);
       for (const auto& sides : detail::places_of_small_angles(made, divided_.sides, angles_))
