@@ -60,6 +60,7 @@ struct decomposed_shell {
         background(make_background<3>(model, uniform_size(0.2), given)) {
     const simplicial_mesh<3>& volume = background.mesh.volume;
     divided.sides = build_sides(volume);
+    divided.beside_surface = elements_beside_surface(background.mesh, divided.sides);
     const auto simplified = simplify<3>(volume, sides, simplifier::none{});
     divided.side_states = simplified.side_states;
     divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
@@ -320,7 +321,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
     given.given.mesh_surface = mesher;
     given.want(least_angle_deg);
     skeleton_store store(std::make_shared<entity_store>());
-    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+    return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), given.background.size, store,
                       given.given);
   };
@@ -442,7 +443,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
   std::size_t compared = 0;
   for (;;) {
     const auto made =
-        realize<3>(given.model, given.background.mesh, given.sides, part,
+        realize<3>(given.model, given.background.mesh, given.divided, part,
                    static_cast<std::size_t>(account.subdomains()), given.background.size, store, given.given);
     const fine_skeleton& fine = made.fine;
     const auto& first = made.patches.first_triangle;
@@ -484,7 +485,7 @@ TEST_CASE("Where the faces of a shell cross, their size is made smaller until th
 TEST_CASE("A refinement makes again what it reaches alone, and that is what a fresh run makes") {
   decomposed_shell given(0.5, 16);
   const auto realize_at = [&](const refined_sizing& size, skeleton_store& store) {
-    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+    return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), size, store, given.given);
   };
   const auto empty = [] { return skeleton_store(std::make_shared<entity_store>()); };

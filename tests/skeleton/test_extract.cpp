@@ -99,7 +99,5 @@ TEST_CASE("a subdomain that touches the surface in a point only keeps that point
 TEST_CASE("a surface triangle that is no side of the volume is an error") {
   background_mesh mesh = cube(2);
   mesh.surface.mesh.elements.front() = {0, 13, 26}; // through the middle
-  CHECK_THROWS_AS(induced_subdomains(mesh, build_sides(mesh.volume),
-                                     std::vector<local_id>(mesh.volume.elements.size(), 0)),
-                  mesh_error);
+  CHECK_THROWS_AS(elements_beside_surface(mesh, build_sides(mesh.volume)), mesh_error);
 }

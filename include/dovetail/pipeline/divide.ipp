@@ -2,6 +2,7 @@
 /// What `divide.hpp` declares.
 #pragma once
 
+#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -58,6 +60,8 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
   result.sides = build_sides(coarse.elements());
+  if constexpr (D == 3)
+    result.beside_surface = elements_beside_surface(coarse, result.sides);
   result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
@@ -108,6 +112,8 @@ divided_background<D> decode_division(const simplicial_background<D>& coarse, co
   byte_reader from(bytes);
   divided_background<D> divided;
   divided.sides = build_sides(coarse.elements());
+  if constexpr (D == 3)
+    divided.beside_surface = elements_beside_surface(coarse, divided.sides);
   divided.weights = from.array<double>();
   divided.side_states = from.array<side_state>();
   divided.pieces.part_of_element = from.array<local_id>();
@@ -146,13 +152,13 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   return run.leads() ? std::move(result) : detail::decode_division<D>(coarse, known);
 }
 
-DOVETAIL_INLINE divided_background<3> leave_undivided(const simplicial_background<3>& cones,
-                                                      std::size_t solids) {
+DOVETAIL_INLINE divided_background<3> leave_undivided(const surface_mesh& surface,
+                                                      const geometry_topology& topology) {
+  const std::size_t solids = topology.solids.size();
   divided_background<3> result;
-  result.sides = build_sides(cones.volume);
-  result.weights.assign(cones.volume.elements.size(), 1);
-  result.side_states.assign(result.sides.size(), side_state::kept);
-  result.pieces.part_of_element = cones.volume.tags;
+  result.beside_surface = background::solids_beside_surface(surface, topology);
+  result.pieces.part_of_element.resize(solids);
+  std::iota(result.pieces.part_of_element.begin(), result.pieces.part_of_element.end(), local_id{0});
   result.pieces.parts = static_cast<local_id>(solids);
   result.simplification.name = "simplification";
   result.partition.name = "partition";
