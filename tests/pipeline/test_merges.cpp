@@ -315,6 +315,26 @@ TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as th
   }
 }
 
+TEST_CASE("What a rule wants alone decides what is counted as too small") {
+  struct untouched : simplifier::none {
+    double angle = 0;
+    wanted_angles wants(int) const { return {angle, angle}; }
+  };
+  decomposed_shell given(0.5, 6);
+  const auto divided_by = [&](double angle) {
+    untouched rule;
+    rule.angle = angle;
+    given.given.simplify_by = rule;
+    return divide<3>(given.background.mesh, given.background.size, 6, given.given);
+  };
+  const auto mild = divided_by(10), strict = divided_by(45);
+  CHECK(mild.pieces.part_of_element == strict.pieces.part_of_element);
+  CHECK(mild.angles.violations.empty());
+  CHECK(!strict.angles.violations.empty());
+  for (const angle_violation& v : strict.angles.violations)
+    CHECK(v.angle_deg < 45);
+}
+
 TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are as they were") {
   decomposed_shell given(0.5, 16);
   const auto realize_with = [&](const any_surface_mesher& mesher, double least_angle_deg) {
