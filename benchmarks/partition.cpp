@@ -41,13 +41,15 @@ struct coarse_model {
 class comparison {
 public:
   comparison(const coarse_model& coarse, int subdomains) : coarse_(coarse), subdomains_(subdomains) {
-    for (const bool simplify : {true, false}) {
-      const any_simplification_rule rule = simplify ? any_simplification_rule(simplifier::paper{})
-                                                    : any_simplification_rule(simplifier::none{});
-      report ignored;
-      simplified_.push_back(
-          detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains, rule, ignored));
-    }
+    const auto on_curves = detail::edges_on_curves(coarse.mesh.surface);
+    const auto add = [&](const auto& rule) {
+      simplified_.push_back(simplify_coupled(coarse.mesh.surface.mesh, coarse.mesh.volume, coarse.sides, rule,
+                                             {.curve_edges = on_curves, .element_weights = coarse.weights},
+                                             {.subdomains = static_cast<double>(subdomains)})
+                                .volume);
+    };
+    add(simplifier::paper{});
+    add(simplifier::none{});
   }
 
   void print_head() const {
@@ -65,8 +67,9 @@ public:
       const auto pieces =
           decompose<3>(coarse_.mesh.volume, coarse_.sides, simplified.super_of_element, simplified.graph,
                        coarse_.mesh.volume.tags, dovetail_benchmark::timed<P>{policy, &seconds}, subdomains_);
-      const auto angles = detail::coarse_interface_angles(coarse_.mesh, coarse_.sides, simplified.side_states,
-                                                          pieces.part_of_element, generate_options{});
+      const auto angles = measure_interface_angles<3>(
+          {coarse_.mesh.volume, coarse_.sides, simplified.side_states, pieces.part_of_element},
+          wanted_angles_of<3>(simplifier::paper{}));
       std::printf("| %s | %s | %.0f | %zu | %.3f | %.1f | %.1f | %.2f |\n", name, simplify ? "yes" : "no",
                   pieces.summary.get("cut_of_partitioner"), angles.interface_faces,
                   pieces.summary.get("imbalance"), angles.face_angle.angle_deg, angles.min_wedge_deg(),

@@ -36,9 +36,8 @@ found_angles decompose_at(double threshold_deg, const background_result<3>& back
   const auto pieces = decompose<3>(volume, sides, kept.super_of_element, kept.graph, volume.tags, // 3.4
                                    partition::metis{}, subdomains);
 
-  const auto boundary = subdomain_boundary<3>(volume, sides, pieces.part_of_element);
-  const auto origins = triangle_origins(boundary, kept.side_states);
-  const auto angles = measure_interface_angles({volume.points, boundary.sides, boundary.subdomains, origins});
+  const auto angles = measure_interface_angles<3>({volume, sides, kept.side_states, pieces.part_of_element},
+                                                  {.face_deg = 30, .wedge_deg = 30});
   return {angles.min_wedge_deg(), angles.violations.size(), kept.summary.get("refused_sides")};
 }
 // end

@@ -95,9 +95,9 @@ inline std::vector<experiment_row> interface_rows() {
   };
   return {subdomains_row(),
           {"Least angle between coarse interfaces", "degrees", 1, {}, {{"/interfaces/coarse/min_wedge_deg"}}},
-          {"Coarse angles under 30 degrees", "", 0, {}, {small("/interfaces/coarse")}},
+          {"Coarse angles under what the rule wants", "", 0, {}, {small("/interfaces/coarse")}},
           {"Least angle between interfaces", "degrees", 1, {}, {{"/interfaces/min_wedge_deg"}}},
-          {"Angles under 30 degrees", "", 0, {}, {small("/interfaces")}},
+          {"Angles under what the rule wants", "", 0, {}, {small("/interfaces")}},
           {"Smallest dihedral angle", "degrees", 1, {}, {{"/quality/min_dihedral_deg"}}},
           {"Bad, per million", "", 1, {}, {{"/quality/bad_per_million"}}},
           {"Low quality, per million", "", 1, {}, {{"/quality/low_per_million"}}},

@@ -1,4 +1,4 @@
-#include "dovetail/decomposition/corner_angles.hpp"
+#include "dovetail/decomposition/interface_angles.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,7 @@ struct square {
       states.push_back(sides.is_interior(static_cast<local_id>(s)) ? side_state::kept : side_state::fixed);
   }
   interface_angles check(const std::vector<local_id>& part, double threshold_deg) const {
-    return measure_corner_angles({mesh, sides, states, part}, threshold_deg);
+    return measure_interface_angles<2>({mesh, sides, states, part}, {0, threshold_deg});
   }
 };
 
@@ -81,7 +81,7 @@ TEST_CASE("between fine lines, a corner is as they leave the vertex") {
       along = {std::sqrt(3.0), 1, 0};
     return along;
   };
-  const auto found = measure_corner_angles({s.mesh, s.sides, s.states, part, leaves}, 50);
+  const auto found = measure_interface_angles<2>({s.mesh, s.sides, s.states, part, leaves}, {0, 50});
   CHECK(found.surface_wedge.angle_deg == doctest::Approx(30));
   CHECK(found.surface_wedge.edge[0] == 0);
 }

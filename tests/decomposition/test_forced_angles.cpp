@@ -1,4 +1,3 @@
-#include "dovetail/decomposition/corner_angles.hpp"
 #include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -30,15 +29,10 @@ struct interface_on_cad {
     skeleton.curves.push_back(curve);
   }
   interface_angles measure(double size) const {
-    std::vector<triangle_origin> origins(skeleton.sides.size(), triangle_origin::cad);
-    for (std::size_t t = 0; t < origins.size(); ++t)
-      if (skeleton.side_hosts[t] == no_id)
-        origins[t] = triangle_origin::kept;
-    auto angles = measure_interface_angles({skeleton.points, skeleton.sides, skeleton.subdomains, origins});
+    constexpr wanted_angles wanted{30, 30};
+    auto angles = measure_skeleton_angles(skeleton, wanted);
     find_forced(
-        angles, skeleton.sides,
-        {skeleton.points, skeleton.sides, skeleton.side_hosts, skeleton.curve_edges, skeleton.curves},
-        [size](vec3) { return size; }, 30);
+        angles, skeleton.sides, cad_of(skeleton), [size](vec3) { return size; }, wanted);
     return angles;
   }
 };
@@ -135,7 +129,7 @@ TEST_CASE("a corner of triangles is forced where fixed sides meet at less than t
     for (std::size_t s = 0; s < sides.size(); ++s)
       states.push_back(sides.is_interior(static_cast<local_id>(s)) ? side_state::kept : side_state::fixed);
     const std::vector<local_id> parts{0, 1};
-    const auto angles = measure_corner_angles({mesh, sides, states, parts}, 50);
+    const auto angles = measure_interface_angles<2>({mesh, sides, states, parts}, {0, 50});
     CHECK(angles.count(violation_cause::forced) == (opening < 50 ? 2 : 0));
     std::size_t at_corner = 0;
     for (const angle_violation& v : angles.violations)

@@ -1,5 +1,6 @@
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "support/adjacency.hpp"
@@ -78,6 +79,59 @@ std::vector<local_id> random_parts(const simplicial_mesh<3>& mesh, int parts, st
   return part;
 }
 
+/// The boundaries of parts, without the elements between them.
+fine_skeleton skeleton_of(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
+                          const std::vector<local_id>& part) {
+  auto boundary = subdomain_boundary<3>(mesh, sides, part);
+  fine_skeleton skeleton;
+  skeleton.points = mesh.points;
+  skeleton.sides = std::move(boundary.sides);
+  skeleton.subdomains = std::move(boundary.subdomains);
+  for (const auto on_surface : boundary.on_surface)
+    skeleton.side_hosts.own().push_back(on_surface != 0 ? 0 : no_id);
+  return skeleton;
+}
+
+/// A flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface.
+fine_skeleton tent() {
+  fine_skeleton skeleton;
+  skeleton.points = std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};
+  skeleton.sides = std::vector<simplex<2>>{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  skeleton.subdomains = std::vector<std::array<local_id, 2>>{{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
+  skeleton.side_hosts = std::vector<local_id>{no_id, 5, 5, 5};
+  return skeleton;
+}
+
+void check_measured(const interface_angles& angles, const simplicial_mesh<3>& mesh,
+                    const side_table<3>& sides, const std::vector<local_id>& part, double threshold) {
+  const measured expected = wedges_from_elements(mesh, part, threshold);
+  CHECK(angles.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
+  CHECK(angles.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
+  std::size_t wedges = 0;
+  std::size_t faces = 0;
+  for (const angle_violation& v : angles.violations) {
+    wedges += v.is_wedge() ? 1 : 0;
+    faces += v.is_wedge() ? 0 : 1;
+    CHECK(v.angle_deg < threshold);
+    CHECK(v.cause == violation_cause::remeshing); // nothing was refused, and no corner of the cube is sharp
+  }
+  CHECK(wedges == expected.below);
+  std::size_t expected_faces = 0;
+  double smallest = 360;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const auto [a, b] = sides.elements[s];
+    if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
+      continue;
+    const auto corner = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
+    const double angle = *std::min_element(corner.begin(), corner.end());
+    smallest = std::min(smallest, angle);
+    expected_faces += angle < threshold ? 1 : 0;
+  }
+  CHECK(angles.face_angle.angle_deg ==
+        doctest::Approx(smallest).epsilon(1e-12)); // other edges are multiplied
+  CHECK(faces == expected_faces);
+}
+
 } // namespace
 
 TEST_CASE("angles measured on the skeleton are those measured through the elements") {
@@ -86,40 +140,30 @@ TEST_CASE("angles measured on the skeleton are those measured through the elemen
     const auto sides = build_sides(mesh);
     for (const int parts : {2, 4}) {
       const auto part = random_parts(mesh, parts, seed);
-      const auto boundary = subdomain_boundary<3>(mesh, sides, part);
-      const std::vector<side_state> states(sides.size(), side_state::kept);
-      const auto origins = triangle_origins(boundary, states);
-      const double threshold = 50;
-      const auto angles =
-          measure_interface_angles({mesh.points, boundary.sides, boundary.subdomains, origins}, threshold);
-      const measured expected = wedges_from_elements(mesh, part, threshold);
-      CHECK(angles.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
-      CHECK(angles.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
-      std::size_t wedges = 0;
-      std::size_t faces = 0;
-      for (const angle_violation& v : angles.violations) {
-        wedges += v.is_wedge() ? 1 : 0;
-        faces += v.is_wedge() ? 0 : 1;
-        CHECK(v.angle_deg < threshold);
-        CHECK(v.cause == violation_cause::remeshing); // nothing was fixed or refused
-      }
-      CHECK(wedges == expected.below);
-      std::size_t expected_faces = 0;
-      double smallest = 360;
-      for (std::size_t s = 0; s < sides.size(); ++s) {
-        const auto [a, b] = sides.elements[s];
-        if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
-          continue;
-        const auto corner = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
-        const double angle = *std::min_element(corner.begin(), corner.end());
-        smallest = std::min(smallest, angle);
-        expected_faces += angle < threshold ? 1 : 0;
-      }
-      CHECK(angles.face_angle.angle_deg ==
-            doctest::Approx(smallest).epsilon(1e-12)); // other edges are multiplied
-      CHECK(faces == expected_faces);
+      const wanted_angles wanted{50, 50};
+      check_measured(measure_interface_angles<3>({mesh, sides, {}, part}, wanted), mesh, sides, part, 50);
+      check_measured(measure_skeleton_angles(skeleton_of(mesh, sides, part), wanted), mesh, sides, part, 50);
     }
   }
+}
+
+TEST_CASE("faces and wedges have thresholds of their own") {
+  const auto mesh = jittered_cubes(3, 0.15, 1);
+  const auto sides = build_sides(mesh);
+  const auto part = random_parts(mesh, 3, 1);
+  const auto count = [&](const wanted_angles& wanted) {
+    std::array<std::size_t, 2> found{};
+    for (const auto& angles : {measure_interface_angles<3>({mesh, sides, {}, part}, wanted),
+                               measure_skeleton_angles(skeleton_of(mesh, sides, part), wanted)})
+      for (const angle_violation& v : angles.violations)
+        ++found[v.is_wedge() ? 1 : 0];
+    return found;
+  };
+  CHECK(count({0, 0}) == std::array<std::size_t, 2>{});
+  const auto both = count({50, 50});
+  CHECK((both[0] > 0 && both[1] > 0));
+  CHECK(count({50, 0}) == std::array<std::size_t, 2>{both[0], 0});
+  CHECK(count({0, 50}) == std::array<std::size_t, 2>{0, both[1]});
 }
 
 TEST_CASE("the place and the cause of a violation are named") {
@@ -129,14 +173,11 @@ TEST_CASE("the place and the cause of a violation are named") {
   mesh.elements = {{0, 1, 2, 3}, {0, 2, 1, 4}};
   const auto sides = build_sides(mesh);
   const std::vector<local_id> part{0, 1};
-  const auto boundary = subdomain_boundary<3>(mesh, sides, part);
   std::vector<side_state> states(sides.size(), side_state::fixed);
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (sides.is_interior(static_cast<local_id>(s)))
       states[s] = side_state::refused;
-  const auto origins = triangle_origins(boundary, states);
-  const auto angles =
-      measure_interface_angles({mesh.points, boundary.sides, boundary.subdomains, origins}, 30);
+  const auto angles = measure_interface_angles<3>({mesh, sides, states, part}, {30, 30});
   CHECK(angles.interface_faces == 1);
   CHECK(angles.face_angle.angle_deg == doctest::Approx(45));
   CHECK(angles.interface_wedge.angle_deg == 360); // none
@@ -153,40 +194,23 @@ TEST_CASE("the place and the cause of a violation are named") {
 }
 
 TEST_CASE("only the wedges of the edges asked for are measured") {
-  const std::vector<vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}}; // a tent, as below
-  const std::vector<simplex<2>> triangles{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  const std::vector<std::array<local_id, 2>> subdomains{{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
-  std::vector<triangle_origin> origins(4, triangle_origin::cad);
-  origins[0] = triangle_origin::kept;
   const std::vector<std::uint32_t> of_one_edge{2, 5}; // (0, 1), opposite the last vertex of both
-  const auto angles = measure_interface_angles({points, triangles, subdomains, origins, of_one_edge});
+  const auto angles = measure_skeleton_angles(tent(), {30, 30}, {}, of_one_edge);
   CHECK(angles.interface_faces == 1);
   REQUIRE(angles.violations.size() == 1);
   CHECK(angles.violations[0].edge == std::array<local_id, 2>{0, 1});
 }
 
 TEST_CASE("the cause is the coarse side where it ought to have been removed, and remeshing where not") {
-  fine_skeleton skeleton; // a flat tent over the triangle (0, 1, 2): the tent is CAD, the floor an interface
-  skeleton.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}};
-  skeleton.sides = {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  skeleton.subdomains = {{0, 1}, {1, no_id}, {1, no_id}, {1, no_id}};
-  skeleton.side_hosts = {no_id, 5, 5, 5};
   for (const bool known : {false, true}) {
-    std::vector<triangle_origin> origins(4, triangle_origin::cad);
-    origins[0] = known ? triangle_origin::refused : triangle_origin::kept;
-    const auto angles =
-        measure_interface_angles({skeleton.points, skeleton.sides, skeleton.subdomains, origins});
+    std::vector<std::uint8_t> refused(4, 0);
+    refused[0] = known ? 1 : 0;
+    const auto angles = measure_skeleton_angles(tent(), {30, 30}, refused);
     CHECK(angles.min_wedge_deg() == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
     CHECK(angles.count(known ? violation_cause::refused : violation_cause::remeshing) == 3);
     REQUIRE(angles.violations.size() == 3);
     CHECK(angles.violations[0].place == vec3{0.5, 0, 0});
   }
-}
-
-TEST_CASE("spans of different length are refused") {
-  const std::vector<vec3> points{{0, 0, 0}};
-  const std::vector<simplex<2>> triangles{{0, 0, 0}};
-  CHECK_THROWS_AS(measure_interface_angles({points, triangles, {}, {}}), usage_error);
 }
 
 TEST_CASE("angles are the same after a journey as bytes") {

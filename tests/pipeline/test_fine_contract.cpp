@@ -60,10 +60,7 @@ void check_fine(const interface_angles& angles, std::size_t allowed = 0) {
 /// Most edges lie where no wedge can be small, and are not measured: they hide nothing.
 void check_nothing_missed(const realized_model& model) {
   const fine_skeleton& fine = model.made.fine;
-  std::vector<triangle_origin> origins;
-  for (const local_id host : fine.side_hosts)
-    origins.push_back(host == no_id ? triangle_origin::kept : triangle_origin::cad);
-  const auto all = measure_interface_angles({fine.points, fine.sides, fine.subdomains, origins});
+  const auto all = measure_skeleton_angles(fine, {30, 30});
   const auto edges = detail::half_edges_that_matter(model.made);
   CHECK(edges.size() < 3 * fine.sides.size() / 2);
   CHECK(all.interface_wedge.angle_deg == model.angles.interface_wedge.angle_deg);

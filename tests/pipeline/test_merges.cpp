@@ -60,11 +60,17 @@ struct decomposed_shell {
         background(make_background<3>(model, uniform_size(0.2), given)) {
     const simplicial_mesh<3>& volume = background.mesh.volume;
     divided.sides = build_sides(volume);
+    divided.beside_surface = elements_beside_surface(background.mesh, divided.sides);
     const auto simplified = simplify<3>(volume, sides, simplifier::none{});
     divided.side_states = simplified.side_states;
     divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
                                   given.partition_it, parts);
-    given.options.interface_angle_deg = 0; // interfaces stay where they are
+    want(1e-3); // interfaces stay where they are
+  }
+
+  /// A rule that wants such interface angles; nothing is simplified by it any more.
+  void want(double angle_deg) {
+    given.simplify_by = simplifier::paper{.volume_wedge_deg = angle_deg, .volume_shape_deg = angle_deg};
   }
 
   /// The rounds, of which so large a fraction of the subdomains may be merged.
@@ -309,13 +315,33 @@ TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as th
   }
 }
 
+TEST_CASE("What a rule wants alone decides what is counted as too small") {
+  struct untouched : simplifier::none {
+    double angle = 0;
+    wanted_angles wants(int) const { return {angle, angle}; }
+  };
+  decomposed_shell given(0.5, 6);
+  const auto divided_by = [&](double angle) {
+    untouched rule;
+    rule.angle = angle;
+    given.given.simplify_by = rule;
+    return divide<3>(given.background.mesh, given.background.size, 6, given.given);
+  };
+  const auto mild = divided_by(10), strict = divided_by(45);
+  CHECK(mild.pieces.part_of_element == strict.pieces.part_of_element);
+  CHECK(mild.angles.violations.empty());
+  CHECK(!strict.angles.violations.empty());
+  for (const angle_violation& v : strict.angles.violations)
+    CHECK(v.angle_deg < 45);
+}
+
 TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are as they were") {
   decomposed_shell given(0.5, 16);
   const auto realize_with = [&](const any_surface_mesher& mesher, double least_angle_deg) {
     given.given.mesh_surface = mesher;
-    given.given.options.interface_angle_deg = least_angle_deg;
+    given.want(least_angle_deg);
     skeleton_store store(std::make_shared<entity_store>());
-    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+    return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), given.background.size, store,
                       given.given);
   };
@@ -332,7 +358,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
       mesh.crossings = {{0, 1}};
     return mesh;
   };
-  const auto unmatched = realize_with(any_surface_mesher(remembers), 0);
+  const auto unmatched = realize_with(any_surface_mesher(remembers), 1e-3);
   CHECK(unmatched.summary.get("matched_lines") == 0);
   CHECK(unmatched.fine.points != matched.fine.points);
   const auto taken_back = realize_with(any_surface_mesher(refuses_others), 30);
@@ -352,7 +378,7 @@ TEST_CASE("Interfaces make detours around small angles; one by which something c
   const auto stays = given.rounds(0.05).realize_boundaries();
   CHECK(stays.summary.get("detours") == 0);
 
-  given.given.options.interface_angle_deg = 24;
+  given.want(24);
   given.given.mesh_surface = {};
   auto rounds = given.rounds(0.05);
   const auto goes = rounds.realize_boundaries();
@@ -437,7 +463,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
   std::size_t compared = 0;
   for (;;) {
     const auto made =
-        realize<3>(given.model, given.background.mesh, given.sides, part,
+        realize<3>(given.model, given.background.mesh, given.divided, part,
                    static_cast<std::size_t>(account.subdomains()), given.background.size, store, given.given);
     const fine_skeleton& fine = made.fine;
     const auto& first = made.patches.first_triangle;
@@ -479,7 +505,7 @@ TEST_CASE("Where the faces of a shell cross, their size is made smaller until th
 TEST_CASE("A refinement makes again what it reaches alone, and that is what a fresh run makes") {
   decomposed_shell given(0.5, 16);
   const auto realize_at = [&](const refined_sizing& size, skeleton_store& store) {
-    return realize<3>(given.model, given.background.mesh, given.sides, given.pieces.part_of_element,
+    return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), size, store, given.given);
   };
   const auto empty = [] { return skeleton_store(std::make_shared<entity_store>()); };

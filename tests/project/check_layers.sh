@@ -37,6 +37,12 @@ while IFS=: read -r file include; do
   ((own == other && own > 2)) && complain "$file includes $target of another stage"
 done < <(find . -mindepth 2 \( -name '*.hpp' -o -name '*.ipp' \) -printf '%P\n' | sort | xargs grep -H '#include "dovetail/')
 
+# A stage works on values: how these become bytes is the business of those who run its tasks (parallel/map_tasks.hpp).
+stages=(background simplification partition decomposition skeleton remesh intersection meshing pipeline)
+while IFS= read -r place; do
+  complain "$place: a stage names bytes"
+done < <(grep -rnE 'byte_(buffer|reader|writer)' "${stages[@]}" || true)
+
 # Headers of the standard library have no slash and no dot; POSIX ones are listed.
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|sched\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
 adapters='^(partition/(metis|scotch|ptscotch|parmetis|mpi_world|spectral)|mesher/(tetgen|gmsh|netgen|cgal)|improver/(gmsh|netgen|cgal)|geometry/(occt|discrete|builtin_models)|io/(zlib|hdf5)|sizing/json|graph/boost_graph|mesh/eigen|parallel/mpi)'

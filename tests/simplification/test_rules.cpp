@@ -55,6 +55,25 @@ simplification simplified(const simplicial_mesh<D>& mesh, const Rule& rule) {
 
 } // namespace
 
+TEST_CASE("what interface angles a rule wants follows from its own numbers, or from the paper's") {
+  const auto wants = [](const auto& rule, std::array<double, 2> faces_and_wedges, double corners) {
+    const any_simplification_rule erased(rule);
+    for (const wanted_angles& wanted : {wanted_angles_of<3>(rule), wanted_angles_of<3>(erased)})
+      CHECK(std::array{wanted.face_deg, wanted.wedge_deg} == faces_and_wedges);
+    CHECK(wanted_angles_of<2>(rule).wedge_deg == corners);
+    CHECK(wanted_angles_of<2>(erased).wedge_deg == corners);
+  };
+  wants(simplifier::paper{}, {30, 30}, 50);
+  wants(simplifier::none{}, {30, 30}, 50);
+  wants(simplifier::paper{.surface_wedge_deg = 45, .volume_wedge_deg = 20, .volume_shape_deg = 25}, {25, 20},
+        45);
+  wants(simplifier::paper{.surface_wedge_deg = 0, .volume_wedge_deg = 0}, {30, 30}, 50);
+  wants(simplifier::shape_only{.volume_deg = 35}, {35, 30}, 50);
+  wants(simplifier::wedges_only{.surface_deg = 40, .volume_deg = 25}, {30, 25}, 40);
+  wants(simplifier::aspect_ratio{.volume_wedge_deg = 22}, {30, 22}, 50);
+  wants(simplifier::flow_aligned{.surface_wedge_deg = 33}, {30, 30}, 33);
+}
+
 TEST_CASE("no rule leaves every element by itself") {
   const auto result = simplified<3>(squeezed_cubes(4, 1), simplifier::none{});
   CHECK(result.summary.get("removed_sides") == 0);

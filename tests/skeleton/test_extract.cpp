@@ -37,6 +37,14 @@ TEST_CASE("two halves of a cube share the faces of the cut, once, oriented outwa
     const vec3 normal = cross(at(1) - at(0), at(2) - at(0));
     CHECK(at(0).x == 0.5);
     CHECK(normal.x > 0); // subdomain 0 is at smaller x
+    CHECK(sorted_vertices(sides.vertices[static_cast<std::size_t>(face.side)]) ==
+          sorted_vertices(face.vertices));
+    std::size_t on_walls = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const vec3 middle = midpoint(at(i), at((i + 1) % 3));
+      on_walls += middle.y == 0 || middle.y == 1 || middle.z == 0 || middle.z == 1 ? 1 : 0;
+    }
+    CHECK(face.is_curved == (on_walls > 0));
   }
 }
 
@@ -99,7 +107,5 @@ TEST_CASE("a subdomain that touches the surface in a point only keeps that point
 TEST_CASE("a surface triangle that is no side of the volume is an error") {
   background_mesh mesh = cube(2);
   mesh.surface.mesh.elements.front() = {0, 13, 26}; // through the middle
-  CHECK_THROWS_AS(induced_subdomains(mesh, build_sides(mesh.volume),
-                                     std::vector<local_id>(mesh.volume.elements.size(), 0)),
-                  mesh_error);
+  CHECK_THROWS_AS(elements_beside_surface(mesh, build_sides(mesh.volume)), mesh_error);
 }

@@ -8,7 +8,9 @@
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 
+#include <array>
 #include <functional>
+#include <vector>
 
 namespace dovetail::background {
 
@@ -36,11 +38,10 @@ coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_t
                                    const any_improver<3>& improve, const any_executor& run_tasks,
                                    const coarse_volume_options& options = {});
 
-/// For a model that is not decomposed: what every step after the background mesh asks of a volume, which side
-/// of a surface triangle each solid is at, as one element per triangle and solid to a point of the solid
-/// alone. These fill nothing, and may overlap. Linear but for sorting. Throws `geometry_error` as
-/// `coarse_volume`.
-simplicial_mesh<3> cones_of_solids(const surface_mesh& surface, const geometry_topology& topology);
+/// For a model that is not decomposed: the solids behind and in front of each surface triangle, or no_id.
+/// Linear but for sorting. Throws `geometry_error` as `coarse_volume`.
+std::vector<std::array<local_id, 2>> solids_beside_surface(const surface_mesh& surface,
+                                                           const geometry_topology& topology);
 
 } // namespace dovetail::background
 

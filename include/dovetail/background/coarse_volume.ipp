@@ -192,19 +192,14 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   return result;
 }
 
-DOVETAIL_INLINE simplicial_mesh<3> cones_of_solids(const surface_mesh& surface,
-                                                   const geometry_topology& topology) {
-  const auto boundary = detail::closed_boundary(surface, topology);
-  simplicial_mesh<3> cones;
-  cones.points = surface.mesh.points;
-  const auto apex = static_cast<local_id>(cones.points.size());
-  cones.points.resize(cones.points.size() + topology.solids.size());
-  cones.tags = boundary.solids;
-  for (std::size_t t = 0; t < boundary.triangles.size(); ++t) {
-    const auto& [a, b, c] = boundary.triangles[t]; // outwards: the apex is behind
-    cones.elements.push_back({a, c, b, apex + boundary.solids[t]});
-  }
-  return cones;
+DOVETAIL_INLINE std::vector<std::array<local_id, 2>>
+solids_beside_surface(const surface_mesh& surface, const geometry_topology& topology) {
+  detail::closed_boundary(surface, topology);
+  std::vector<std::array<local_id, 2>> solids;
+  solids.reserve(surface.mesh.elements.size());
+  for (const local_id face : surface.mesh.tags)
+    solids.push_back(topology.faces[static_cast<std::size_t>(face)].solids);
+  return solids;
 }
 
 } // namespace dovetail::background

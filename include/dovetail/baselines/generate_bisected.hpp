@@ -14,7 +14,8 @@ namespace dovetail::baselines {
 ///     auto mesh = generate_bisected(model, size, parameters<>{}.with_mesher(mesher::tetgen{}), {.most_faces
 ///     = 20000});
 ///
-/// What `given` says of background mesh, simplification, partition and number of subdomains has no meaning
+/// Of the rule in `given` only the angles that it wants are used, to measure interfaces; what is said of
+/// background mesh, partition and number of subdomains has no meaning
 /// here, and subdomains that fail are not merged. Throws what `generate` throws before it meshes subdomains.
 ///
 /// The result has no plan of a decomposition and no coarse angles. Children of its summary: "background" (a

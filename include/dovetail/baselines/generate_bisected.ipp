@@ -2,7 +2,6 @@
 /// What `generate_bisected.hpp` declares.
 #pragma once
 
-#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/baselines/generate_bisected.hpp"
 #include "dovetail/baselines/interface_angles_of_skeleton.hpp"
 #include "dovetail/core/linkage.hpp"
@@ -26,10 +25,8 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   any_parameters<3> undivided = given;
   undivided.options.subdomains = 1;
   auto background = make_background<3>(model, size, undivided);
-  const simplicial_background<3> cones{
-      background.mesh.surface, background::cones_of_solids(background.mesh.surface, model.topology())};
-  const auto solids = leave_undivided(cones, model.topology().solids.size());
-  decomposition_rounds<3> rounds(model, cones, solids, background.size, undivided);
+  const auto solids = leave_undivided(background.mesh.surface, model.topology());
+  decomposition_rounds<3> rounds(model, background.mesh, solids, background.size, undivided);
   realized<3> made = rounds.realize_boundaries();
   recursive_bisection with_progress = bisect;
   with_progress.on_progress = given.options.on_progress;
@@ -39,10 +36,9 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   made.material_of_subdomain = std::move(divided.material_of_subdomain);
   generated<3> result;
   const stopwatch measuring; // in the stage of the bisection
-  result.fine_angles =
-      detail::angles_of_interfaces(made.fine, rounds.size(), given.options.interface_angle_deg);
+  result.fine_angles = detail::angles_of_interfaces(made.fine, rounds.size(), given.simplify_by);
   divided.summary.seconds += measuring.seconds();
-  auto meshed = mesh_all_pieces<3>(model, cones, made, {}, rounds.size(),
+  auto meshed = mesh_all_pieces<3>(model, background.mesh, made, {}, rounds.size(),
                                    std::make_shared<entity_store>(given.options.store), given);
   result.plan = background.plan;
   result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());

@@ -9,9 +9,9 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept_tasks.hpp"
 #include "dovetail/pipeline/element_migration.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
-#include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
           const bool behind = is_behind(mesh.skeleton, listed, i, static_cast<local_id>(p));
           label_at_side[s][behind ? 0 : 1] = labelled.at_sides[i];
         }
-        keys[p] = tasks.take_kept(std::move(labelled.kept));
+        keys[p] = store->take(std::move(labelled.kept));
       });
   tasks.exchange(keys);
   moves.sizes.clear();

@@ -11,10 +11,9 @@
 ///     const auto parts =
 ///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,
 ///                      volume.tags, partition::metis{}, parts);
-///     const auto boundary = subdomain_boundary<3>(volume, sides, parts.part_of_element);
-///     const auto origins = triangle_origins(boundary, simplified.volume.side_states);
 ///     const auto angles =
-///         measure_interface_angles({volume.points, boundary.sides, boundary.subdomains, origins});
+///         measure_interface_angles<3>({volume, sides, simplified.volume.side_states, parts.part_of_element},
+///                                     wanted_angles_of<3>(simplifier::paper{}));
 #pragma once
 
 #include "dovetail/core/progress.hpp"

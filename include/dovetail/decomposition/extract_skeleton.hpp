@@ -23,9 +23,15 @@ using triangle_subdomains = std::vector<std::array<local_id, 2>>;
 std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
                                            const std::vector<local_id>& subdomain_of_element);
 
-/// The subdomains behind and in front of each surface triangle. Throws `mesh_error` when a surface triangle
-/// is not a side of the volume.
-triangle_subdomains induced_subdomains(const background_mesh& mesh, const side_table<3>& sides,
+/// Per surface triangle: the element behind it and the one in front of it, or no_id.
+using elements_at_triangles = std::vector<std::array<local_id, 2>>;
+
+/// The elements of the volume at each surface triangle. Throws `mesh_error` when one is not a side of the
+/// volume.
+elements_at_triangles elements_beside_surface(const background_mesh& mesh, const side_table<3>& sides);
+
+/// The pieces that the subdomains of a volume induce on its surface.
+triangle_subdomains induced_subdomains(const elements_at_triangles& beside,
                                        const std::vector<local_id>& subdomain_of_element);
 
 /// The pieces of a surface that is itself decomposed (D = 2): the part of each triangle, nothing in front.

@@ -166,29 +166,38 @@ interface_faces(const background_mesh& mesh, const side_table<3>& sides,
     simplex<2> outwards_of_a = sides.vertices[side];
     if (a > b)
       std::swap(outwards_of_a[1], outwards_of_a[2]);
-    faces.push_back({detail::from_smallest(outwards_of_a), {std::min(a, b), std::max(a, b)}});
+    faces.push_back({detail::from_smallest(outwards_of_a),
+                     {std::min(a, b), std::max(a, b)},
+                     static_cast<local_id>(side)});
   }
   return faces;
 }
 
-DOVETAIL_INLINE triangle_subdomains induced_subdomains(const background_mesh& mesh,
-                                                       const side_table<3>& sides,
-                                                       const std::vector<local_id>& subdomain_of_element) {
-  triangle_subdomains subdomains;
-  subdomains.reserve(mesh.surface.mesh.elements.size());
+DOVETAIL_INLINE elements_at_triangles elements_beside_surface(const background_mesh& mesh,
+                                                              const side_table<3>& sides) {
+  elements_at_triangles beside;
+  beside.reserve(mesh.surface.mesh.elements.size());
   for (const simplex<2>& triangle : mesh.surface.mesh.elements) {
     const local_id side = find_side<3>(sides, triangle);
     if (side == no_id)
-      throw mesh_error("surface triangle " + std::to_string(subdomains.size()) +
+      throw mesh_error("surface triangle " + std::to_string(beside.size()) +
                        " is not a side of the coarse volume mesh");
-    const auto& elements = sides.elements[static_cast<std::size_t>(side)];
-    const auto subdomain = [&](local_id e) {
-      return e == no_id ? no_id : subdomain_of_element[static_cast<std::size_t>(e)];
-    };
+    const auto& [first, second] = sides.elements[static_cast<std::size_t>(side)];
     const bool first_is_behind = same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
-    const std::array both{subdomain(elements[0]), subdomain(elements[1])};
-    subdomains.push_back(first_is_behind ? both : std::array{both[1], both[0]});
+    beside.push_back(first_is_behind ? std::array{first, second} : std::array{second, first});
   }
+  return beside;
+}
+
+DOVETAIL_INLINE triangle_subdomains induced_subdomains(const elements_at_triangles& beside,
+                                                       const std::vector<local_id>& subdomain_of_element) {
+  triangle_subdomains subdomains;
+  subdomains.reserve(beside.size());
+  const auto subdomain = [&](local_id e) {
+    return e == no_id ? no_id : subdomain_of_element[static_cast<std::size_t>(e)];
+  };
+  for (const auto& [behind, in_front] : beside)
+    subdomains.push_back({subdomain(behind), subdomain(in_front)});
   return subdomains;
 }
 
@@ -222,13 +231,19 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
 
   skeleton.regions = detail::connected_regions(surface, edges, is_line, subdomains);
   detail::find_fixed_points(skeleton.regions, surface, skeleton.lines, faces);
+  for (skeleton_face& face : faces)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const local_id line = find_line(skeleton.lines, face.vertices[i], face.vertices[(i + 1) % 3]);
+      face.is_curved = face.is_curved || skeleton.lines[static_cast<std::size_t>(line)].on.dimension < 3;
+    }
   skeleton.faces = std::move(faces);
   return skeleton;
 }
 
 DOVETAIL_INLINE coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
                                                  const std::vector<local_id>& subdomain_of_element) {
-  return extract_skeleton(mesh.surface, induced_subdomains(mesh, sides, subdomain_of_element),
+  return extract_skeleton(mesh.surface,
+                          induced_subdomains(elements_beside_surface(mesh, sides), subdomain_of_element),
                           interface_faces(mesh, sides, subdomain_of_element));
 }
 

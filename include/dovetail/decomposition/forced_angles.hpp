@@ -18,14 +18,18 @@ struct cad_mesh {
   std::span<const local_id> curves; ///< per edge
 };
 
-/// Names the CAD entities at each violation, and those that force it, whose cause becomes `forced`: two faces
-/// that meet at a smaller angle than the threshold at an edge that begins where the violation is; for the
-/// angle of a triangle also two curves that do so at its corner, and a curve or the width of a face so short
-/// that on it as its shortest side no triangle of the local size has a larger angle. `triangles` are those
-/// that were measured. Without violations nothing is done; else O(n log n) in points, triangles, curve edges
-/// and violations, as long as the curve edges at a point are few.
+inline cad_mesh cad_of(const fine_skeleton& fine) {
+  return {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves};
+}
+
+/// Names the CAD entities at each small angle of D = 3, and those that force it, whose cause becomes
+/// `forced`: two faces that meet at less than is wanted, at an edge that begins where the angle is; for the
+/// angle of a triangle also two curves that do so at its corner, and a curve or the width of a face that is
+/// so short that a triangle of the local size with that as its shortest side has no larger angle.
+/// `triangles` are those that were measured. Without small angles nothing is done; else O(n log n) in points,
+/// triangles, curve edges and small angles, as long as the curve edges at a point are few.
 void find_forced(interface_angles& angles, std::span<const simplex<2>> triangles, const cad_mesh& cad,
-                 const any_sizing& size, double threshold_deg);
+                 const any_sizing& size, const wanted_angles& wanted);
 
 } // namespace dovetail
 

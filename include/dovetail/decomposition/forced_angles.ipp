@@ -22,8 +22,8 @@ namespace detail {
 class forcing_entities {
 public:
   forcing_entities(const interface_angles& angles, std::span<const simplex<2>> triangles, const cad_mesh& cad,
-                   const any_sizing& size, double threshold_deg)
-      : triangles_(triangles), cad_(cad), size_(size), threshold_(threshold_deg) {
+                   const any_sizing& size, const wanted_angles& wanted)
+      : triangles_(triangles), cad_(cad), size_(size), wanted_(wanted) {
     mark_places(angles);
     collect_curves();
     collect_edges();
@@ -33,11 +33,11 @@ public:
   void judge(angle_violation& violation) const {
     std::vector<host> forcing;
     if (violation.is_wedge()) {
-      add_sharp_edges(violation.edge[0], forcing);
-      add_sharp_edges(violation.edge[1], forcing);
+      add_sharp_edges(violation.edge[0], wanted_.wedge_deg, forcing);
+      add_sharp_edges(violation.edge[1], wanted_.wedge_deg, forcing);
     } else {
       const auto [corner, side] = corner_of(violation);
-      add_sharp_edges(corner, forcing);
+      add_sharp_edges(corner, wanted_.face_deg, forcing);
       add_curves(corner, forcing);
       add_short_entity(side, forcing);
     }
@@ -66,6 +66,7 @@ private:
   struct sharp_edge {
     simplex<1> edge;
     std::array<host, 3> entities; ///< the curve and the two faces
+    double opening = 0;
   };
 
   void mark_places(const interface_angles& angles) {
@@ -126,13 +127,15 @@ private:
   }
 
   void find_sharp_edges() {
+    const double largest = std::max(wanted_.face_deg, wanted_.wedge_deg);
     for (std::size_t i = 0; i < edges_.size(); ++i)
       for (std::size_t j = i + 1; j < edges_.size() && edges_[j].edge == edges_[i].edge; ++j)
-        if (const local_id curve = curve_at(edges_[i].edge);
-            curve != no_id && opening(edges_[i], edges_[j]) < threshold_)
-          sharp_.push_back({edges_[i].edge,
-                            {host{1, curve}, host{2, cad_.faces[edges_[i].triangle]},
-                             host{2, cad_.faces[edges_[j].triangle]}}});
+        if (const local_id curve = curve_at(edges_[i].edge); curve != no_id)
+          if (const double angle = opening(edges_[i], edges_[j]); angle < largest)
+            sharp_.push_back({edges_[i].edge,
+                              {host{1, curve}, host{2, cad_.faces[edges_[i].triangle]},
+                               host{2, cad_.faces[edges_[j].triangle]}},
+                              angle});
     sharp_at_ = by_vertex(sharp_);
   }
 
@@ -155,9 +158,10 @@ private:
     return degrees_per_radian * angle_between(to_a, to_b);
   }
 
-  void add_sharp_edges(local_id vertex, std::vector<host>& forcing) const {
+  void add_sharp_edges(local_id vertex, double wanted_deg, std::vector<host>& forcing) const {
     for (const std::size_t sharp : sharp_at_[vertex])
-      append(forcing, sharp_[sharp].entities);
+      if (sharp_[sharp].opening < wanted_deg)
+        append(forcing, sharp_[sharp].entities);
   }
 
   /// Two curves with a small angle between them at their common end.
@@ -171,14 +175,14 @@ private:
     for (std::size_t i = 0; i < here.size(); ++i)
       for (std::size_t j = i + 1; j < here.size(); ++j)
         if (here[i].edge != here[j].edge &&
-            degrees_per_radian * angle_between(direction(here[i]), direction(here[j])) < threshold_)
+            degrees_per_radian * angle_between(direction(here[i]), direction(here[j])) < wanted_.face_deg)
           append(forcing, std::array{host{1, here[i].curve}, host{1, here[j].curve}});
   }
 
   /// The curve that the side is, or the face that it crosses from curve to curve, if that is too short.
   void add_short_entity(const simplex<1>& side, std::vector<host>& forcing) const {
     const vec3 middle = midpoint(point(side[0]), point(side[1]));
-    const double least = 2 * std::sin(0.5 * threshold_ / degrees_per_radian) * size_(middle);
+    const double least = 2 * std::sin(0.5 * wanted_.face_deg / degrees_per_radian) * size_(middle);
     if (const local_id curve = curve_at(side); curve != no_id) {
       if (length_of_curve_[at(curve)] < least)
         forcing.push_back({1, curve});
@@ -217,7 +221,7 @@ private:
   std::span<const simplex<2>> triangles_;
   const cad_mesh& cad_;
   const any_sizing& size_;
-  double threshold_;
+  wanted_angles wanted_;
   std::vector<std::uint8_t> near_;      ///< per point: whether a violation is there
   std::vector<edge_of_triangle> edges_; ///< at places, by growing edge
   std::vector<edge_of_curve> curve_edges_;
@@ -230,10 +234,10 @@ private:
 } // namespace detail
 
 DOVETAIL_INLINE void find_forced(interface_angles& angles, std::span<const simplex<2>> triangles,
-                                 const cad_mesh& cad, const any_sizing& size, double threshold_deg) {
+                                 const cad_mesh& cad, const any_sizing& size, const wanted_angles& wanted) {
   if (angles.violations.empty())
     return;
-  const detail::forcing_entities entities(angles, triangles, cad, size, threshold_deg);
+  const detail::forcing_entities entities(angles, triangles, cad, size, wanted);
   for (angle_violation& violation : angles.violations)
     entities.judge(violation);
 }

@@ -1,60 +1,52 @@
 /// @file
-/// The interface angles: no small face angle on an interface, no small wedge beside one. Measured on the
-/// coarse or on the fine skeleton; what is below the threshold is listed with its cause.
+/// The interface angles: no small face angle on an interface, no small wedge beside one. Measured in a mesh
+/// that is cut into parts, or on the fine skeleton between them; what is too small is listed with its cause.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
-
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/side_state.hpp"
-#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/mesh/wanted_angles.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
+#include <functional>
 #include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 
 namespace dovetail {
 
-/// Why an angle is below the threshold.
+/// Why an angle is too small.
 enum class violation_cause : std::uint8_t {
-  forced,    ///< the CAD itself forces it (`find_forced`)
-  refused,   ///< one of its triangles lies on a coarse side that the bound refused to remove
+  forced,    ///< what is fixed forces it: no interface that ends there can have a larger one
+  refused,   ///< one of its sides is, or lies on, a coarse side that the bound refused to remove
   remeshing, ///< neither: it came up after the coarse decomposition, by curving or refining
 };
 
-/// What an interface triangle comes from; the CAD's own triangles are `cad`.
-enum class triangle_origin : std::uint8_t {
-  cad,     ///< on a CAD face: boundary or material face
-  kept,    ///< on an interface inside a solid
-  refused, ///< the same, on a coarse side that ought to have been removed
+/// A mesh cut into parts. Without `side_states` what bounds the mesh is fixed, and where the tag changes.
+template <int D>
+struct decomposed_mesh {
+  const simplicial_mesh<D>& mesh;
+  const side_table<D>& sides; ///< `build_sides(mesh)`
+  std::span<const side_state> side_states;
+  std::span<const local_id> part_of_element;
+  /// Of fine lines (D = 2): the direction in which the line along a side leaves a vertex; empty where
+  /// interfaces are as the mesh has them.
+  std::function<vec3(local_id side, local_id vertex)> leaves = {};
 };
 
-/// The triangles of all subdomain boundaries, each held once; spans of equal length but `points`.
-struct interface_angles_input {
-  std::span<const vec3> points;
-  std::span<const simplex<2>> triangles;
-  std::span<const std::array<local_id, 2>> subdomains; ///< oriented outwards of [0]; [1] may be no_id
-  std::span<const triangle_origin> origins;
-  /// Of the edges whose wedges are measured: 3 t + k for side k of triangle t, all of an edge or none. All
-  /// edges when it is empty.
-  std::span<const std::uint32_t> half_edges = {};
-};
-
-/// An angle under the threshold.
+/// An angle that is too small.
 struct angle_violation {
   double angle_deg = 0;
   violation_cause cause = violation_cause::refused;
-  std::array<local_id, 2> sides{no_id, no_id}; ///< the triangle itself, or the two that make the wedge
-  std::array<local_id, 2> edge{no_id, no_id};  ///< a wedge's ridge; no_id for the angle of a face
+  std::array<local_id, 2> sides{no_id, no_id}; ///< the face itself, or the two sides that make the wedge
+  std::array<local_id, 2> edge{no_id, no_id};  ///< a wedge's ridge, in D = 2 a vertex; no_id for a face
   local_id subdomain = no_id;                  ///< the subdomain a wedge lies in
-  vec3 place;                                  ///< the middle of the triangle or ridge
+  vec3 place;                                  ///< the middle of the face or ridge
   std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
   static constexpr auto fields = std::tuple(
@@ -73,9 +65,9 @@ struct least_angle {
 
 struct interface_angles {
   std::size_t interface_faces = 0;
-  least_angle face_angle;                  ///< of interface triangles
-  least_angle interface_wedge;             ///< between two interface triangles
-  least_angle surface_wedge;               ///< between an interface triangle and one of the CAD
+  least_angle face_angle;                  ///< of interface faces; none in D = 2
+  least_angle interface_wedge;             ///< between two interface faces
+  least_angle surface_wedge;               ///< between an interface face and a fixed side
   std::vector<angle_violation> violations; ///< by growing angle
 
   static constexpr auto fields = std::tuple(&interface_angles::interface_faces, &interface_angles::face_angle,
@@ -89,23 +81,24 @@ struct interface_angles {
   }
 };
 
-namespace detail {
+/// The interface angles of a mesh of triangles (D = 2) or tetrahedra (D = 3), with or without CAD: at each
+/// ridge those of the elements between two sides that are fixed or interfaces add up to a wedge. One between
+/// fixed sides that themselves include less than is wanted is forced. `sides` in the result are sides of the
+/// mesh. Linear in the mesh.
+///
+///     auto angles = measure_interface_angles<2>({mesh, sides, simplified.side_states, part_of_element},
+///                                               wanted_angles_of<2>(rule));
+template <int D>
+interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const wanted_angles& wanted);
 
-inline void sort_by_angle(std::vector<angle_violation>& violations) {
-  sort_all(violations, [](const angle_violation& a, const angle_violation& b) {
-    return std::tuple(a.angle_deg, a.sides, a.edge) < std::tuple(b.angle_deg, b.sides, b.edge);
-  });
-}
-
-} // namespace detail
-
-/// The origins of the sides of a decomposed coarse mesh, from what the simplification decided about them.
-std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
-                                              std::span<const side_state> side_states);
-
-/// Measures the interface angles. About linear in the number of triangles. Throws `usage_error` when the
-/// spans do not match.
-interface_angles measure_interface_angles(const interface_angles_input& input, double threshold_deg = 30);
+/// The interface angles of a fine skeleton: between triangles, around their edges; those on CAD faces and on
+/// the boundary are fixed. `refused`: not zero for triangles on a coarse side that the bound refused to
+/// remove; may be empty. `half_edges`: only the wedges at these edges are measured, given as 3 t + k for side
+/// k of triangle t, all of an edge or none; all when it is empty. `sides` in the result are triangles. About
+/// linear.
+interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
+                                         std::span<const std::uint8_t> refused = {},
+                                         std::span<const std::uint32_t> half_edges = {});
 
 } // namespace dovetail
 

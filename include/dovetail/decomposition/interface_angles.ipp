@@ -2,13 +2,10 @@
 /// What `interface_angles.hpp` declares.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
 #include <algorithm>
@@ -18,36 +15,212 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
 
 namespace detail {
 
-class interface_checker {
+/// What is the same wherever angles are measured: the least ones and the list of those that are too small.
+class angle_collector {
 public:
-  interface_checker(const interface_angles_input& input, double threshold_deg)
-      : in_(input), threshold_(threshold_deg - rounding_deg) {
-    if (in_.subdomains.size() != in_.triangles.size() || in_.origins.size() != in_.triangles.size())
-      throw usage_error("interface angles: " + std::to_string(in_.triangles.size()) + " triangles, but " +
-                        std::to_string(in_.subdomains.size()) + " pairs of subdomains and " +
-                        std::to_string(in_.origins.size()) + " origins");
+  explicit angle_collector(const wanted_angles& wanted) : wanted_(wanted) {}
+
+  /// A triangle on an interface.
+  void add_face(local_id side, const std::array<vec3, 3>& p, violation_cause cause) {
+    const double angle = smallest_corner_angle(p);
+    const least_angle here{angle, {side, no_id}, {no_id, no_id}};
+    if (angle < found.face_angle.angle_deg)
+      found.face_angle = here;
+    if (angle < wanted_.face_deg - rounding_deg)
+      found.violations.push_back({angle, cause, here.sides, here.edge, no_id, (p[0] + p[1] + p[2]) / 3.0});
+  }
+  /// Returns whether the wedge is too small, and so the last of the violations.
+  bool add_wedge(const least_angle& here, bool at_surface, violation_cause cause, local_id subdomain,
+                 vec3 place) {
+    least_angle& minimum = at_surface ? found.surface_wedge : found.interface_wedge;
+    if (here.angle_deg < minimum.angle_deg)
+      minimum = here;
+    if (!is_small_wedge(here.angle_deg))
+      return false;
+    found.violations.push_back({here.angle_deg, cause, here.sides, here.edge, subdomain, place});
+    return true;
+  }
+  bool is_small_wedge(double angle) const { return angle < wanted_.wedge_deg - rounding_deg; }
+
+  interface_angles take() {
+    sort_all(found.violations, [](const angle_violation& a, const angle_violation& b) {
+      return std::tuple(a.angle_deg, a.sides, a.edge) < std::tuple(b.angle_deg, b.sides, b.edge);
+    });
+    return std::move(found);
+  }
+
+  interface_angles found;
+
+private:
+  /// The same angle comes out differently when another sum of angles, or none, leads to it.
+  static constexpr double rounding_deg = 1e-6;
+
+  wanted_angles wanted_;
+};
+
+/// Measures through the elements of a mesh.
+template <int D>
+class mesh_angles {
+public:
+  mesh_angles(const decomposed_mesh<D>& given, const wanted_angles& wanted)
+      : in_(given), collector_(wanted), is_fixed_(given.sides.size()), is_interface_(given.sides.size()) {
+    for (std::size_t s = 0; s < is_fixed_.size(); ++s) {
+      const auto [a, b] = in_.sides.elements[s];
+      const bool is_interior = in_.sides.is_interior(static_cast<local_id>(s));
+      is_fixed_[s] = !is_interior ||
+                     (in_.side_states.empty() ? changes_tag(a, b) : in_.side_states[s] == side_state::fixed);
+      is_interface_[s] = !is_fixed_[s] && part(a) != part(b);
+    }
   }
 
   interface_angles run() {
-    measure_faces();
-    const bool all = in_.half_edges.empty();
+    for (std::size_t s = 0; s < is_interface_.size(); ++s)
+      if (is_interface_[s]) {
+        ++collector_.found.interface_faces;
+        if constexpr (D == 3)
+          collector_.add_face(static_cast<local_id>(s),
+                              corners(span_of(in_.mesh.points), in_.sides.vertices[s]),
+                              cause_at(static_cast<local_id>(s)));
+      }
+    if (collector_.found.interface_faces > 0) {
+      const ridge_table<D> ridges = build_ridges(in_.mesh, in_.sides);
+      for (std::size_t r = 0; r < ridges.size(); ++r)
+        for (std::size_t fan = ridges.fan_begins[r]; fan < ridges.fan_begins[r + 1]; ++fan)
+          measure_fan(ridges.vertices[r], ridges.fan(fan), ridges.closed[fan]);
+    }
+    return collector_.take();
+  }
+
+private:
+  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+  local_id part(local_id element) const { return in_.part_of_element[at(element)]; }
+  bool changes_tag(local_id a, local_id b) const {
+    return !in_.mesh.tags.empty() && in_.mesh.tags[at(a)] != in_.mesh.tags[at(b)];
+  }
+  bool is_fixed(local_id side) const { return is_fixed_[at(side)]; }
+  /// Whether a wedge ends at the side.
+  bool is_end(local_id side) const { return is_fixed_[at(side)] || is_interface_[at(side)]; }
+  violation_cause cause_at(local_id side) const {
+    return !in_.side_states.empty() && in_.side_states[at(side)] == side_state::refused
+               ? violation_cause::refused
+               : violation_cause::remeshing;
+  }
+
+  /// An element at the ridge, passed from side to side.
+  struct passage {
+    local_id element, from, to;
+    double angle;
+  };
+
+  passage decoded(std::uint32_t code) const {
+    const wedge w = ridge_table<D>::decode(code);
+    const auto& sides = in_.sides.of_element[at(w.element)];
+    const auto angles = wedge_angles(corners(span_of(in_.mesh.points), in_.mesh.elements[at(w.element)]));
+    return {w.element, sides[at(w.sides[0])], sides[at(w.sides[1])], angles[at(w.ridge)]};
+  }
+
+  /// Adds up the angles of a fan from one side where wedges end to the next.
+  void measure_fan(const simplex<D - 2>& ridge, std::span<const std::uint32_t> codes, bool is_closed) {
+    const auto has = [&](std::uint32_t code, auto is_wanted) {
+      const wedge w = ridge_table<D>::decode(code);
+      return is_wanted(in_.sides.of_element[at(w.element)][at(w.sides[0])]);
+    };
+    const auto first = [&](auto is_wanted) {
+      return std::find_if(codes.begin(), codes.end(), [&](auto code) { return has(code, is_wanted); });
+    };
+    if (first([&](local_id side) { return is_interface_[at(side)]; }) == codes.end())
+      return;                   // nor is the last side of an open fan one: it is fixed
+    auto begin = codes.begin(); // of an open fan a fixed side
+    if (is_closed) {
+      begin = first([&](local_id side) { return is_fixed(side); });
+      if (begin == codes.end())
+        begin = first([&](local_id side) { return is_end(side); });
+    }
+    passage run{no_id, no_id, no_id, 0};
+    double opening = 0; // between fixed sides
+    std::size_t first_found = collector_.found.violations.size();
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      const passage here =
+          decoded(codes[(static_cast<std::size_t>(begin - codes.begin()) + k) % codes.size()]);
+      if (run.element == no_id)
+        run = {here.element, here.from, no_id, 0};
+      run.angle += here.angle;
+      run.to = here.to;
+      opening += here.angle;
+      if (!is_end(here.to))
+        continue;
+      measure_wedge(ridge, run);
+      run.element = no_id;
+      if (!is_fixed(here.to))
+        continue;
+      auto& violations = collector_.found.violations;
+      if (collector_.is_small_wedge(opening))
+        for (; first_found < violations.size(); ++first_found)
+          violations[first_found].cause = violation_cause::forced;
+      opening = 0;
+      first_found = violations.size();
+    }
+  }
+
+  void measure_wedge(const simplex<D - 2>& ridge, const passage& run) {
+    if (is_fixed(run.from) && is_fixed(run.to)) // also where a fixed line ends inside a part
+      return;
+    std::array<local_id, 2> edge{no_id, no_id};
+    std::copy(ridge.begin(), ridge.end(), edge.begin());
+    const vec3 place = midpoint(in_.mesh.points[at(ridge.front())], in_.mesh.points[at(ridge.back())]);
+    const bool is_refused =
+        cause_at(run.from) == violation_cause::refused || cause_at(run.to) == violation_cause::refused;
+    const bool is_small = collector_.add_wedge(
+        {angle_of(run, edge[0]), {run.from, run.to}, edge}, is_fixed(run.from) || is_fixed(run.to),
+        is_refused ? violation_cause::refused : violation_cause::remeshing, part(run.element), place);
+    if (D == 2 && is_small && !in_.mesh.tags.empty())
+      collector_.found.violations.back().cad = {{2, in_.mesh.tags[at(run.element)]}};
+  }
+
+  double angle_of(const passage& run, local_id vertex) const {
+    if (!in_.leaves)
+      return run.angle;
+    const double between =
+        degrees_per_radian * angle_between(in_.leaves(run.from, vertex), in_.leaves(run.to, vertex));
+    return run.angle > 180 ? 360 - between : between;
+  }
+
+  const decomposed_mesh<D>& in_;
+  angle_collector collector_;
+  std::vector<bool> is_fixed_, is_interface_; ///< per side
+};
+
+/// Measures between the triangles of a fine skeleton.
+class skeleton_angles {
+public:
+  skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
+                  std::span<const std::uint8_t> refused, std::span<const std::uint32_t> half_edges)
+      : fine_(fine), collector_(wanted), refused_(refused), half_edges_(half_edges) {}
+
+  interface_angles run() {
+    for (std::size_t t = 0; t < fine_.sides.size(); ++t)
+      if (const auto id = static_cast<local_id>(t); !is_fixed(id)) {
+        ++collector_.found.interface_faces;
+        collector_.add_face(id, corners(span_of(fine_.points), fine_.sides[t]), cause_of(id, id));
+      }
+    const bool all = half_edges_.empty();
     const auto half_edge = [&](std::size_t i) {
-      return all ? static_cast<std::uint32_t>(i) : in_.half_edges[i];
+      return all ? static_cast<std::uint32_t>(i) : half_edges_[i];
     };
     std::vector<std::uint32_t> around;
     for_each_group<2>(
-        all ? in_.triangles.size() * 3 : in_.half_edges.size(), in_.points.size(),
+        all ? fine_.sides.size() * 3 : half_edges_.size(), fine_.points.size(),
         [&](std::size_t i) {
           const std::uint32_t h = half_edge(i);
-          return sorted_vertices(pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]));
+          return sorted_vertices(pick(fine_.sides[h / 3], numbering::sides<2>[h % 3]));
         },
         [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> members) {
           around.clear();
@@ -55,14 +228,10 @@ public:
             around.push_back(half_edge(i));
           measure_wedges(edge, around);
         });
-    sort_by_angle(found_.violations);
-    return std::move(found_);
+    return collector_.take();
   }
 
 private:
-  /// The same angle comes out differently when measured through elements, as the simplification does.
-  static constexpr double rounding_deg = 1e-6;
-
   /// A triangle at an edge: its direction around the edge, and the subdomains on its two sides.
   struct flap {
     double direction; ///< angle around the edge, counter-clockwise seen against the edge
@@ -71,47 +240,35 @@ private:
     local_id after;  ///< on the counter-clockwise side
   };
 
-  bool is_cad(local_id t) const { return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::cad; }
-  bool is_refused(local_id t) const {
-    return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
+  bool is_fixed(local_id t) const {
+    const auto [behind, front] = fine_.subdomains[static_cast<std::size_t>(t)];
+    return fine_.side_hosts[static_cast<std::size_t>(t)] != no_id || front == no_id || front == behind;
   }
   violation_cause cause_of(local_id a, local_id b) const {
-    return is_refused(a) || is_refused(b) ? violation_cause::refused : violation_cause::remeshing;
+    const bool is_refused = !refused_.empty() && (refused_[static_cast<std::size_t>(a)] != 0 ||
+                                                  refused_[static_cast<std::size_t>(b)] != 0);
+    return is_refused ? violation_cause::refused : violation_cause::remeshing;
   }
-  vec3 at(local_id v) const { return in_.points[static_cast<std::size_t>(v)]; }
-
-  void measure_faces() {
-    for (std::size_t t = 0; t < in_.triangles.size(); ++t) {
-      const auto id = static_cast<local_id>(t);
-      if (is_cad(id))
-        continue;
-      ++found_.interface_faces;
-      const auto p = corners(in_.points, in_.triangles[t]);
-      const double smallest = smallest_corner_angle(p);
-      if (smallest < found_.face_angle.angle_deg)
-        found_.face_angle = {smallest, {id, no_id}, {no_id, no_id}};
-      const vec3 centroid = (p[0] + p[1] + p[2]) / 3.0;
-      if (smallest < threshold_)
-        found_.violations.push_back(
-            {smallest, cause_of(id, id), {id, no_id}, {no_id, no_id}, no_id, centroid});
-    }
-  }
+  vec3 at(local_id v) const { return fine_.points[static_cast<std::size_t>(v)]; }
 
   void measure_wedges(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
-    const bool all_cad = std::all_of(half_edges.begin(), half_edges.end(),
-                                     [&](std::uint32_t h) { return is_cad(static_cast<local_id>(h / 3)); });
-    if (all_cad || half_edges.size() < 2)
+    const bool all_fixed = std::all_of(half_edges.begin(), half_edges.end(), [&](std::uint32_t h) {
+      return is_fixed(static_cast<local_id>(h / 3));
+    });
+    if (all_fixed || half_edges.size() < 2)
       return;
     collect_flaps(edge, half_edges);
     for (std::size_t k = 0; k < flaps_.size(); ++k) {
       const flap& here = flaps_[k];
       const flap& next = flaps_[(k + 1) % flaps_.size()];
-      if (here.after == no_id || here.after != next.before ||
-          (is_cad(here.triangle) && is_cad(next.triangle)))
-        continue; // outside of the domain, or none of the interfaces' business
+      const int fixed = (is_fixed(here.triangle) ? 1 : 0) + (is_fixed(next.triangle) ? 1 : 0);
+      if (here.after == no_id || here.after != next.before || fixed == 2)
+        continue; // outside of the domain, or no interface's
       const double turn =
           next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
-      note_wedge(edge, here, next, turn * degrees_per_radian);
+      collector_.add_wedge({turn * degrees_per_radian, {here.triangle, next.triangle}, edge}, fixed > 0,
+                           cause_of(here.triangle, next.triangle), here.after,
+                           midpoint(at(edge[0]), at(edge[1])));
     }
   }
 
@@ -119,7 +276,7 @@ private:
     const vec3 origin = at(edge[0]);
     const vec3 axis = normalized(at(edge[1]) - origin);
     const auto apex = [&](std::uint32_t h) {
-      return in_.triangles[h / 3][h % 3];
+      return fine_.sides[h / 3][h % 3];
     }; // side i is opposite vertex i
     const vec3 to_first = at(apex(half_edges[0])) - origin;
     const vec3 x = normalized(to_first - dot(to_first, axis) * axis);
@@ -128,10 +285,10 @@ private:
     for (const std::uint32_t h : half_edges) {
       const auto t = static_cast<local_id>(h / 3);
       const vec3 d = at(apex(h)) - origin;
-      const auto vertices = pick(in_.triangles[h / 3], numbering::sides<2>[h % 3]);
+      const auto vertices = pick(fine_.sides[h / 3], numbering::sides<2>[h % 3]);
       // A triangle that passes the edge in the edge's direction has its normal, which points out of
       // subdomains[0], on the counter-clockwise side.
-      const auto& both = in_.subdomains[h / 3];
+      const auto& both = fine_.subdomains[h / 3];
       const bool along = vertices[0] == edge[0];
       flaps_.push_back({h == half_edges[0] ? 0.0 : std::atan2(dot(d, y), dot(d, x)), t,
                         along ? both[0] : both[1], along ? both[1] : both[0]});
@@ -141,42 +298,30 @@ private:
     });
   }
 
-  void note_wedge(const std::array<local_id, 2>& edge, const flap& a, const flap& b, double angle) {
-    least_angle& minimum =
-        is_cad(a.triangle) || is_cad(b.triangle) ? found_.surface_wedge : found_.interface_wedge;
-    if (angle < minimum.angle_deg)
-      minimum = {angle, {a.triangle, b.triangle}, edge};
-    if (angle < threshold_)
-      found_.violations.push_back({angle,
-                                   cause_of(a.triangle, b.triangle),
-                                   {a.triangle, b.triangle},
-                                   edge,
-                                   a.after,
-                                   midpoint(at(edge[0]), at(edge[1]))});
-  }
-
-  const interface_angles_input& in_;
-  double threshold_;
-  interface_angles found_;
+  const fine_skeleton& fine_;
+  angle_collector collector_;
+  std::span<const std::uint8_t> refused_;
+  std::span<const std::uint32_t> half_edges_;
   std::vector<flap> flaps_; ///< scratch
 };
 
 } // namespace detail
 
-DOVETAIL_INLINE std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>& boundary,
-                                                              std::span<const side_state> side_states) {
-  std::vector<triangle_origin> origins(boundary.sides.size(), triangle_origin::cad);
-  for (std::size_t k = 0; k < origins.size(); ++k)
-    if (boundary.on_surface[k] == 0)
-      origins[k] = side_states[static_cast<std::size_t>(boundary.side_ids[k])] == side_state::refused
-                       ? triangle_origin::refused
-                       : triangle_origin::kept;
-  return origins;
+template <int D>
+interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const wanted_angles& wanted) {
+  return detail::mesh_angles<D>(given, wanted).run();
 }
 
-DOVETAIL_INLINE interface_angles measure_interface_angles(const interface_angles_input& input,
-                                                          double threshold_deg) {
-  return detail::interface_checker(input, threshold_deg).run();
+DOVETAIL_INLINE interface_angles measure_skeleton_angles(const fine_skeleton& fine,
+                                                         const wanted_angles& wanted,
+                                                         std::span<const std::uint8_t> refused,
+                                                         std::span<const std::uint32_t> half_edges) {
+  return detail::skeleton_angles(fine, wanted, refused, half_edges).run();
 }
+
+#ifdef DOVETAIL_COMPILED
+template interface_angles measure_interface_angles<2>(const decomposed_mesh<2>&, const wanted_angles&);
+template interface_angles measure_interface_angles<3>(const decomposed_mesh<3>&, const wanted_angles&);
+#endif
 
 } // namespace dovetail

@@ -18,18 +18,23 @@ struct simplicial_background<2> {
   surface_mesh surface;
 
   const simplicial_mesh<2>& elements() const { return surface.mesh; }
+  const std::vector<vec3>& points() const { return surface.mesh.points; }
 
   static constexpr auto fields = std::tuple(&simplicial_background::surface);
 };
 
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
-/// triangle is a side of the volume. `volume.tags` are materials: solids of the model.
+/// triangle is a side of the volume. `volume.tags` are materials: solids of the model. A mesh that is not
+/// divided needs no volume.
 template <>
 struct simplicial_background<3> {
   surface_mesh surface;
   simplicial_mesh<3> volume;
 
   const simplicial_mesh<3>& elements() const { return volume; }
+  const std::vector<vec3>& points() const {
+    return volume.points.empty() ? surface.mesh.points : volume.points;
+  }
 
   static constexpr auto fields = std::tuple(&simplicial_background::surface, &simplicial_background::volume);
 };

@@ -37,6 +37,8 @@ struct skeleton_region {
 struct skeleton_face {
   simplex<2> vertices{no_id, no_id, no_id};
   std::array<local_id, 2> subdomains{no_id, no_id};
+  local_id side = no_id;  ///< of the coarse mesh
+  bool is_curved = false; ///< has an edge on the CAD surface, and leaves its coarse plane when remeshed
 };
 
 struct coarse_skeleton {

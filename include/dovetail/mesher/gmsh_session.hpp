@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 

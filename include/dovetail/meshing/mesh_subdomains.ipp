@@ -173,18 +173,14 @@ private:
   /// Runs in the worker: makes the piece, unless the store has it.
   piece_receipt receipt_of(const piece_failure& piece, std::size_t rung) const {
     const piece_input<D> input = source_(piece.subdomain);
-    entity_store& store = shelf_->store();
-    piece_receipt receipt{.key = key_of(input, size_.key_near(place(input)))};
-    if (auto summary = find_summary(receipt.key)) {
+    const content_key key = key_of(input, size_.key_near(place(input)));
+    piece_receipt receipt{.piece = {key, {}}};
+    if (auto summary = find_summary(key)) {
       receipt.reused = true;
       receipt.summary = *std::move(summary);
     } else {
       auto finished = attempt(piece, input, rung);
-      byte_buffer bytes = encoded(finished);
-      if (store.is_shared())
-        store.keep(receipt.key, std::move(bytes));
-      else
-        receipt.piece = std::move(bytes);
+      receipt.piece = shelf_->store().keep_in_task(key, encoded(finished));
       receipt.summary = std::move(finished.summary);
     }
     receipt.summary.summary = brief(receipt.summary.summary);
@@ -211,11 +207,9 @@ private:
       return false;
     }
     piece_receipt receipt = *std::move(result.value);
-    if (receipt.piece)
-      shelf_->store().keep(receipt.key, *std::move(receipt.piece));
     summary.add("reused", receipt.reused ? 1 : 0);
     receipt.summary.summary.name = piece_name(piece.subdomain);
-    shelf_->place(piece.subdomain, receipt.key);
+    shelf_->place(piece.subdomain, shelf_->store().take(std::move(receipt.piece)));
     result_.pieces[static_cast<std::size_t>(piece.subdomain)] = std::move(receipt.summary);
     return true;
   }

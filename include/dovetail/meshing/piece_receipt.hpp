@@ -3,24 +3,22 @@
 /// since every rank gets that of every piece.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/meshing/piece_work.hpp"
+#include "dovetail/parallel/entity_store.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <tuple>
 
 namespace dovetail::detail {
 
 struct piece_receipt {
-  content_key key = {};
-  piece_summary summary = {};            ///< its report is brief
-  bool reused = false;                   ///< the store had it
-  std::optional<byte_buffer> piece = {}; ///< where the worker cannot reach the store
+  kept_value piece = {};
+  piece_summary summary = {}; ///< its report is brief
+  bool reused = false;        ///< the store had it
 
   static constexpr auto fields =
-      std::tuple(&piece_receipt::key, &piece_receipt::summary, &piece_receipt::reused, &piece_receipt::piece);
+      std::tuple(&piece_receipt::piece, &piece_receipt::summary, &piece_receipt::reused);
 };
 
 /// Of the report of a piece what is summed up over all pieces. The rest stays with the piece.

@@ -36,10 +36,10 @@ namespace detail {
 
 /// What a worker says of a batch.
 struct made_batch {
-  bool is_new = false;              ///< and was not found
-  std::optional<byte_buffer> bytes; ///< where the worker cannot reach the store
+  bool is_new = false; ///< and was not found
+  kept_value kept;
 
-  static constexpr auto fields = std::tuple(&made_batch::is_new, &made_batch::bytes);
+  static constexpr auto fields = std::tuple(&made_batch::is_new, &made_batch::kept);
 };
 
 } // namespace detail
@@ -165,9 +165,7 @@ private:
         continue;
       }
       made_ += results[b].value->is_new ? members.size() : 0;
-      if (auto& bytes = results[b].value->bytes)
-        store_->keep(batches[b].key, *std::move(bytes));
-      kept.push_back(batches[b].key);
+      kept.push_back(store_->take(std::move(results[b].value->kept)));
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[keys[members[i]]] = {batches[b].key, i};
     }
@@ -177,12 +175,8 @@ private:
   /// In a worker, which puts it into the store itself where it can.
   detail::made_batch make_batch(const batch& wanted, const maker& make) const {
     if (store_->is_shared() && store_->find(wanted.key))
-      return {false, {}};
-    byte_buffer bytes = encoded(make(wanted.members));
-    if (!store_->is_shared())
-      return {true, std::move(bytes)};
-    store_->keep(wanted.key, std::move(bytes));
-    return {true, {}};
+      return {false, {wanted.key, {}}};
+    return {true, store_->keep_in_task(wanted.key, encoded(make(wanted.members)))};
   }
 
   std::shared_ptr<entity_store> store_;

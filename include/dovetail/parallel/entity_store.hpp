@@ -14,11 +14,20 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// What a task says of something that it has made for a store.
+struct kept_value {
+  content_key key = {};
+  std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
+
+  static constexpr auto fields = std::tuple(&kept_value::key, &kept_value::bytes);
+};
 
 /// Holds the bytes of finished entities: in a spool, where workers put them themselves and a later run finds
 /// them, or in the memory of the process that started the workers. A forked worker sees what was there at its
@@ -64,6 +73,19 @@ public:
   template <encodable T>
   void keep_value(content_key key, const T& value) {
     keep(key, encoded(value));
+  }
+
+  /// In a task: keeps it, or says it to `take`, which is called in the process that has started the task.
+  kept_value keep_in_task(content_key key, byte_buffer bytes) {
+    if (!is_shared())
+      return {key, std::move(bytes)};
+    keep(key, std::move(bytes));
+    return {key, {}};
+  }
+  content_key take(kept_value said) {
+    if (said.bytes)
+      keep(said.key, *std::move(said.bytes));
+    return said.key;
   }
 
   /// Nothing when the entity is not there, or its file is damaged.

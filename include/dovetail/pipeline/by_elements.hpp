@@ -32,7 +32,6 @@ struct elements {
   int super_elements = 2000; ///< about so many of each piece
   double seam_weight = 4;    ///< of a side that is an interface already; of others it is 1
   double imbalance = 1.03;   ///< largest over average rank that is tried for; a warning where it is more
-  double interface_angle_deg = 30; ///< smaller interface angles are counted in the summary
   any_executor run_tasks = parallel::serial{};
   std::optional<spool> store = {}; ///< where new pieces are kept; none: in memory
   progress on_progress = {};
@@ -40,8 +39,9 @@ struct elements {
   /// The summary has, beside what `describe_redistribution` says: super_elements, seams_before and
   /// seams_after (sides inside solids that were interfaces, and still are), interface_sides, depends_on_ranks
   /// (1 where the partitioner does, with a warning that says what this means); in D = 3 also
-  /// min_face_angle_deg, min_wedge_deg, small_angles and, of these, avoidable_angles, at sides that the rule
-  /// had not refused; children "simplification", "partition", "migration" with their seconds.
+  /// min_face_angle_deg, min_wedge_deg, small_angles (smaller than the rule wants) and, of these,
+  /// avoidable_angles, at sides that the rule had not refused; children "simplification", "partition",
+  /// "migration" with their seconds.
   ///
   /// Throws what the partitioner and the rule throw, `partition_error` for ranks that cannot have a piece
   /// each, `mesh_error` when pieces and skeleton disagree or an element would be lost, `usage_error` for a

@@ -10,11 +10,11 @@
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept_tasks.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/refinement.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
 #include "dovetail/pipeline/element_migration.hpp"
-#include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/pipeline/piece_supers.hpp"
 #include "dovetail/redistribution/piece_graph.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
@@ -123,7 +123,7 @@ private:
         [&](std::size_t p, std::tuple<io::mesh_hasher, simplified_piece, kept_value> made) {
           hash_.merge(std::get<0>(made));
           pieces[p] = std::move(std::get<1>(made));
-          keys_[p] = tasks_.take_kept(std::move(std::get<2>(made)));
+          keys_[p] = store_->take(std::move(std::get<2>(made)));
         });
     tasks_.exchange(keys_);
     joined_ = join_supers<D>(mesh_.skeleton, pieces, given_.seam_weight);
@@ -251,15 +251,8 @@ private:
   }
 
   void measure_angles(report& to) const requires(D == 3) {
-    const auto& fine = migrated_.mesh->skeleton;
-    std::vector<triangle_origin> origins;
-    for (std::size_t s = 0; s < fine.sides.size(); ++s)
-      origins.push_back(fine.side_hosts[s] != no_id || fine.subdomains[s][1] == no_id ? triangle_origin::cad
-                        : migrated_.avoided[s] != 0 ? triangle_origin::refused
-                                                    : triangle_origin::kept);
-    const interface_angles angles = measure_interface_angles(
-        {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)},
-        given_.interface_angle_deg);
+    const interface_angles angles = measure_skeleton_angles(
+        migrated_.mesh->skeleton, wanted_angles_of<3>(given_.simplify_by), migrated_.avoided);
     to.set("min_face_angle_deg", angles.face_angle.angle_deg);
     to.set("min_wedge_deg", angles.min_wedge_deg());
     to.set("small_angles", static_cast<double>(angles.violations.size()));

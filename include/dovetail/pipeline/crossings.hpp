@@ -109,7 +109,7 @@ inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_st
   given.options.on_progress("intersection", 0, 0);
   std::vector<bool> planar(made.fine.sides.size(), false);
   for (std::size_t f = 0; f < made.coarse.faces.size(); ++f)
-    if (!is_curved(made.coarse.faces[f], made.coarse.lines)) {
+    if (!made.coarse.faces[f].is_curved) {
       const std::size_t patch = made.coarse.regions.size() + f;
       std::fill(planar.begin() + patches.first_triangle[patch],
                 planar.begin() + patches.first_triangle[patch + 1], true);

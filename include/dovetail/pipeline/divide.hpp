@@ -4,12 +4,14 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -18,6 +20,8 @@ namespace dovetail {
 template <int D>
 struct divided_background {
   side_table<D> sides;
+  /// D = 3: the elements behind and in front of each surface triangle, or no_id.
+  elements_at_triangles beside_surface;
   std::vector<double> weights; ///< predicted elements, per coarse element
   std::vector<side_state> side_states;
   decomposition pieces;
@@ -36,8 +40,9 @@ template <int D>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
                              const any_parameters<D>& given);
 
-/// Each solid is a part.
-divided_background<3> leave_undivided(const simplicial_background<3>& cones, std::size_t solids);
+/// A background mesh without a volume: each solid is a part, and stands for its only element. Throws
+/// `geometry_error` when the model has no solid or a solid's surface is open.
+divided_background<3> leave_undivided(const surface_mesh& surface, const geometry_topology& topology);
 
 } // namespace dovetail
 

@@ -2,6 +2,7 @@
 /// What `divide.hpp` declares.
 #pragma once
 
+#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -60,8 +62,9 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   result.pieces =
       decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
                    materials_of(coarse), given.partition_it, subdomains, 1.05, options.on_progress);
-  result.angles = coarse_interface_angles(coarse, sides, simplified.side_states,
-                                          result.pieces.part_of_element, size, options);
+  result.angles =
+      coarse_interface_angles(coarse, sides, simplified.side_states, result.pieces.part_of_element, size,
+                              wanted_angles_of<D>(given.simplify_by));
   result.side_states = std::move(simplified.side_states);
   result.partition = std::move(result.pieces.summary);
   result.partition.seconds = partition_clock.seconds();
@@ -79,18 +82,20 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   const double seconds_before = clock.seconds();
   auto result = given.run_tasks.once(
       [&] { return detail::divide_here<D>(coarse, sides, size, estimates, subdomains, given); });
+  if constexpr (D == 3)
+    result.beside_surface = elements_beside_surface(coarse, sides);
   result.sides = std::move(sides);
   result.simplification.seconds += seconds_before;
   return result;
 }
 
-DOVETAIL_INLINE divided_background<3> leave_undivided(const simplicial_background<3>& cones,
-                                                      std::size_t solids) {
+DOVETAIL_INLINE divided_background<3> leave_undivided(const surface_mesh& surface,
+                                                      const geometry_topology& topology) {
+  const std::size_t solids = topology.solids.size();
   divided_background<3> result;
-  result.sides = build_sides(cones.volume);
-  result.weights.assign(cones.volume.elements.size(), 1);
-  result.side_states.assign(result.sides.size(), side_state::kept);
-  result.pieces.part_of_element = cones.volume.tags;
+  result.beside_surface = background::solids_beside_surface(surface, topology);
+  result.pieces.part_of_element.resize(solids);
+  std::iota(result.pieces.part_of_element.begin(), result.pieces.part_of_element.end(), local_id{0});
   result.pieces.parts = static_cast<local_id>(solids);
   result.simplification.name = "simplification";
   result.partition.name = "partition";

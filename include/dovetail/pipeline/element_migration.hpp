@@ -10,7 +10,7 @@
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/pipeline/kept_tasks.hpp"
+#include "dovetail/parallel/kept_tasks.hpp"
 #include "dovetail/redistribution/piece_cut.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
 
@@ -141,13 +141,13 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
             piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
             static_cast<global_id>(piece.mesh.elements.size())};
         return std::tuple(hash, counts, measure_quality(piece.mesh),
-                          found ? kept_value{key} : tasks.keep(key, piece));
+                          found ? kept_value{key, {}} : tasks.keep(key, piece));
       },
       [&](std::size_t n, std::tuple<io::mesh_hasher, piece_counts, quality_statistics, kept_value> moved) {
         after.merge(std::get<0>(moved));
         to.counts[n] = std::get<1>(moved);
         to.quality[n] = std::get<2>(moved);
-        (*keys)[n] = tasks.take_kept(std::move(std::get<3>(moved)));
+        (*keys)[n] = store->take(std::move(std::get<3>(moved)));
       });
   if (after.value() != moves.hash.value())
     throw mesh_error("elements were changed or lost on their way to other pieces");

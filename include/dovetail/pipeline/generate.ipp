@@ -2,7 +2,6 @@
 /// What `generate.hpp` declares.
 #pragma once
 
-#include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
@@ -43,6 +42,16 @@ content_key key_of_given_up(const background_result<D>& background) {
   return make(static_cast<std::int64_t>(background.mesh.elements().elements.size())).key();
 }
 
+/// For one subdomain there is no volume (`make_background`).
+template <int D>
+divided_background<D> divide_if_planned(const any_geometry& model, const background_result<D>& background,
+                                        const any_parameters<D>& given) {
+  if constexpr (D == 3)
+    if (background.mesh.volume.elements.empty())
+      return leave_undivided(background.mesh.surface, model.topology());
+  return divide<D>(background.mesh, background.size, background.plan.subdomains, given);
+}
+
 /// What follows the background mesh, which is taken when all went well. `account` is that of the
 /// decompositions before, and when this one is given up of all.
 template <int D>
@@ -51,23 +60,10 @@ generated<D> generate_once(const any_geometry& model, background_result<D>& back
   generated<D> result;
   result.summary.name = "generate";
   result.plan = background.plan;
-  const simplicial_background<D>* coarse = &background.mesh;
-  std::optional<simplicial_background<D>> cones;
-  if constexpr (D == 3)
-    if (coarse->volume.elements.empty()) {
-      cones = {coarse->surface, background::cones_of_solids(coarse->surface, model.topology())};
-      coarse = &*cones;
-    }
-  divided_background<D> divided;
-  if constexpr (D == 3)
-    divided = cones ? leave_undivided(*cones, model.topology().solids.size())
-                    : divide<3>(*coarse, background.size, result.plan.subdomains, given);
-  else
-    divided = divide<2>(*coarse, background.size, result.plan.subdomains, given);
-
-  decomposition_rounds<D> rounds(model, *coarse, divided, background.size, given, account);
+  auto divided = divide_if_planned(model, background, given);
+  decomposition_rounds<D> rounds(model, background.mesh, divided, background.size, given, account);
   auto [skeleton, meshed] = mesh_or_give_up(rounds, account);
-  if (!cones)
+  if (!background.mesh.elements().elements.empty())
     result.subdomain_of_element = skeleton.subdomain_of_element;
   result.coarse_angles = std::move(divided.angles);
   result.fine_angles = rounds.take_fine_angles();

@@ -7,8 +7,8 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept_tasks.hpp"
 #include "dovetail/pipeline/improve_pieces.hpp"
-#include "dovetail/pipeline/kept_tasks.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         result.summary.add("improver_seconds", std::get<0>(improved));
         result.mesh.counts[p] = std::get<1>(improved);
         result.mesh.quality[p] = std::get<2>(improved);
-        (*keys)[p] = tasks.take_kept(std::move(std::get<3>(improved)));
+        (*keys)[p] = store->take(std::move(std::get<3>(improved)));
       });
   tasks.exchange(*keys);
   result.quality = quality_of_whole(result.mesh);

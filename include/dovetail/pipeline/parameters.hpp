@@ -40,10 +40,6 @@ struct generate_options {
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
   /// is given.
   contraction_bound super_elements = {};
-  /// Angles of interfaces and between them under these are counted as violations of the interface angles
-  /// (in D = 3 and D = 2); what keeps such interfaces from being chosen is the simplification's rule.
-  double interface_angle_deg = 30;
-  double surface_angle_deg = 50;
   /// Sizes that predict more elements are enlarged, all by one factor, until they predict so many; 0: never.
   double enlarged_above = 0;
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit

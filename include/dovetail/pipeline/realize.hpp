@@ -5,6 +5,7 @@
 
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
+#include "dovetail/pipeline/divide.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
@@ -38,14 +39,14 @@ struct skeleton_store {
   std::vector<content_key> patches_apart;   ///< growing; of a skeleton of which no two triangles cross
 };
 
-/// Finds the skeleton of a decomposition into `subdomains` and remeshes what bounds its pieces, each line and
-/// patch once. D = 3 does with the pieces that its subdomains induce on the surface what D = 2 does with its
-/// own, and adds interface faces. `made` carries lines and patches from one call
-/// to the next. Patches that fail are in the result; throws `mesher_error` when a line or patch cannot be
-/// evaluated at all.
+/// Finds the skeleton of a divided background mesh, of which some parts may have been merged since, into
+/// `subdomains` and remeshes what bounds its pieces, each line and patch once. D = 3 does with the pieces
+/// that its subdomains induce on the surface what D = 2 does with its own, and adds interface faces. `made`
+/// carries lines and patches from one call to the next. Patches that fail are in the result; throws
+/// `mesher_error` when a line or patch cannot be evaluated at all.
 template <int D>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
-                    const side_table<D>& sides, std::vector<local_id> subdomain_of_element,
+                    const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const any_parameters<D>& given);
 

@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
+#include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
@@ -51,44 +52,44 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
 }
 
 inline realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
-                                      const side_table<2>& sides,
+                                      const divided_background<2>& divided,
                                       const std::vector<local_id>& subdomain_of_element,
                                       std::span<const local_id>, const refined_sizing& size,
                                       skeleton_store& made, const any_parameters<2>& given) {
-  auto result = realize_lines<2>(model, mesh.surface, mesh.surface.mesh.points,
-                                 own_subdomains(subdomain_of_element), {}, size, made, given);
-  result.fine = skeleton_of_lines(mesh.surface, sides, subdomain_of_element, result.lines);
+  auto result = realize_lines<2>(model, mesh.surface, mesh.points(), own_subdomains(subdomain_of_element), {},
+                                 size, made, given);
+  result.fine = skeleton_of_lines(mesh.surface, divided.sides, subdomain_of_element, result.lines);
   result.summary.set("edges", static_cast<double>(result.fine.sides.size()));
   result.summary.set("points", static_cast<double>(result.fine.points.size()));
   return result;
 }
 
 inline realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
-                                      const side_table<3>& sides,
+                                      const divided_background<3>& divided,
                                       const std::vector<local_id>& subdomain_of_element,
                                       std::span<const local_id> material_of_subdomain,
                                       const refined_sizing& size, skeleton_store& made,
                                       const any_parameters<3>& given) {
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
-  auto result = realize_lines<3>(model, mesh.surface, mesh.volume.points,
-                                 induced_subdomains(mesh, sides, subdomain_of_element),
-                                 interface_faces(mesh, sides, subdomain_of_element), size, made, given);
+  auto result = realize_lines<3>(
+      model, mesh.surface, mesh.points(), induced_subdomains(divided.beside_surface, subdomain_of_element),
+      interface_faces(mesh, divided.sides, subdomain_of_element), size, made, given);
   const auto fill = [&] {
-    return remesh_skeleton(model, mesh.surface, mesh.volume.points, result.coarse, result.lines, size,
+    return remesh_skeleton(model, mesh.surface, mesh.points(), result.coarse, result.lines, size,
                            given.mesh_surface, material_of_subdomain, given.run_tasks, made.patches,
                            given.options.on_progress);
   };
   auto remeshed = fill();
   const stopwatch matching_clock;
   const std::size_t matched =
-      match_segments(model, mesh.volume.points, result.coarse, result.lines.lines, remeshed, size,
-                     given.options.interface_angle_deg, given.mesh_surface, given.run_tasks, made.segments,
-                     given.options.on_progress);
+      match_segments(model, mesh.points(), result.coarse, result.lines.lines, remeshed, size,
+                     wanted_angles_of<3>(given.simplify_by).face_deg, given.mesh_surface, given.run_tasks,
+                     made.segments, given.options.on_progress);
   result.summary.set("matched_lines", static_cast<double>(matched));
   result.summary.set("matching_seconds", matching_clock.seconds());
   const auto fill_again = [&] {
     remeshed = {};
-    space_lines<3>(model, mesh.surface, mesh.volume.points, size, made, given, result);
+    space_lines<3>(model, mesh.surface, mesh.points(), size, made, given, result);
     remeshed = fill();
   };
   if (matched > 0) {
@@ -112,25 +113,21 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   return result;
 }
 
-inline local_id material_of(const simplicial_background<3>& mesh, std::size_t element) {
-  return mesh.volume.tags[element];
-}
-inline local_id material_of(const simplicial_background<2>&, std::size_t) {
-  return 0;
-}
-
 } // namespace detail
 
 template <int D>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
-                    const side_table<D>& sides, std::vector<local_id> subdomain_of_element,
+                    const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const any_parameters<D>& given) {
   const stopwatch clock;
+  const auto materials = detail::materials_of(mesh);
   std::vector<local_id> material_of_subdomain(subdomains, 0);
   for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
-    material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] = detail::material_of(mesh, e);
-  auto result = detail::realize_boundaries(model, mesh, sides, subdomain_of_element, material_of_subdomain,
+    if (D == 3) // elements of what is not divided are solids, and have no tags
+      material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] =
+          materials.empty() ? static_cast<local_id>(e) : materials[e];
+  auto result = detail::realize_boundaries(model, mesh, divided, subdomain_of_element, material_of_subdomain,
                                            size, made, given);
   result.material_of_subdomain = std::move(material_of_subdomain);
   result.subdomain_of_element = std::move(subdomain_of_element);
@@ -140,12 +137,14 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
 
 #ifdef DOVETAIL_COMPILED
 template realized<2> realize<2>(const any_geometry& model, const simplicial_background<2>& mesh,
-                                const side_table<2>& sides, std::vector<local_id> subdomain_of_element,
-                                std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                                const divided_background<2>& divided,
+                                std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                                const refined_sizing& size, skeleton_store& made,
                                 const any_parameters<2>& given);
 template realized<3> realize<3>(const any_geometry& model, const simplicial_background<3>& mesh,
-                                const side_table<3>& sides, std::vector<local_id> subdomain_of_element,
-                                std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                                const divided_background<3>& divided,
+                                std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                                const refined_sizing& size, skeleton_store& made,
                                 const any_parameters<3>& given);
 #endif
 

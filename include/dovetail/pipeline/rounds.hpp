@@ -12,8 +12,8 @@
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/pipeline/crossings.hpp"
-#include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/divide.hpp"
+#include "dovetail/pipeline/fine_angles.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ public:
 
 private:
   realized<D> realize_once() {
-    auto made = realize<D>(model_, mesh_, divided_.sides, subdomain_of_element_,
+    auto made = realize<D>(model_, mesh_, divided_, subdomain_of_element_,
                            static_cast<std::size_t>(merges_.subdomains()), size_, made_, given_);
     skeleton_seconds_ += made.summary.seconds;
     made.summary.seconds = skeleton_seconds_;
@@ -152,9 +152,9 @@ private:
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
     auto [angles, places] = given_.run_tasks.once([&] {
-      auto measured = detail::fine_interface_angles(made, mesh_, divided_.sides, divided_.side_states, size(),
-                                                    given_.options);
-      auto small = detail::places_of_small_angles(made, divided_.sides, measured);
+      auto measured = detail::fine_interface_angles(made, mesh_, divided_, size(),
+                                                    wanted_angles_of<D>(given_.simplify_by));
+      auto small = detail::places_of_small_angles(made, measured);
       return std::pair(std::move(measured), std::move(small));
     });
     angles_ = std::move(angles);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
 #include "dovetail/simplification/concepts.hpp"
 
 #include <concepts>
@@ -41,6 +42,9 @@ public:
   double price(const shortfall& missed) const {
     return asked([&] { return held_->price(missed); });
   }
+  wanted_angles wants(int dimension) const {
+    return asked([&] { return held_->wants(dimension); });
+  }
 
 private:
   template <class F>
@@ -55,6 +59,7 @@ private:
     virtual bool first_goes(const wedge_side&, const wedge_side&) const = 0;
     virtual std::optional<ridge_decision> couples(const side_below&) const = 0;
     virtual double price(const shortfall&) const = 0;
+    virtual wanted_angles wants(int dimension) const = 0;
   };
   template <class R>
   struct holder final : interface {
@@ -70,6 +75,9 @@ private:
       return rule.couples(below);
     }
     double price(const shortfall& missed) const override { return rule.price(missed); }
+    wanted_angles wants(int dimension) const override {
+      return dimension == 2 ? wanted_angles_of<2>(rule) : wanted_angles_of<3>(rule);
+    }
     R rule;
   };
 

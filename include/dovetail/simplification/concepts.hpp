@@ -82,6 +82,9 @@ concept contraction_rule = requires(const R& r, const wedge_side& a, const wedge
 /// - `r(mesh, sides)`: side_judgement: which sides are candidates, and which wedges are too small
 /// - `r.couples(below)`: std::optional<ridge_decision>: what a removed or refused side of the surface means
 ///   for the interior sides of the volume at it; nothing for nothing
+/// - optional: `r.wants(D)`: wanted_angles: the interface angles below which the stages after the
+///   simplification mend, move and count interfaces (`wanted_angles_of`); of wedges the same as in the
+///   judgement. A rule without it wants of wedges what its judgement of a mesh without elements says
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
 /// sides unused. First the sides at coupled ridges are removed, then candidates, worst first; then, smallest

@@ -2,6 +2,7 @@
 /// The rule of the paper.
 #pragma once
 
+#include "dovetail/mesh/wanted_angles.hpp"
 #include "dovetail/simplification/rule_parts.hpp"
 #include "dovetail/simplification/side_shape.hpp"
 
@@ -22,6 +23,10 @@ struct paper {
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {
     return {side_shapes(mesh, sides), D == 2 ? surface_shape_deg : volume_shape_deg,
             D == 2 ? surface_wedge_deg : volume_wedge_deg};
+  }
+  wanted_angles wants(int dimension) const {
+    return dimension == 2 ? wanted_angles{surface_shape_deg, surface_wedge_deg}
+                          : wanted_angles{volume_shape_deg, volume_wedge_deg};
   }
   bool first_goes(const wedge_side& a, const wedge_side& b) const { return is_worse(a, b); }
   std::optional<ridge_decision> couples(const side_below& below) const {

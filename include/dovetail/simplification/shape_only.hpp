@@ -16,6 +16,7 @@ struct shape_only {
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {
     return {side_shapes(mesh, sides), D == 2 ? surface_deg : volume_deg};
   }
+  wanted_angles wants(int dimension) const { return {dimension == 2 ? surface_deg : volume_deg, 0}; }
   bool first_goes(const wedge_side& a, const wedge_side& b) const { return is_worse(a, b); }
   std::optional<ridge_decision> couples(const side_below& below) const {
     return as_below(below, surface_deg);

@@ -72,6 +72,22 @@ std::vector<coupled_side> sides_at_ridges(const side_table<D>& sides, std::size_
   return found;
 }
 
+/// `simplify` for a mesh that the rule has judged.
+template <int D, contraction_rule Rule>
+simplification simplify_judged(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                               const side_judgement& judged, const Rule& rule,
+                               const simplify_constraints<D>& given, const contraction_bound& bound,
+                               const progress& on_progress) {
+  if (!given.element_weights.empty() && given.element_weights.size() != mesh.elements.size())
+    throw usage_error("simplify: " + std::to_string(given.element_weights.size()) + " element weights for " +
+                      std::to_string(mesh.elements.size()) + " elements; give one each or none");
+  on_progress.stop_if_requested();
+  const auto fixed = fixed_inside(mesh, sides, given.fixed_sides);
+  const auto coupled = sides_at_ridges<D>(sides, mesh.points.size(), given.coupled_ridges);
+  return contract_bounded(element_dual<D>(sides, given.element_weights, span_of(fixed)),
+                          side_dual<D>(mesh, sides), judged, rule, bound, span_of(coupled), on_progress);
+}
+
 } // namespace detail
 
 /// Simplifies a mesh by a rule. `sides` is `build_sides(mesh)`. Sides between elements of different tags are
@@ -81,15 +97,8 @@ simplification simplify(const simplicial_mesh<D>& mesh, const side_table<D>& sid
                         const simplify_constraints<D>& given = {}, const contraction_bound& bound = {},
                         const progress& on_progress = {}) {
   const stopwatch time;
-  if (!given.element_weights.empty() && given.element_weights.size() != mesh.elements.size())
-    throw usage_error("simplify: " + std::to_string(given.element_weights.size()) + " element weights for " +
-                      std::to_string(mesh.elements.size()) + " elements; give one each or none");
-  on_progress.stop_if_requested();
-  const auto fixed = detail::fixed_inside(mesh, sides, given.fixed_sides);
-  const auto coupled = detail::sides_at_ridges<D>(sides, mesh.points.size(), given.coupled_ridges);
-  simplification out = contract_bounded(element_dual<D>(sides, given.element_weights, span_of(fixed)),
-                                        side_dual<D>(mesh, sides), rule(mesh, sides), rule, bound,
-                                        span_of(coupled), on_progress);
+  simplification out =
+      detail::simplify_judged<D>(mesh, sides, rule(mesh, sides), rule, given, bound, on_progress);
   out.summary.seconds = time.seconds();
   return out;
 }

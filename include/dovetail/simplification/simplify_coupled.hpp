@@ -63,10 +63,11 @@ template <class Rule>
     const stopwatch time;
     coupled_simplification out;
     const side_table<2> edges = build_sides(surface);
-    out.surface = simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges}, bound, on_progress);
-    out.surface.summary.name = "surface";
     const side_judgement judged = rule(surface, edges);
-    detail::require_one_each(judged, edges.size());
+    out.surface = detail::simplify_judged<2>(surface, edges, judged, rule, {.fixed_sides = given.curve_edges},
+                                             bound, on_progress);
+    out.surface.summary.seconds = time.seconds();
+    out.surface.summary.name = "surface";
     const auto ridges = coupled_ridges(edges, out.surface, span_of(judged.quality), rule, given.volume_point);
     out.volume = simplify<3>(volume, sides, rule,
                              {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights},

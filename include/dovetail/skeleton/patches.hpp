@@ -224,11 +224,4 @@ inline interface_face_patch interface_patch(const skeleton_face& face, std::span
   return {std::move(surface), std::move(patch)};
 }
 
-/// Whether an interface face has an edge on the CAD surface and so leaves its coarse plane when remeshed.
-inline bool is_curved(const skeleton_face& face, const std::vector<skeleton_line>& lines) {
-  const std::array<local_id, 3> sides = lines_of(face, lines);
-  return std::any_of(sides.begin(), sides.end(),
-                     [&](local_id line) { return lines[static_cast<std::size_t>(line)].on.dimension < 3; });
-}
-
 } // namespace dovetail

@@ -14,23 +14,12 @@
 
 #include <cstddef>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
-
-/// What a task says of a value that is kept.
-struct kept_value {
-  content_key key = {};
-  std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
-
-  static constexpr auto fields = std::tuple(&kept_value::key, &kept_value::bytes);
-};
 
 struct kept_tasks {
   const any_executor& run_tasks;
@@ -57,31 +46,17 @@ struct kept_tasks {
   /// In a task: keeps a value under a key.
   template <encodable T>
   kept_value keep(content_key key, const T& value) const {
-    return keep_bytes(key, encoded(value));
+    return store.keep_in_task(key, encoded(value));
   }
   /// The same under a key of its own content; `make` has what tells it from equal ones of other tasks.
   template <encodable T>
   kept_value keep_by_content(key_maker make, const T& value) const {
     byte_buffer bytes = encoded(value);
     const content_key key = make(bytes).key();
-    return keep_bytes(key, std::move(bytes));
+    return store.keep_in_task(key, std::move(bytes));
   }
   /// After a run: gives each rank what others have kept, where their spools are not the same.
   void exchange(std::span<const content_key> keys) const { store.exchange(run_tasks.network(), keys); }
-  /// The key of what a task has said.
-  content_key take_kept(kept_value said) const {
-    if (said.bytes)
-      store.keep(said.key, *std::move(said.bytes));
-    return said.key;
-  }
-
-private:
-  kept_value keep_bytes(content_key key, byte_buffer bytes) const {
-    if (!store.is_shared())
-      return {key, std::move(bytes)};
-    store.keep(key, std::move(bytes));
-    return {key, {}};
-  }
 };
 
 } // namespace dovetail
