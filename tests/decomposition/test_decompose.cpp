@@ -1,12 +1,12 @@
 #include "dovetail/decomposition/apportion.hpp"
 #include "dovetail/decomposition/decompose.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
+#include "support/subdomain_boundary.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 #include "dovetail/decomposition/detours.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
+#include "support/subdomain_boundary.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "support/adjacency.hpp"
 #include "support/jittered_meshes.hpp"
+#include "support/subdomain_boundary.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace dovetail {
+namespace dovetail_test {
+
+using namespace dovetail;
 
 /// Boundary sides in growing order of side number, held once. The same shape as the skeleton's triangles.
 template <int D>
@@ -44,7 +46,7 @@ subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, c
         std::size_t local = 0;
         while (of_element[local] != side)
           ++local;
-        add(detail::pick(mesh.elements[static_cast<std::size_t>(e)], numbering::sides<D>[local]),
+        add(dovetail::detail::pick(mesh.elements[static_cast<std::size_t>(e)], numbering::sides<D>[local]),
             {part(e), no_id}, side, true);
       }
       continue;
@@ -63,4 +65,4 @@ subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, c
   return found;
 }
 
-} // namespace dovetail
+} // namespace dovetail_test
