@@ -21,6 +21,7 @@ namespace nglib {
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,6 +159,8 @@ inline byte_buffer run_netgen(const mesher::netgen& parameters, const simplicial
     } catch (const sizing_error& e) {
       bytes.text(e.what());
     } catch (const mesher_error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
       throw;
     } catch (...) { // Netgen has exceptions of its own
       throw mesher_error("Netgen threw an exception");
