@@ -2,7 +2,6 @@
 #include "failure.hpp"
 #include "mesh_files.hpp"
 #include "model_source.hpp"
-#include "output.hpp"
 #include "pipeline.hpp"
 #include "quality_change.hpp"
 #include "run_figures.hpp"
@@ -140,8 +139,6 @@ int run_adapt(const adapt_options& options) {
     throw command_line_error("give sizes: --sizes, --size or --sizing");
   const given_sizes sizes(options.sizing, options.size);
   check_can_write(options.out);
-  if (!options.report.empty())
-    check_can_create(options.report);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
   try {
     return is_of_triangles(loaded) ? adapt_run<2>(options, sizes).run(std::move(loaded))

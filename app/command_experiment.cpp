@@ -101,6 +101,14 @@ std::vector<std::string> experiment_names() {
   return names;
 }
 
+std::vector<std::string> names_of_experiment_files() {
+  std::vector<std::string> files{"experiment_plot.py", "written_by_dovetail", "runs", "runs/*"};
+  for (const experiment& each : all_experiments())
+    for (const char* ending : {".md", ".csv", ".json", ".png", ".png.errors"})
+      files.push_back(each.name + ending);
+  return files;
+}
+
 int run_experiment(const experiment_options& options) {
   const auto chosen = chosen_experiments(options.names);
   run_maker maker(options, call_driver);

@@ -1,11 +1,13 @@
 #include "command_line.hpp"
 
+#include "command_files.hpp"
 #include "command_text.hpp"
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
 #include "named_policies.hpp"
 #include "output.hpp"
+#include "output_claim.hpp"
 #include "output_formats.hpp"
 #include "policies.hpp"
 #include "rank_partitioner.hpp"
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -167,6 +170,7 @@ struct parser {
   simulate_options simulate;
   experiment_options experiment;
   std::function<int()> chosen;
+  command_inputs inputs;
   command_outputs outputs;
 
   parser() {
@@ -208,8 +212,10 @@ struct parser {
     add_output_options(command, mesh);
     command.callback([this] {
       chosen = [this] { return run_mesh(mesh); };
-      outputs = {.files = {mesh.report, mesh.trace},
+      inputs = inputs_of_model(mesh.model);
+      outputs = {.files = {{"--report", mesh.report}, {"--trace", mesh.trace}},
                  .folder = mesh.out,
+                 .names_in_folder = names_in_folder(mesh),
                  .spool = spool_folder(mesh),
                  .has_own_spool = !mesh.spool.empty()};
     });
@@ -223,7 +229,8 @@ struct parser {
     command.add_option("--report", plan.report, "JSON file for the figures");
     command.callback([this] {
       chosen = [this] { return run_plan(plan); };
-      outputs.files = {plan.report};
+      inputs = inputs_of_model(plan.mesh.model);
+      outputs.files = {{"--report", plan.report}};
     });
   }
   void add_simulate() {
@@ -289,7 +296,9 @@ struct parser {
     command.add_flag("--quiet", experiment.quiet, "Nothing of the runs under way");
     command.callback([this] {
       chosen = [this] { return run_experiment(experiment); };
+      inputs = {{"--input", experiment.input}};
       outputs.folder = experiment.out;
+      outputs.names_in_folder = names_of_experiment_files();
     });
   }
   void add_models() {
@@ -312,7 +321,8 @@ struct parser {
     command.add_option("--report", stats.report, "JSON file for the figures");
     command.callback([this] {
       chosen = [this] { return run_stats(stats); };
-      outputs.files = {stats.report};
+      inputs = inputs_of_mesh("MESH", stats.mesh);
+      outputs.files = {{"--report", stats.report}};
     });
   }
   void add_improve() {
@@ -325,7 +335,8 @@ struct parser {
     command.add_flag("--quiet", improve.quiet, "No progress and no summary");
     command.callback([this] {
       chosen = [this] { return run_improve(improve); };
-      outputs.files = {improve.out, improve.report};
+      inputs = inputs_of_mesh("IN", improve.input);
+      outputs.files = {{"--out", improve.out}, {"--report", improve.report}};
     });
   }
   void add_adapt() {
@@ -356,7 +367,10 @@ struct parser {
     command.add_flag("--quiet", adapt.quiet, "No progress and no summary");
     command.callback([this] {
       chosen = [this] { return run_adapt(adapt); };
-      outputs.files = {adapt.out, adapt.report};
+      inputs = inputs_of_mesh("MESH", adapt.input);
+      const auto of_sizing = inputs_of_sizing(adapt.sizing);
+      inputs.insert(inputs.end(), of_sizing.begin(), of_sizing.end());
+      outputs.files = {{"--out", adapt.out}, {"--report", adapt.report}};
     });
   }
   void add_compare() {
@@ -368,7 +382,9 @@ struct parser {
     add_compare_options(command, compare);
     command.callback([this] {
       chosen = [this] { return run_compare(compare); };
+      inputs = inputs_of_model(compare.model);
       outputs.folder = compare.out;
+      outputs.names_in_folder = {"compare.csv", "compare.html", "written_by_dovetail"};
     });
   }
 };
@@ -419,11 +435,31 @@ int run_command_line(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   words.front() = "dovetail";
   line.compare.command_line = line.experiment.command_line = line.mesh.command_line = command_text(words);
+  try {
+    require_distinct(line.inputs, line.outputs);
+  } catch (const command_line_error& problem) {
+    return refuse(problem.what());
+  }
   const unfinished_output unfinished(line.outputs);
-  const auto clean_up = [&] { return unfinished.remove(); };
-  const auto chosen = [&] { return run_guarded(line.chosen, help); };
+  std::optional<output_claim> claim;
+  std::exception_ptr refused; // another run may be writing what would be cleaned up
+  try {
+    claim.emplace(line.outputs, !shared || process.rank == 0);
+  } catch (...) {
+    refused = std::current_exception();
+  }
+  const auto clean_up = [&] { return refused == nullptr && unfinished.remove(); };
+  const auto chosen = [&] {
+    return run_guarded(
+        [&] {
+          if (refused != nullptr)
+            std::rethrow_exception(refused);
+          return line.chosen();
+        },
+        help);
+  };
   if (!shared)
-    return run_supervised(chosen, clean_up);
+    return refused != nullptr ? chosen() : run_supervised(chosen, clean_up);
   const auto on_ranks = [&] {
     return run_on_ranks(
         [&](const relayed_rank& rank) {
@@ -431,7 +467,12 @@ int run_command_line(int argc, char** argv) {
           line.mesh.partition_desk = rank.partition_desk;
           return chosen();
         },
-        {.of_rank = [&] { unfinished.remove_of_rank(); }, .of_all = clean_up});
+        {.of_rank =
+             [&] {
+               if (refused == nullptr)
+                 unfinished.remove_of_rank();
+             },
+         .of_all = clean_up});
   };
   return run_guarded(on_ranks, help);
 }

@@ -157,9 +157,6 @@ public:
 
   int run() {
     require_same(options_.command_line);
-    for (const std::string& file : {options_.report, options_.trace})
-      if (leads_ && !file.empty())
-        check_can_create(file);
     if (leads_ && !options_.quiet)
       lines_.emplace(stderr);
     parameters_.on_progress = callbacks();

@@ -1,7 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "model_source.hpp"
-#include "output.hpp"
 #include "output_formats.hpp"
 #include "run_figures.hpp"
 #include "run_setup.hpp"
@@ -38,8 +37,6 @@ template <int D>
 int plan_run(const plan_options& options) {
   const policies_of<D> policies = make_policies_of<D>(options.mesh);
   generate_options parameters = make_generate_options(options.mesh);
-  if (!options.report.empty())
-    check_can_create(options.report);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
   model_source source = load_model(options.mesh.model, D);

@@ -24,5 +24,7 @@ int run_simulate(const simulate_options& options);
 int run_experiment(const experiment_options& options);
 /// What that may be asked for.
 std::vector<std::string> experiment_names();
+/// What they may write in their folder, as `matches` has names.
+std::vector<std::string> names_of_experiment_files();
 
 } // namespace dovetail::app

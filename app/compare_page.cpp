@@ -2,6 +2,7 @@
 
 #include "compare_page_template.hpp" // compare_page.html as a string
 #include "compare_table.hpp"
+#include "json_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -110,7 +111,7 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
     data["rows"].push_back(json_of(row, words));
 
   // Names may be any bytes; a "<" in one must not end the script.
-  std::string text = data.dump(-1, ' ', true, json::error_handler_t::replace);
+  std::string text = text_of_json(data, -1, true);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
     text.replace(at, 1, "\\u003c");
   std::string page = compare_page_template;

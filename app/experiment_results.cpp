@@ -1,6 +1,7 @@
 #include "experiment_results.hpp"
 
 #include "csv.hpp"
+#include "json_text.hpp"
 #include "paper_figures.hpp"
 #include "terminal_progress.hpp"
 
@@ -336,7 +337,7 @@ std::string json_text(const experiment_result& result) {
                                  {"vertical", plot.vertical},
                                  {"runs", plot.runs},
                                  {"logarithmic", plot.logarithmic}});
-  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+  return text_of_json(document, 2) + '\n';
 }
 
 } // namespace dovetail::app

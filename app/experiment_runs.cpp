@@ -4,6 +4,7 @@
 #include "compare_runs.hpp"
 #include "failure.hpp"
 #include "file_checksums.hpp"
+#include "json_text.hpp"
 #include "model_source.hpp"
 #include "paper_figures.hpp"
 #include "run_setup.hpp"
@@ -50,7 +51,12 @@ std::string message_in(const std::filesystem::path& file) {
 
 /// Sizes by curvature and walls, times a factor: what `--sizing` reads.
 std::string automatic_sizes(double factor) {
-  return json{{"automatic", true}, {"scale", factor}}.dump() + '\n';
+  return text_of_json(json{{"automatic", true}, {"scale", factor}}) + '\n';
+}
+
+/// Names in what is read are as JSON can hold them.
+bool is_same_text(const json& a, const json& b) {
+  return text_of_json(a) == text_of_json(b);
 }
 
 } // namespace
@@ -132,8 +138,11 @@ run_maker::place_of_run run_maker::place_of(const experiment_run& run, const wan
 }
 
 void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, run_result& result) {
-  std::filesystem::remove_all(place.folder);
-  std::filesystem::create_directories(place.folder);
+  for (const char* name : {"run.json", "report.json", "trace.json", "errors.txt", "sizes.json"}) {
+    std::error_code ignored;
+    std::filesystem::remove(place.file(name), ignored);
+  }
+  make_folder(place.folder); // in which somebody else may have put something
   result.record = {{"asked", place.asked}};
   result.measured = json();
   std::vector<std::string> words{"mesh"};
@@ -167,7 +176,7 @@ void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, r
     return;
   }
   result.measured = read_json(place.file("report.json"));
-  write_text(result.record.dump(2) + '\n', place.file("run.json"));
+  write_text(text_of_json(result.record, 2) + '\n', place.file("run.json"));
 }
 
 run_result run_maker::make(const experiment_run& run) {
@@ -181,7 +190,8 @@ run_result run_maker::make(const experiment_run& run) {
   const place_of_run place = place_of(run, wanted);
   run_result result{.run = &run, .measured = read_json(place.file("report.json")), .name = place.name};
   result.record = read_json(place.file("run.json"));
-  const bool is_there = result.record.is_object() && result.record.value("asked", json()) == place.asked &&
+  const bool is_there = result.record.is_object() &&
+                        is_same_text(result.record.value("asked", json()), place.asked) &&
                         result.measured.is_object() && std::filesystem::exists(place.file("trace.json"));
   const auto failed_before = failed_.find(place.name);
   const bool is_known = failed_before != failed_.end();

@@ -1,5 +1,7 @@
 #include "file_checksums.hpp"
 
+#include "json_text.hpp"
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
@@ -65,14 +67,19 @@ report_files files_of_report(const std::filesystem::path& path) {
     throw input_error(path.string() + ": cannot read the report");
   try {
     const auto document = nlohmann::json::parse(file);
-    report_files found{path.parent_path() / document.at("folder").get<std::string>(), {}};
+    const auto bytes = document.find("folder_bytes");
+    const std::string folder = bytes == document.end() ? document.at("folder").get<std::string>()
+                                                       : bytes_of_digits(bytes->get<std::string>());
+    report_files found{path.parent_path() / folder, {}};
     for (const auto& listed : document.at("files"))
       found.files.push_back({listed.at("name").get<std::string>(), listed.at("bytes").get<std::uint64_t>(),
                              listed.at("checksum").get<std::string>()});
     if (found.files.empty())
       throw input_error(path.string() + ": the run of this report has written no files");
     return found;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const input_error&) {
+    throw;
+  } catch (const std::exception&) { // of JSON, or of a number in it
     throw input_error(path.string() + ": not a report of 'dovetail mesh' that lists its files");
   }
 }

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -82,11 +83,17 @@ any_geometry cad_geometry(const std::filesystem::path& file, const model_options
 /// `summary` receives what reading and healing report.
 any_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options, int dimension,
                               report& summary) {
-  if (is_drawing(file))
-    return plane_geometry(file, dimension);
-  if (!triangle_format_of(file).empty())
-    return triangle_geometry(file, dimension, summary);
-  return cad_geometry(file, options, dimension, summary);
+  try {
+    if (is_drawing(file))
+      return plane_geometry(file, dimension);
+    if (!triangle_format_of(file).empty())
+      return triangle_geometry(file, dimension, summary);
+    return cad_geometry(file, options, dimension, summary);
+  } catch (const std::bad_alloc&) {
+    throw error(file.string() +
+                ": out of memory while the model was read; allow more, if there is a limit to "
+                "it (ulimit -v)");
+  }
 }
 
 /// The built-in model's own sizes; a size given scales all of them.

@@ -1,6 +1,7 @@
 #include "output.hpp"
 
 #include "failure.hpp"
+#include "file_place.hpp"
 #include "rank_supervision.hpp"
 
 #include "dovetail/core/error.hpp"
@@ -50,11 +51,10 @@ bool is_part(const std::filesystem::path& file) {
   return file.extension() == ".part";
 }
 
-/// The temporary name of a file, which is beside what a link names.
 void remove_part_of(const std::filesystem::path& file) {
   std::error_code failure;
-  const auto target = std::filesystem::canonical(file, failure);
-  std::filesystem::remove((failure ? file : target).string() + ".part", failure);
+  if (const auto part = temporary_name(file))
+    std::filesystem::remove(*part, failure);
 }
 
 /// Names that are written directly in the folder of a command. Whatever else is there is not ours.
@@ -140,13 +140,13 @@ void output_folder::remove_if_empty() {
 }
 
 unfinished_output::unfinished_output(command_outputs outputs) : outputs_(std::move(outputs)) {
-  std::erase(outputs_.files, std::filesystem::path());
+  std::erase_if(outputs_.files, [](const named_file& each) { return each.file.empty(); });
   absent_ = absent_folders(outputs_.folder);
 }
 
 bool unfinished_output::remove() const {
-  for (const auto& file : outputs_.files)
-    remove_part_of(file);
+  for (const auto& each : outputs_.files)
+    remove_part_of(each.file);
   const auto& folder = outputs_.folder;
   if (folder.empty())
     return false;

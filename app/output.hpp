@@ -3,9 +3,11 @@
 /// ended.
 #pragma once
 
+#include "command_files.hpp"
 #include "options.hpp"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace dovetail::app {
@@ -20,6 +22,8 @@ public:
   ~output_folder() { remove_if_empty(); }
 
   const std::filesystem::path& path() const { return path_; }
+  /// It stays, empty or not: it is somebody else's too.
+  void keep() { made_.clear(); }
 
 private:
   void remove_if_empty();
@@ -30,8 +34,9 @@ private:
 
 /// What a command writes to.
 struct command_outputs {
-  std::vector<std::filesystem::path> files = {}; ///< outside the folder; empty names are none
-  std::filesystem::path folder = {};
+  std::vector<named_file> files = {};            ///< besides those in the folder; empty names are none
+  std::filesystem::path folder = {};             ///< of `--out`, where that is a folder; empty: there is none
+  std::vector<std::string> names_in_folder = {}; ///< of what it writes there, as `matches` has them
   std::filesystem::path spool = {}; ///< of what it keeps for another run to go on from; empty: nothing
   bool has_own_spool = false;       ///< which is that of this rank, and not of all
 };

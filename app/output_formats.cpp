@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 namespace dovetail::app {
 namespace {
@@ -174,6 +175,31 @@ void prepare_formats() {
 
 std::vector<std::string> format_names(int dimension, bool by_ranks) {
   return dimension == 3 ? names_of_formats<3>(by_ranks) : names_of_formats<2>(by_ranks);
+}
+
+std::vector<std::string> names_in_folder(const mesh_options& options) {
+  using names = std::vector<std::string>;
+  const std::pair<const char*, names> by_format[] = {
+      {"vtu", {"mesh.pvtu", "mesh_#.vtu", "surface.vtp", "interfaces.vtp", "lines.vtp"}},
+      {"msh", {"mesh.msh"}},
+      {"msh-partitioned", {"mesh_partitioned.msh"}},
+      {"hdf5", {"mesh_#.vtkhdf", "mesh.xdmf", "skeleton.vtkhdf"}},
+      {"pvtu", {"ranks.pvtu", "ranks_#.vtu"}},
+      {"msh-ranks", {"ranks_#.msh"}},
+      {"openfoam", {"processor#", "processor#/*"}},
+      {"mfem", {"mesh.#"}},
+      {"xdmf", {"ranks.h5", "ranks.xdmf"}},
+      {"vtkhdf", {"ranks.vtkhdf"}}};
+  names all{"finished_run.txt", "written_by_dovetail", "unfinished", "unfinished/*", "failed", "failed/*"};
+  if (options.spool.empty())
+    all.insert(all.end(), {"spool", "spool/*"});
+  names formats = options.formats;
+  if (formats.empty())
+    formats = {format_names(options.dimension == 2 ? 2 : 3, options.ranks.has_value()).front()};
+  for (const auto& [format, of_format] : by_format)
+    if (std::find(formats.begin(), formats.end(), format) != formats.end())
+      all.insert(all.end(), of_format.begin(), of_format.end());
+  return all;
 }
 
 std::vector<std::string> redistributor_names() {

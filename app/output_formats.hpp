@@ -51,6 +51,10 @@ template <int D>
 std::vector<output_format<D>> make_formats(const mesh_options& options,
                                            const any_redistributor<D>& redistribute);
 
+/// What a run may write in its folder, as `matches` has names; what formats that are not known would write is
+/// not among it.
+std::vector<std::string> names_in_folder(const mesh_options& options);
+
 /// Disk that a mesh takes per element, about, with its spool and in all the formats.
 template <int D>
 double bytes_per_element(const std::vector<output_format<D>>& formats);

@@ -1,5 +1,7 @@
 #include "run_figures.hpp"
 
+#include "json_text.hpp"
+
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/version.hpp"
 
@@ -108,50 +110,53 @@ std::string folder_from(const std::filesystem::path& report, const std::string& 
 
 void write_json(const json& document, const std::filesystem::path& path) {
   output_file file(path);
-  file.text(document.dump(2) + '\n');
+  file.text(text_of_json(document, 2) + '\n');
   file.commit();
 }
 
 } // namespace
 
 void write_report(const run_figures& figures, const std::filesystem::path& file) {
+  const std::string folder = folder_from(file, figures.out);
   json interfaces = interfaces_json(figures.interfaces);
   interfaces["coarse"] = interfaces_json(figures.coarse_interfaces);
-  write_json({{"dovetail", version},
-              {"dimension", figures.dimension},
-              {"model", figures.model},
-              {"decomposition", figures.decomposition},
-              {"mesher", figures.mesher},
-              {"partitioner", figures.partitioner},
-              {"simplifier", figures.simplifier},
-              {"improver", figures.improver},
-              {"executor", figures.executor},
-              {"background_mesher", figures.background_mesher},
-              {"surface_mesher", figures.surface_mesher},
-              {"workers", figures.workers},
-              {"elements", figures.elements},
-              {"vertices", figures.vertices},
-              {"boundary_triangles", figures.boundary_triangles},
-              {"background_elements", figures.background_elements},
-              {"subdomains", figures.subdomains},
-              {"imbalance", figures.imbalance},
-              {"seconds", seconds_json(figures.seconds)},
-              {"quality", quality_json(figures.quality, figures.dimension)},
-              {"interfaces", interfaces},
-              {"deviation", deviation_json(figures.deviation)},
-              {"merges", figures.merges},
-              {"largest_merged", figures.largest_merged},
-              {"failed_subdomains", figures.failed_subdomains},
-              {"elements_between_passes", figures.elements_between_passes},
-              {"largest_over_mean", figures.largest_over_mean},
-              {"peak_rss_bytes", figures.peak_rss_bytes},
-              {"mesh_hash", hexadecimal(figures.mesh_hash)},
-              {"repeatable", figures.repeatable},
-              {"folder", folder_from(file, figures.out)},
-              {"files", files_json(figures.files)},
-              {"warnings", figures.warnings},
-              {"details", details_json(figures.details)}},
-             file);
+  json document = {{"dovetail", version},
+                   {"dimension", figures.dimension},
+                   {"model", figures.model},
+                   {"decomposition", figures.decomposition},
+                   {"mesher", figures.mesher},
+                   {"partitioner", figures.partitioner},
+                   {"simplifier", figures.simplifier},
+                   {"improver", figures.improver},
+                   {"executor", figures.executor},
+                   {"background_mesher", figures.background_mesher},
+                   {"surface_mesher", figures.surface_mesher},
+                   {"workers", figures.workers},
+                   {"elements", figures.elements},
+                   {"vertices", figures.vertices},
+                   {"boundary_triangles", figures.boundary_triangles},
+                   {"background_elements", figures.background_elements},
+                   {"subdomains", figures.subdomains},
+                   {"imbalance", figures.imbalance},
+                   {"seconds", seconds_json(figures.seconds)},
+                   {"quality", quality_json(figures.quality, figures.dimension)},
+                   {"interfaces", interfaces},
+                   {"deviation", deviation_json(figures.deviation)},
+                   {"merges", figures.merges},
+                   {"largest_merged", figures.largest_merged},
+                   {"failed_subdomains", figures.failed_subdomains},
+                   {"elements_between_passes", figures.elements_between_passes},
+                   {"largest_over_mean", figures.largest_over_mean},
+                   {"peak_rss_bytes", figures.peak_rss_bytes},
+                   {"mesh_hash", hexadecimal(figures.mesh_hash)},
+                   {"repeatable", figures.repeatable},
+                   {"folder", folder},
+                   {"files", files_json(figures.files)},
+                   {"warnings", figures.warnings},
+                   {"details", details_json(figures.details)}};
+  if (!is_utf8(folder)) // or nobody could find the files by it
+    document["folder_bytes"] = digits_of_bytes(folder);
+  write_json(document, file);
 }
 
 void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,

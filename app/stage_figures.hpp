@@ -7,6 +7,7 @@
 
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/run_task.hpp"
 
 #include <algorithm>
 #include <span>
@@ -79,13 +80,17 @@ inline void collect_warnings(const report& from, std::vector<std::string>& to) {
 /// What to say of subdomains that no attempt could mesh.
 inline std::string text_of_failures(const std::vector<piece_failure>& failures) {
   std::string text = std::to_string(failures.size()) + " subdomains could not be meshed:";
+  bool had_room = true;
   for (const auto& failure : failures) {
+    for (const std::string& reason : failure.reasons)
+      had_room = had_room && !detail::is_for_want_of_room(reason);
     text += " subdomain " + std::to_string(failure.subdomain) + ": " + joined_reasons(failure.reasons);
     if (!failure.facets.empty())
       text += " (facets in " + failure.facets.string() + ")";
     text += ";";
   }
-  return text + " give another size or --subdomains";
+  return text + (had_room ? " give another size or --subdomains"
+                          : " allow more memory or stack, or give fewer --workers or more --subdomains");
 }
 
 } // namespace dovetail::app

@@ -3,6 +3,9 @@
 #include "failure.hpp"
 #include "stop_request.hpp"
 
+#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/stack_overflow.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -33,6 +36,8 @@ struct shared_lines {
   std::array<char, 2048> crashed;
   std::array<char, 2048> endless;
   std::array<char, 2048> killed;
+  std::array<char, 2048> out_of_stack;
+  volatile bool stack_is_used_up;
 };
 shared_lines* lines = nullptr;
 
@@ -45,6 +50,9 @@ sigset_t set_of(const std::vector<int>& signals) {
 }
 
 std::string line_of(int signal) {
+  if (lines != nullptr && lines->stack_is_used_up)
+    return lines->crashed[0] != 0 ? lines->out_of_stack.data()
+                                  : std::string("ended: ") + detail::out_of_stack;
   if (lines != nullptr && lines->crashed[0] != 0)
     return (signal == SIGXCPU ? lines->endless : signal == SIGKILL ? lines->killed : lines->crashed).data();
   return "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")" +
@@ -80,6 +88,8 @@ supervisor::supervisor() {
   if (child_ < 0)
     lines = nullptr; // nobody would read them
   catch_stop_signals();
+  if (child_ == 0 && lines != nullptr)
+    detail::on_stack_overflow([] { lines->stack_is_used_up = true; });
   sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
@@ -183,6 +193,7 @@ risky_step::risky_step(const std::string& what, const std::string& advice, doubl
                 : what + " is not done within the limit to processor time; allow more (ulimit -t)",
        lines->endless);
   copy(what + " was killed, perhaps for want of memory", lines->killed);
+  copy(what + ": " + detail::out_of_stack, lines->out_of_stack);
   copy(what + " crashed; " + advice, lines->crashed);
 }
 

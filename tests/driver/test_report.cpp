@@ -1,5 +1,7 @@
 #include "run_figures.hpp"
 
+#include "file_checksums.hpp"
+
 #include "dovetail/core/error.hpp"
 #include "io/scratch_folder.hpp"
 
@@ -41,6 +43,29 @@ run_figures example() {
   child.set("cells", 5);
   figures.details.children.push_back(child);
   return figures;
+}
+
+TEST_CASE("names may be any bytes, and the files are found by a folder that is no UTF-8") {
+  const testing::scratch_folder folder("report");
+  const std::string odd = "f\xfc\xff";
+  std::filesystem::create_directory(folder / odd);
+  std::ofstream(folder / odd / "a.vtu") << "mesh";
+  run_figures figures = example();
+  figures.model = odd + ".off";
+  figures.out = (folder / odd).string();
+  figures.interfaces.below.front().cad = {"face 4 (" + odd + ")"};
+  figures.warnings = {odd};
+  figures.files = {{"a.vtu", 4, checksum_of_file(folder / odd / "a.vtu")}};
+  write_report(figures, folder / "report.json");
+  std::ifstream file(folder / "report.json");
+  const auto document = nlohmann::json::parse(file);
+  CHECK(document["model"] == "f\xef\xbf\xbd\xef\xbf\xbd.off");
+  CHECK(document["folder_bytes"] == "66fcff");
+  CHECK(faults_of(files_of_report(folder / "report.json")) == "");
+  figures.out = folder / "plain";
+  write_report(figures, folder / "report.json");
+  std::ifstream again(folder / "report.json");
+  CHECK_FALSE(nlohmann::json::parse(again).contains("folder_bytes"));
 }
 
 TEST_CASE("the report has all promised fields with the figures' values") {

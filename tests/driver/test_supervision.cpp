@@ -2,6 +2,8 @@
 #include "stop_request.hpp"
 #include "supervision.hpp"
 
+#include "dovetail/parallel/stack_overflow.hpp"
+
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -90,6 +92,33 @@ TEST_CASE("a crash is one line, of the step that is known to be risky or of any"
     return crash(SIGKILL);
   });
   CHECK(killed.told == "dovetail: reading was killed, perhaps for want of memory\n");
+}
+
+/// Until the stack is used up.
+int descend(int depth) {
+  volatile char frame[4096];
+  frame[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : descend(depth + 1) + frame[0];
+}
+
+int use_up_stack() {
+  std::signal(SIGSEGV, SIG_DFL); // it is the test's no more
+  detail::on_stack_overflow(detail::action_on_overflow());
+  const rlimit little{1 << 20, RLIM_INFINITY};
+  ::setrlimit(RLIMIT_STACK, &little);
+  detail::watch_stack_of_thread();
+  return descend(0);
+}
+
+TEST_CASE("a stack that is used up is not told as a crash of the step") {
+  const ending plain = end_of(use_up_stack);
+  CHECK(plain.code == exit_failure);
+  CHECK(plain.told == "dovetail: ended: out of stack: allow more of it (ulimit -s)\n");
+  const ending known = end_of([] {
+    const risky_step step("reading", "export it again", 60);
+    return use_up_stack();
+  });
+  CHECK(known.told == "dovetail: reading: out of stack: allow more of it (ulimit -s)\n");
 }
 
 TEST_CASE("what goes wrong while cleaning up hides nothing") {

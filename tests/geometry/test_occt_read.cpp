@@ -15,12 +15,14 @@
 #include <STEPControl_Writer.hxx>
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace dovetail;
@@ -183,6 +185,34 @@ TEST_CASE("what a worker does not survive is a damaged file") {
   write_content(folder / "cut.step", damaged.substr(0, 900));
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.step", {.first_reader = worker}),
                        doctest::Contains("cut.step: the STEP file is truncated"), input_error);
+}
+
+/// What reading ends with in a process of so much memory more than it has; empty where it goes well.
+std::string end_with_limit(const std::filesystem::path& file, std::uint64_t more) {
+  const auto outcomes = parallel::processes{.worker_count = 1}.run(1, [&](std::size_t) {
+    std::ifstream status("/proc/self/statm");
+    std::uint64_t pages = 0;
+    status >> pages;
+    const rlimit little{pages * 4096 + more, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_AS, &little);
+    read_occt_model(file);
+    return byte_buffer();
+  });
+  return outcomes.front().failure;
+}
+
+TEST_CASE("a file that wants more memory than there is, is not called damaged") {
+  const scratch_folder folder("memory");
+  std::string step =
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+      "FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n";
+  for (int k = 1; k <= 100000; ++k)
+    step += "#" + std::to_string(k) + "=CARTESIAN_POINT('',(0.,0.,0.));\n";
+  write_content(folder / "large.step", step + "ENDSEC;\nEND-ISO-10303-21;\n");
+  for (const std::uint64_t megabytes : {1, 4, 8, 12, 16, 24, 32}) {
+    CAPTURE(megabytes);
+    CHECK(end_with_limit(folder / "large.step", megabytes << 20) == "out of memory");
+  }
 }
 
 TEST_CASE("reading that does not end is given up, and stops when asked") {

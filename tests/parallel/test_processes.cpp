@@ -1,3 +1,4 @@
+#include "dovetail/parallel/fresh_memory.hpp"
 #include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/task_board.hpp"
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <thread>
 
 #include <poll.h>
@@ -104,6 +106,60 @@ TEST_CASE("A crash costs one task") {
     CHECK(outcomes[5].failure == "the worker exited with code 0");
     CHECK_FALSE(has_children());
   }
+}
+
+/// Until the stack is used up.
+int descend(int depth) {
+  volatile char frame[4096];
+  frame[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : descend(depth + 1) + frame[0];
+}
+
+TEST_CASE("Of a worker without memory or stack it is said") {
+  const auto outcomes = processes{2}.run(5, [](std::size_t i) -> byte_buffer {
+    if (i == 1)
+      throw std::bad_alloc();
+    if (i == 2)
+      return contract::encoded(static_cast<std::size_t>(descend(0)));
+    if (i == 3) {
+      byte_buffer made;
+      detail::on_fresh_memory([&] { return descend(0); });
+      return made;
+    }
+    if (i == 4)
+      std::raise(SIGSEGV);
+    return contract::encoded(i);
+  });
+  CHECK(outcomes[0].ok);
+  CHECK(outcomes[1].failure == "out of memory");
+  CHECK_FALSE(outcomes[1].crashed);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  for (const std::size_t i : {2, 3}) {
+    CHECK(outcomes[i].failure == "out of stack: allow more of it (ulimit -s)");
+    CHECK(outcomes[i].crashed);
+  }
+#endif
+  CHECK(outcomes[4].failure.find("signal 11") != std::string::npos);
+  for (const std::size_t i : {1, 2, 3})
+    CHECK(detail::is_for_want_of_room(outcomes[i].failure));
+  CHECK_FALSE(detail::is_for_want_of_room(outcomes[4].failure));
+}
+
+TEST_CASE("A process without standard streams has workers that answer") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const int standard : {0, 1, 2})
+      ::close(standard);
+    const auto outcomes = processes{2}.run(20, [](std::size_t i) { return contract::encoded(i); });
+    bool all = true;
+    for (std::size_t i = 0; i < 20; ++i)
+      all = all && outcomes[i].ok && contract::decoded(outcomes[i].result) == i;
+    ::_exit(all ? 0 : 1);
+  }
+  int status = 0;
+  CHECK(::waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("Every task can crash") {

@@ -98,6 +98,8 @@ bool try_repair(attributed_shape& input, brep& data, report& made, wanted entiti
     made.warnings.push_back("repaired by " + what + ", for " + first_trouble(data));
     data = std::move(better);
     input = std::move(trial);
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure&) { // this repair cannot cope with the shape; another one may
     return false;
   }

@@ -27,6 +27,8 @@ template <class Query>
 auto query(const char* kind, local_id id, Query&& evaluate) -> decltype(evaluate()) {
   try {
     return evaluate();
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     throw geometry_error(std::string(kind) + " " + std::to_string(id) +
                          " cannot be evaluated: " + failure.GetMessageString());
@@ -203,7 +205,16 @@ DOVETAIL_INLINE_OCCT bool is_occt_file(const std::filesystem::path& path) {
 
 DOVETAIL_INLINE_OCCT occt_read_result read_occt_model(const std::filesystem::path& path,
                                                       occt_read_options options) {
-  return occt_model_from(occt::read_shape(path, options), options.entities);
+  const occt::memory_watch memory;
+  try {
+    return occt_model_from(occt::read_shape(path, options), options.entities);
+  } catch (const input_error&) {
+    memory.throw_if_short();
+    throw;
+  } catch (const geometry_error&) {
+    memory.throw_if_short();
+    throw;
+  }
 }
 
 } // namespace dovetail

@@ -5,9 +5,11 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/input_file.hpp"
+#include "dovetail/geometry/occt_memory.hpp"
 #include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
+#include "dovetail/parallel/run_task.hpp"
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -20,6 +22,7 @@
 #include <filesystem>
 #include <functional>
 #include <ios>
+#include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -103,6 +106,7 @@ inline TopoDS_Shape read_brep(const std::string& source, const std::string& cont
 /// What OCCT makes of a file, here and now.
 inline attributed_shape read_directly(const std::filesystem::path& path, length_unit unit, file_format format,
                                       const std::string& content) {
+  const memory_watch memory;
   try {
     if (format == file_format::step)
       return read_step(path, unit, content);
@@ -113,7 +117,13 @@ inline attributed_shape read_directly(const std::filesystem::path& path, length_
     attributed_shape result;
     result.shape = read_brep(path.string(), content, format);
     return result;
+  } catch (const input_error&) {
+    memory.throw_if_short();
+    throw;
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
+    memory.throw_if_short();
     throw input_error(path.string() + ": the file is truncated or damaged (" + failure.GetMessageString() +
                       "); export it again");
   }
@@ -145,6 +155,10 @@ inline void require_readable(const std::string& source, const any_executor& exec
   const task_outcome& outcome = outcomes.front();
   if (outcome.ok)
     return;
+  if (outcome.failure == detail::out_of_memory)
+    throw std::bad_alloc();
+  if (detail::is_for_want_of_room(outcome.failure))
+    throw error(source + ": Open CASCADE could not read it: " + outcome.failure);
   if (!outcome.crashed && !outcome.timed_out)
     throw input_error(outcome.failure);
   const std::string what = outcome.timed_out

@@ -12,6 +12,7 @@
 #include <Message_Messenger.hxx>
 #include <NCollection_DataMap.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -26,6 +27,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -60,6 +62,8 @@ template <class Action>
 auto guarded(const std::string& what, Action&& action) -> decltype(action()) {
   try {
     return action();
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
     const char* message = failure.GetMessageString();
     throw geometry_error(what + ": Open CASCADE failed" +

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace dovetail::io {
 
@@ -16,6 +17,9 @@ std::filesystem::path find_mesh_file(const std::filesystem::path& path);
 /// Reads a VTU, PVTU, VTP or MSH file; of a folder, the PVTU or MSH file in it. `expand` is for compressed
 /// arrays, see `vtu_reader`. Throws `input_error` naming the file and what is wrong with it.
 loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr);
+
+/// The files that `read_mesh` reads: of a PVTU file its pieces too. Throws `input_error`.
+std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 /// Calls `f(piece, file)` for each VTU file of a PVTU file, one in memory at a time, its points merged and in
 /// the order of their global numbers. False when that is not possible, after any number of calls: for other

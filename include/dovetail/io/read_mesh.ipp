@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace dovetail::io {
 
@@ -35,6 +36,17 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
     return vtu_reader{expand}(file);
   throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP nor MSH");
+}
+
+DOVETAIL_INLINE std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files{find_mesh_file(path)};
+  const auto& file = files.front();
+  if (read_file(file, 256).find("\"PUnstructuredGrid\"") == std::string::npos)
+    return files;
+  const auto content = read_file(file);
+  const auto pieces = detail::pvtu_sources(file, xml_parser(content, file.string()).parse());
+  files.insert(files.end(), pieces.begin(), pieces.end());
+  return files;
 }
 
 DOVETAIL_INLINE bool

@@ -14,6 +14,21 @@ namespace dovetail::io {
 
 namespace detail {
 
+/// A text between quotes in JSON. Bytes that are no ASCII stand for themselves as a number: they may not be
+/// UTF-8.
+inline std::string json_escaped(const std::string& text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string escaped;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f)
+      escaped.append("\\u00").append({digits[byte >> 4U], digits[byte & 15U]});
+    else
+      escaped.append(c == '"' || c == '\\' ? "\\" : "").append(1, c);
+  }
+  return escaped;
+}
+
 /// Writes one event after the other.
 class trace_events {
 public:
@@ -24,7 +39,7 @@ public:
 
   void name_thread(int thread, const std::string& name) {
     begin("M", thread, "thread_name");
-    file_.text(R"(, "args": {"name": ")" + name + "\"}}");
+    file_.text(R"(, "args": {"name": ")" + json_escaped(name) + "\"}}");
   }
   void span(int thread, const std::string& name, double begin_seconds, double seconds) {
     begin("X", thread, name);
@@ -45,7 +60,7 @@ public:
 private:
   void begin(const char* kind, int thread, const std::string& name) {
     file_.text(std::string(any_ ? ",\n" : "\n") + R"({"ph": ")" + kind + R"(", "pid": 0, "tid": )" +
-               std::to_string(thread) + R"(, "name": ")" + name + "\"");
+               std::to_string(thread) + R"(, "name": ")" + json_escaped(name) + "\"");
     any_ = true;
   }
 

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <exception>
 #include <map>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -200,6 +201,8 @@ inline mesher_result<3> cgal_mesh_3::operator()(const mesher_input<3>& input, co
   try {
     result.mesh = detail::run_mesh_3(*this, surface, size, calls, budget);
   } catch (const error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     throw mesher_error("CGAL Mesh_3 failed: " + std::string(e.what()));

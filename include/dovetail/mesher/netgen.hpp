@@ -20,6 +20,7 @@ namespace nglib {
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -150,6 +151,8 @@ inline simplicial_mesh<3> run_netgen(const mesher::netgen& parameters, const sim
   try {
     return netgen_session(parameters, size).mesh(boundary);
   } catch (const error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (...) { // Netgen has exceptions of its own
     throw mesher_error("Netgen threw an exception");

@@ -12,11 +12,13 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
+#include "dovetail/parallel/run_task.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -115,7 +117,9 @@ auto by_policy(const char* role, const std::string& name, const Work& work) {
   } catch (const sizing_error&) {
     throw;
   } catch (const std::exception& e) {
-    const std::string what = role + (name.empty() ? name : " '" + name + "'") + ": " + e.what();
+    const bool has_memory = dynamic_cast<const std::bad_alloc*>(&e) == nullptr;
+    const std::string what =
+        role + (name.empty() ? name : " '" + name + "'") + ": " + (has_memory ? e.what() : out_of_memory);
     if (dynamic_cast<const time_limit_error*>(&e) != nullptr)
       throw time_limit_error(what);
     if (dynamic_cast<const usage_error*>(&e) != nullptr)

@@ -3,6 +3,8 @@
 /// the order of addresses or on what they failed to initialise. glibc.
 #pragma once
 
+#include "dovetail/parallel/stack_overflow.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -34,6 +36,7 @@ auto on_fresh_memory(const Work& work) -> decltype(work()) {
   decltype(work()) result{};
   std::exception_ptr failure;
   std::thread([&] {
+    watch_stack_of_thread();
     prefer_huge_pages_in_heap();
     try {
       result = work();

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -15,6 +16,19 @@
 namespace dovetail {
 
 namespace detail {
+
+/// What failures say that are for want of memory or stack.
+inline constexpr const char* out_of_memory = "out of memory";
+inline constexpr const char* out_of_stack = "out of stack: allow more of it (ulimit -s)";
+inline constexpr const char* killed_for_memory = ", perhaps for want of memory";
+
+/// Whether a reason says so: nothing is wrong with what the task was given then.
+inline bool is_for_want_of_room(const std::string& reason) {
+  for (const char* text : {out_of_memory, out_of_stack, killed_for_memory})
+    if (reason.find(text) != std::string::npos)
+      return true;
+  return false;
+}
 
 /// Runs one task here; its exception becomes a failed outcome.
 inline task_outcome run_task(const task_function& task, std::size_t index) {
@@ -26,6 +40,8 @@ inline task_outcome run_task(const task_function& task, std::size_t index) {
   } catch (const time_limit_error& e) {
     outcome.failure = e.what();
     outcome.timed_out = true;
+  } catch (const std::bad_alloc&) {
+    outcome.failure = out_of_memory;
   } catch (const std::exception& e) {
     outcome.failure = e.what();
   } catch (...) {

@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
 #include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/stack_overflow.hpp"
 #include "dovetail/parallel/task_board.hpp"
 
 #include <algorithm>
@@ -88,6 +89,18 @@ struct shared_tasks {
   ::_exit(0);
 }
 
+/// The exit code of a worker whose stack is used up.
+inline constexpr int exit_out_of_stack = 113;
+
+/// A descriptor in place of one that is among those of the standard streams, where a process closed these.
+inline int above_standard_streams(int descriptor) {
+  if (descriptor < 0 || descriptor > STDERR_FILENO)
+    return descriptor;
+  const int above = ::fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  ::close(descriptor);
+  return above;
+}
+
 /// What the child does before it serves: it dies with its parent, leaves Ctrl-C to the parent, is silent
 /// (TetGen prints), and a task that calls exit() skips the parent's exit handlers and buffers.
 inline void become_worker(pid_t parent) {
@@ -99,7 +112,9 @@ inline void become_worker(pid_t parent) {
   const int null = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     ::dup2(null, standard);
-  ::close(null);
+  if (null > STDERR_FILENO)
+    ::close(null);
+  on_stack_overflow([] { ::_exit(exit_out_of_stack); });
   ::on_exit([](int status, void*) { ::_exit(status); }, nullptr);
 }
 
@@ -120,8 +135,10 @@ public:
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
       return false;
-    owned_descriptor mine(ends[0]);
-    owned_descriptor theirs(ends[1]);
+    owned_descriptor mine(above_standard_streams(ends[0]));
+    owned_descriptor theirs(above_standard_streams(ends[1]));
+    if (mine.get() < 0 || theirs.get() < 0)
+      return false;
     std::fflush(nullptr); // or the child would hold a second copy of buffered output
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
@@ -203,7 +220,9 @@ public:
     outcome.peak_rss_bytes = rss;
     if (WIFSIGNALED(status))
       outcome.failure = "the worker was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
-                        ::strsignal(WTERMSIG(status)) + ")";
+                        ::strsignal(WTERMSIG(status)) + ")" + (was_killed_ ? killed_for_memory : "");
+    else if (WEXITSTATUS(status) == exit_out_of_stack)
+      outcome.failure = out_of_stack;
     else
       outcome.failure = "the worker exited with code " + std::to_string(WEXITSTATUS(status));
     return outcome;
