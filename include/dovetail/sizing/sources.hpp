@@ -10,6 +10,7 @@
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/candidate_octree.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
@@ -73,7 +74,7 @@ public:
       : ambient_(sizing::checked_size(ambient, "the ambient size")), log_ambient_(std::log(ambient)),
         largest_slope_(largest_slope), sources_(std::move(sources)) {
     if (!(largest_slope > 0))
-      throw sizing_error("the largest slope of a source field is " + std::to_string(largest_slope) +
+      throw sizing_error("the largest slope of a source field is " + number_text(largest_slope) +
                          "; give a positive number");
     std::vector<box3> boxes;
     boxes.reserve(sources_.size());
@@ -201,7 +202,7 @@ private:
   static constexpr double rounding = 1e-9; ///< of logarithms: far more than there is
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr std::size_t most_tried = 256; ///< of a list, before the tree is searched: thousands of
-                                                ///< sources may reach into every leaf of the octree
+                                                 ///< sources may reach into every leaf of the octree
 
   node_bound bound_of(std::size_t i) const {
     const grid_source& s = sources_[i];
