@@ -84,7 +84,7 @@ generate_options make_generate_options(const mesh_options& options) {
   }
   if (options.coarsening) {
     if (!(*options.coarsening >= 1) || !std::isfinite(*options.coarsening))
-      throw command_line_error("--coarsening: " + std::to_string(*options.coarsening) + " is not 1 or more");
+      throw command_line_error("--coarsening: " + number_text(*options.coarsening) + " is not 1 or more");
     result.coarse_scale = *options.coarsening;
   }
   return result;

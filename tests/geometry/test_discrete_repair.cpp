@@ -140,3 +140,34 @@ TEST_CASE("open, crowded, one-sided and crossing surfaces are refused with a pla
   flat.groups = {no_id};
   CHECK(has(refusal(flat), "degenerate"));
 }
+
+TEST_CASE("places in messages are short, however large the coordinates are") {
+  auto soup = box_soup({0, 0, 0}, {1e150, 1e150, 1e150});
+  soup.triangles.pop_back();
+  soup.groups.pop_back();
+  const std::string said = refusal(soup);
+  CHECK(said.find("e+1") != std::string::npos);
+  CHECK(said.size() < 250);
+}
+
+TEST_CASE("triangles of a file that are listed twice or the wrong way round are counted and told") {
+  const auto cube = box_soup({0, 0, 0}, {1, 1, 1}, 2);
+  CHECK(repaired_file(cube, "part.stl").repairs.warnings.empty());
+
+  auto turned = cube;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]); // the first one, which others are turned by
+  std::swap(turned.triangles[7][1], turned.triangles[7][2]);
+  turned.triangles.push_back(turned.triangles[3]);
+  turned.groups.push_back(no_id);
+  const auto s = repaired_file(turned, "part.stl");
+  CHECK(s.repairs.get("turned") == 2);
+  CHECK(s.repairs.get("duplicates") == 1);
+  REQUIRE(s.repairs.warnings.size() == 2);
+  CHECK(s.repairs.warnings[0] == "part.stl: 1 triangle is a copy of another one and was left out");
+  CHECK(s.repairs.warnings[1] == "part.stl: 2 triangles were listed the wrong way round and turned");
+  CHECK(volume_of(s, 0) == doctest::Approx(1));
+
+  triangle_soup inwards;
+  append(inwards, cube, true);
+  CHECK(repaired(inwards).repairs.get("turned") == 48);
+}

@@ -238,3 +238,68 @@ TEST_CASE("compositions evaluate and keep their bounds") {
   CHECK(smallest_size_in(lambda, far) == 0.0);
   CHECK(minimum_of(lambda, sources).smallest_size_in(far) == 0.0);
 }
+
+TEST_CASE("sources that all reach each other are searched and not gone through one by one") {
+  // A hundred thousand times a hundred thousand would take minutes.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto anywhere = [&] { return vec3{uniform(random), uniform(random), uniform(random)}; };
+  constexpr std::size_t many = 100'000;
+  std::vector<grid_source> sources;
+  for (std::size_t i = 0; i < many; ++i)
+    sources.push_back(point_source(anywhere(), 1e-3, 5, 0.1));
+  const source_field field(10, sources);
+  const vec3 low{0.4, 0.4, 0.4}, high{0.6, 0.6, 0.6};
+  std::vector<double> least(3, 1e300);
+  for (std::size_t i = 0; i < many; ++i) {
+    const vec3 p = anywhere();
+    least[0] = std::min(least[0], field(p));
+    least[1] = std::min(least[1], field.feature_size(p));
+    least[2] = std::min(least[2], field.smallest_size_in({p, p + vec3{1e-4, 1e-4, 1e-4}}));
+  }
+  CHECK(least[0] == 0.1);
+  CHECK(least[1] == 5e-4);
+  CHECK(least[2] == doctest::Approx(0.1));
+  CHECK(field.smallest_size_in({low, high}) == doctest::Approx(0.1));
+}
+
+TEST_CASE("where long lists of sources are searched the size is that of a loop to the last bit") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto anywhere = [&] { return vec3{uniform(random), uniform(random), uniform(random)}; };
+  for (const double slope : {std::numeric_limits<double>::infinity(), 0.4}) {
+    std::vector<grid_source> sources;
+    for (int i = 0; i < 900; ++i) {
+      const double factor = 1 + (i % 4 == 0 ? 0.0 : uniform(random)); // some have the same spacing
+      grid_source s = point_source(anywhere(), 0.02 * factor, 3 * factor, 0.05 * factor);
+      if (i % 3 == 1)
+        s = line_source(s.corners[0], anywhere(), 0.02, 2, 0.06 * factor);
+      if (i % 3 == 2) {
+        s = triangle_source(s.corners[0], anywhere(), anywhere(), 0.01, 2, 0.1);
+        s.spacing[1] = 0.1 * factor;
+        s.outer_radius[2] = 2 * factor;
+      }
+      if (i % 5 == 0)
+        s.growth = source_growth::doubling;
+      sources.push_back(s);
+    }
+    const source_field field(3, sources, slope);
+    std::vector<source_field> alone;
+    for (const grid_source& s : sources)
+      alone.emplace_back(3, std::vector{s}, slope);
+    for (int i = 0; i < 400; ++i) {
+      const vec3 p = 2.0 * anywhere() - vec3{0.5, 0.5, 0.5};
+      const box3 box{p, p + 0.02 * anywhere()};
+      double size = 3, feature = std::numeric_limits<double>::infinity(), bound = 3;
+      for (const source_field& one : alone) {
+        size = std::min(size, one(p));
+        feature = std::min(feature, one.feature_size(p));
+        bound = std::min(bound, one.smallest_size_in(box));
+      }
+      CHECK(field(p) == size);
+      CHECK(field.feature_size(p) == feature);
+      CHECK(field.smallest_size_in(box) <= size);
+      CHECK(field.smallest_size_in(box) >= (1 - 1e-9) * bound);
+    }
+  }
+}

@@ -21,9 +21,13 @@ public:
     box3 box;
     for (const vec3& p : mesh.points)
       box.include(p);
-    sliver_height_ = 1e-6 * box.diagonal();
+    diagonal_ = box.diagonal();
+    sliver_height_ = 1e-6 * diagonal_;
   }
 
+  double diagonal() const { return diagonal_; } ///< of the mesh's box
+  std::size_t point_count() const { return mesh_->points.size(); }
+  const simplex<2>& corners(std::size_t t) const { return mesh_->elements[t]; }
   vec3 point(local_id v) const { return mesh_->points[static_cast<std::size_t>(v)]; }
   /// Along the normal, twice the area long.
   vec3 area_vector(std::size_t t) const {
@@ -63,6 +67,7 @@ public:
 
 private:
   const simplicial_mesh<2>* mesh_;
+  double diagonal_ = 0;
   double sliver_height_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
@@ -18,7 +19,7 @@
 namespace dovetail::discrete {
 
 inline std::string place(vec3 p) {
-  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+  return place_text(p);
 }
 
 /// Throws `geometry_error` naming `name` and the place when two triangles cross. Crossings of slivers, lower

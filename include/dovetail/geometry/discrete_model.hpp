@@ -229,13 +229,14 @@ private:
 
 static_assert(geometry_model<discrete_model>);
 
-/// Reads an STL, OBJ, OFF or PLY file and makes a model of it. Throws `input_error` for a bad file and
+/// Reads an STL, OBJ, OFF or PLY file and makes a model of it; its repairs warn of triangles that were listed
+/// twice or the wrong way round. Throws `input_error` for a bad file and
 /// `geometry_error` for a surface that is not manifold, one-sided, crosses itself or, unless sheets are
 /// allowed, is open; both name the file.
 inline discrete_model read_discrete_model(const std::filesystem::path& file,
                                           const discrete_options& options = {}) {
   return discrete_model(
-      repaired(read_triangles(file), file.string(), {options.merge_tolerance, options.allow_sheets}),
+      repaired_file(read_triangles(file), file.string(), {options.merge_tolerance, options.allow_sheets}),
       options);
 }
 

@@ -2,6 +2,7 @@
 /// From a triangle soup to consistently oriented surfaces: closed ones that bound solids, and sheets.
 #pragma once
 
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/discrete_crossings.hpp"
@@ -85,9 +86,10 @@ public:
     }
     check_edges();
     flip_caps(1e-3 * options_.merge_tolerance * diagonal_);
+    const std::vector<simplex<2>> listed = triangles();
     shells_ = oriented(result_.mesh, name_);
-    result_.repairs.set("turned", static_cast<double>(shells_.turned));
     nest();
+    count_turned(listed);
     require_no_crossing(result_.mesh, name_, sliver_height(), result_.repairs);
     return std::move(result_);
   }
@@ -301,16 +303,25 @@ private:
       const local_id shell = number[static_cast<std::size_t>(shells_.shell_of[t])];
       if (shell == no_id)
         continue;
-      if (nesting.is_inside_out[static_cast<std::size_t>(shell)]) {
+      if (nesting.is_inside_out[static_cast<std::size_t>(shell)])
         std::swap(triangles()[t][1], triangles()[t][2]);
-        result_.repairs.add("turned", 1);
-      }
       result_.solid_of[t] = nesting.solid_of[static_cast<std::size_t>(shell)];
     }
     result_.repairs.set("shells", static_cast<double>(closed.size()));
     result_.repairs.set("sheets", static_cast<double>(shells_.is_sheet.size() - closed.size()));
     result_.repairs.set("solids", nesting.solids);
     result_.repairs.set("voids", nesting.voids);
+  }
+
+  /// Those that are the other way round than before.
+  void count_turned(const std::vector<simplex<2>>& listed) {
+    std::size_t turned = 0;
+    for (std::size_t t = 0; t < listed.size(); ++t) {
+      const auto first = std::find(triangles()[t].begin(), triangles()[t].end(), listed[t][0]);
+      const auto next = first + 1 == triangles()[t].end() ? triangles()[t].begin() : first + 1;
+      turned += *next == listed[t][1] ? 0 : 1;
+    }
+    result_.repairs.set("turned", static_cast<double>(turned));
   }
 
   bool is_sliver(std::size_t t) {
@@ -337,6 +348,22 @@ private:
 inline oriented_surfaces repaired(const triangle_soup& soup, const std::string& name = "the surface",
                                   const repair_options& options = {}) {
   return discrete::soup_repair(soup, name, options).run();
+}
+
+/// As `repaired`, with a warning that says how many triangles were listed twice or the wrong way round: a
+/// file in which some are was damaged, and may lack others.
+inline oriented_surfaces repaired_file(const triangle_soup& soup, const std::string& name,
+                                       const repair_options& options = {}) {
+  oriented_surfaces made = repaired(soup, name, options);
+  const auto note = [&](const char* counter, const char* one, const char* more) {
+    if (const double count = made.repairs.get(counter); count > 0)
+      made.repairs.warnings.push_back(name + ": " + number_text(count, 12) + (count == 1 ? one : more));
+  };
+  note("duplicates", " triangle is a copy of another one and was left out",
+       " triangles are copies of others and were left out");
+  note("turned", " triangle was listed the wrong way round and turned",
+       " triangles were listed the wrong way round and turned");
+  return made;
 }
 
 } // namespace dovetail

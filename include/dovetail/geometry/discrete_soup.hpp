@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
@@ -118,7 +119,7 @@ public:
   long integer() {
     const double value = number();
     if (value != std::floor(value) || std::abs(value) > 4e9)
-      fail("a whole number is expected instead of " + std::to_string(value));
+      fail("a whole number is expected instead of " + number_text(value));
     return static_cast<long>(value);
   }
 

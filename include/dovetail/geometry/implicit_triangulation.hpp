@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/geometry/discrete_soup.hpp"
 #include "dovetail/geometry/implicit_function.hpp"
 
@@ -64,9 +65,7 @@ private:
         return true;
     return false;
   }
-  static std::string text(vec3 p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
-  }
+  static std::string text(vec3 p) { return place_text(p); }
 
   void evaluate() {
     values_.resize(static_cast<std::size_t>(number({cells_[0], cells_[1], cells_[2]})) + 1);
@@ -87,7 +86,7 @@ private:
         }
     if (!any_inside)
       throw geometry_error("the implicit function is negative at no point of a grid of cells of width " +
-                           std::to_string(width_) +
+                           number_text(width_) +
                            "; the body is where it is negative, so turn its sign, move the box or raise the "
                            "resolution");
   }

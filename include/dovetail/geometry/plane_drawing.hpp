@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/geometry/plane_segments.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
@@ -41,7 +42,7 @@ inline std::string name_of_path(const plane_drawing& drawing, std::size_t path) 
 }
 
 inline std::string text_of(vec2 p) {
-  return std::string("(").append(std::to_string(p.x)).append(", ").append(std::to_string(p.y)).append(")");
+  return std::string("(").append(number_text(p.x)).append(", ").append(number_text(p.y)).append(")");
 }
 
 inline std::vector<drawn_segment> segments_of(const plane_drawing& drawing) {

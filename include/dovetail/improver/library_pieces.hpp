@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/point_numbering.hpp"
@@ -126,7 +127,7 @@ inline std::string fault_of(const library_piece& piece, simplicial_mesh<3>& made
   const double before = measure_quality(piece.mesh).min_wedge_deg,
                after = measure_quality(made).min_wedge_deg;
   if (after < before - 1e-9)
-    return "its worst angle is " + std::to_string(after) + " degrees instead of " + std::to_string(before);
+    return "its worst angle is " + number_text(after) + " degrees instead of " + number_text(before);
   return {};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/input_file.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/io/loaded_mesh.hpp"
 #include "dovetail/io/msh_decoder.hpp"
 
@@ -53,7 +54,7 @@ private:
     const auto kind = at_.number<int>();
     const auto size = at_.number<int>();
     if (version_ != 2.2 && version_ != 4.1)
-      at_.fail("MSH version " + std::to_string(version_).substr(0, 3) +
+      at_.fail("MSH version " + number_text(version_) +
                " is not supported; save the mesh as version 4.1 or 2.2");
     if ((kind != 0 && kind != 1) || size != 8)
       at_.fail("the format line is damaged");

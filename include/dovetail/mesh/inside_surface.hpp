@@ -4,6 +4,7 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
@@ -92,8 +93,7 @@ private:
       const std::size_t count = sides.all_elements(static_cast<local_id>(i)).size();
       if (sides.is_boundary(static_cast<local_id>(i)) || count % 2 != 0) {
         const vec3 at = points_[static_cast<std::size_t>(sides.vertices[i][0])];
-        throw geometry_error("the surface is open at the edge near (" + std::to_string(at.x) + ", " +
-                             std::to_string(at.y) + ", " + std::to_string(at.z) + "); close it");
+        throw geometry_error("the surface is open at the edge near " + place_text(at) + "; close it");
       }
     }
   }

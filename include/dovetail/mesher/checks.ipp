@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
@@ -89,8 +90,8 @@ inline void check_volumes(const simplicial_mesh<2>& boundary, const simplicial_m
   // Rounding of coordinates: relative to the sum for the elements, to the box for thin bodies.
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::pow(box.diagonal(), 3);
   if (!(std::abs(volume - expected) <= 1e-9 * std::abs(expected) + rounding))
-    throw mesher_error("the elements fill a volume of " + std::to_string(volume) +
-                       ", the boundary encloses " + std::to_string(expected));
+    throw mesher_error("the elements fill a volume of " + number_text(volume) + ", the boundary encloses " +
+                       number_text(expected));
 }
 
 } // namespace detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/result_checks.hpp"
@@ -77,8 +78,8 @@ inline void check_planes_filled(const mesher_input<2>& input, const simplicial_m
     box.include(p);
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * std::pow(box.diagonal(), 2);
   if (!(std::abs(area - expected) <= 1e-9 * std::abs(expected) + rounding))
-    throw mesher_error("the elements fill an area of " + std::to_string(area) + ", the lines enclose " +
-                       std::to_string(expected));
+    throw mesher_error("the elements fill an area of " + number_text(area) + ", the lines enclose " +
+                       number_text(expected));
 }
 
 } // namespace detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
 #include "dovetail/parallel/run_task.hpp"
 #include "dovetail/parallel/stack_overflow.hpp"
@@ -204,7 +205,7 @@ public:
     task_outcome outcome;
     outcome.timed_out = true;
     outcome.seconds = seconds_on_task();
-    outcome.failure = "exceeded the time limit of " + std::to_string(limit_seconds) + " s";
+    outcome.failure = "exceeded the time limit of " + number_text(limit_seconds) + " s";
     outcome.peak_rss_bytes = kill_and_reap().second;
     return outcome;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/refinement.hpp"
 
@@ -19,7 +20,7 @@ namespace dovetail::detail {
 
 DOVETAIL_INLINE void require_imbalance(double imbalance) {
   if (!(imbalance >= 1))
-    throw partition_error("the imbalance asked for is " + std::to_string(imbalance) +
+    throw partition_error("the imbalance asked for is " + number_text(imbalance) +
                           "; it is the heaviest part over the average part, so give 1 or more");
 }
 

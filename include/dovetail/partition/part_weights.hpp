@@ -4,6 +4,7 @@
 
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
@@ -60,7 +61,7 @@ inline void require_partitionable(local_id nodes, std::span<const double> weight
   for (std::size_t v = 0; v < weights.size(); ++v)
     if (!(weights[v] >= 0) || weights[v] > 1e300)
       throw partition_error("node " + std::to_string(static_cast<std::size_t>(first) + v) + " has weight " +
-                            std::to_string(weights[v]) + "; weights must be finite and not negative");
+                            number_text(weights[v]) + "; weights must be finite and not negative");
 }
 inline void require_partitionable(const csr_graph& graph, int parts) {
   require_partitionable(graph.node_count(), graph.node_weights, parts);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
@@ -63,8 +64,8 @@ public:
       const shortfall& missed = each.decision.missed;
       if (!(missed.value >= 0) || !(missed.wanted >= 0) || std::isinf(missed.wanted))
         throw usage_error("the simplification rule couples side " + std::to_string(each.side) +
-                          " since it misses " + std::to_string(missed.wanted) + " by being " +
-                          std::to_string(missed.value) + "; both must be finite and not negative");
+                          " since it misses " + number_text(missed.wanted) + " by being " +
+                          number_text(missed.value) + "; both must be finite and not negative");
       candidates.push_back(each);
     }
     contract_worst_first(candidates);
@@ -131,18 +132,18 @@ private:
   void require_judgement() const {
     require_one_each(judged_, fixed_.size());
     if (!(judged_.wanted_quality >= 0) || !(judged_.wanted_angle_deg >= 0))
-      throw usage_error("the simplification rule wants the quality " +
-                        std::to_string(judged_.wanted_quality) + " and wedges of " +
-                        std::to_string(judged_.wanted_angle_deg) + " degrees; neither may be negative");
+      throw usage_error("the simplification rule wants the quality " + number_text(judged_.wanted_quality) +
+                        " and wedges of " + number_text(judged_.wanted_angle_deg) +
+                        " degrees; neither may be negative");
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       if (fixed_[s] == 0 && !(judged_.quality[s] >= 0))
         throw usage_error("the simplification rule gave side " + std::to_string(s) + " the quality " +
-                          std::to_string(judged_.quality[s]) + "; it must not be negative");
+                          number_text(judged_.quality[s]) + "; it must not be negative");
   }
   double price_of(const shortfall& missed) const {
     const double price = rule_.price(missed);
     if (!(price > 0) || !std::isfinite(price))
-      throw usage_error("the simplification rule gave a refused side the price " + std::to_string(price) +
+      throw usage_error("the simplification rule gave a refused side the price " + number_text(price) +
                         "; it must be positive and finite");
     return price;
   }

@@ -10,6 +10,7 @@
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/candidate_octree.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
@@ -73,7 +74,7 @@ public:
       : ambient_(sizing::checked_size(ambient, "the ambient size")), log_ambient_(std::log(ambient)),
         largest_slope_(largest_slope), sources_(std::move(sources)) {
     if (!(largest_slope > 0))
-      throw sizing_error("the largest slope of a source field is " + std::to_string(largest_slope) +
+      throw sizing_error("the largest slope of a source field is " + number_text(largest_slope) +
                          "; give a positive number");
     std::vector<box3> boxes;
     boxes.reserve(sources_.size());
@@ -84,44 +85,42 @@ public:
       boxes.push_back(laws_.back().reached);
     }
     tree_ = box_tree(boxes);
-    least_in_node_ =
-        tree_.reduce<double>([&](local_id i) { return laws_[static_cast<std::size_t>(i)].log_least; },
-                             [](double a, double b) { return std::min(a, b); });
+    nodes_ = tree_.reduce<node_bound>([&](local_id i) { return bound_of(static_cast<std::size_t>(i)); },
+                                      [](const node_bound& a, const node_bound& b) { return joined(a, b); });
     locate();
   }
 
   double operator()(vec3 p) const {
-    double least = log_ambient_;
-    local_id winner = no_id;
+    minimum found{log_ambient_};
+    std::size_t tried = 0;
     for (const local_id i : located_.candidates(p)) {
-      const law& l = laws_[static_cast<std::size_t>(i)];
-      if (l.log_least >= least) // so are those after it
+      if (laws_[static_cast<std::size_t>(i)].log_least >= found.log_size) // so are those after it
         break;
-      if (!contains(l.reached, p))
-        continue;
-      const double candidate = log_size(i, p, 0.0);
-      if (candidate < least) {
-        least = candidate;
-        winner = i;
+      if (++tried > most_tried) {
+        search(p, found);
+        break;
       }
+      take(i, p, found);
     }
-    if (winner == no_id)
+    if (found.source == no_id)
       return ambient_;
     // Inside the inner radius of a source of one spacing, that spacing to the last bit, not exp(log(.)).
-    const law& of_winner = laws_[static_cast<std::size_t>(winner)];
-    if (least == of_winner.log_least)
+    const law& of_winner = laws_[static_cast<std::size_t>(found.source)];
+    if (found.log_size == of_winner.log_least)
       return of_winner.least;
-    return std::exp(least);
+    return std::exp(found.log_size);
   }
 
   /// Lower bound over a box: every source at its distance from the box.
   double smallest_size_in(const box3& box) const {
     const vec3 center = box.center();
     const double radius = 0.5 * box.diagonal();
-    double least = log_ambient_;
-    tree_.for_each([&](const box3& reached,
-                       std::size_t node) { return least_in_node_[node] < least && reached.overlaps(box); },
-                   [&](local_id i) { least = std::min(least, log_size(i, center, radius)); });
+    const double least = tree_.least(
+        log_ambient_,
+        [&](std::size_t node) {
+          return tree_.box(node).overlaps(box) ? least_from(nodes_[node], center, radius) : infinite;
+        },
+        [&](local_id i) { return log_size(i, center, radius); });
     return least < log_ambient_ ? std::exp(least) * (1 - 1e-12) : ambient_;
   }
 
@@ -148,14 +147,20 @@ public:
   /// reach p, the inner radius or the distance to the source, whichever is larger. Infinite where none
   /// reaches.
   double feature_size(vec3 p) const {
-    double least = std::numeric_limits<double>::infinity();
-    tree_.for_each([&](const box3& box, std::size_t) { return contains(box, p); },
-                   [&](local_id id) {
-                     const auto i = static_cast<std::size_t>(id);
-                     const auto [away, at] = nearest(i, p);
-                     if (away < reach_at(sources_[i], at))
-                       least = std::min(least, std::max(mixed(sources_[i].inner_radius, at), away));
-                   });
+    const double least = tree_.least(
+        infinite,
+        [&](std::size_t node) {
+          if (!contains(tree_.box(node), p))
+            return infinite;
+          const double away = std::sqrt(distance_squared(nodes_[node].cores, p));
+          return (1 - 1e-9) * std::max(nodes_[node].least_inner, away);
+        },
+        [&](local_id id) {
+          const auto i = static_cast<std::size_t>(id);
+          const auto [away, at] = nearest(i, p);
+          return away < reach_at(sources_[i], at) ? std::max(mixed(sources_[i].inner_radius, at), away)
+                                                  : infinite;
+        });
     return 0.5 * least;
   }
 
@@ -179,6 +184,88 @@ private:
     double distance;
     weights at;
   };
+  /// Of the sources below a node of the tree.
+  struct node_bound {
+    box3 cores;             ///< around the sources, without what they reach
+    double log_least = 0;   ///< of the smallest spacing
+    double least_inner = 0; ///< radius
+    double most_inner = 0;
+    double rate = 0;      ///< of the slowest growth
+    bool constant = true; ///< all of them
+  };
+  /// The smallest size found so far, and whose it is.
+  struct minimum {
+    double log_size;
+    local_id source = no_id;
+  };
+
+  static constexpr double rounding = 1e-9; ///< of logarithms: far more than there is
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t most_tried = 256; ///< of a list, before the tree is searched: thousands of
+                                                 ///< sources may reach into every leaf of the octree
+
+  node_bound bound_of(std::size_t i) const {
+    const grid_source& s = sources_[i];
+    node_bound result{core_box(s), laws_[i].log_least, s.inner_radius[0], s.inner_radius[0]};
+    double widest = s.spacing[0], band = 0;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.dimension); ++k) {
+      result.least_inner = std::min(result.least_inner, s.inner_radius[k]);
+      result.most_inner = std::max(result.most_inner, s.inner_radius[k]);
+      widest = std::max(widest, s.spacing[k]);
+      band = std::max(band, s.outer_radius[k] - s.inner_radius[k]);
+    }
+    result.rate = std::max(0.0, growth_rate(s, 0, band, std::log(widest)));
+    result.constant = laws_[i].constant;
+    return result;
+  }
+
+  static node_bound joined(const node_bound& a, const node_bound& b) {
+    return {united(a.cores, b.cores),
+            std::min(a.log_least, b.log_least),
+            std::min(a.least_inner, b.least_inner),
+            std::max(a.most_inner, b.most_inner),
+            std::min(a.rate, b.rate),
+            a.constant && b.constant};
+  }
+
+  /// No more than `log_size(i, p, closer)` for all sources below a node: a size that starts smaller, later
+  /// and grows more slowly stays smaller.
+  double least_from(const node_bound& node, vec3 p, double closer) const {
+    const double away = std::sqrt(distance_squared(node.cores, p)) - closer - node.most_inner;
+    if (!(away > 0) || !(node.rate > 0) || (closer > 0 && !node.constant))
+      return node.log_least;
+    return std::max(node.log_least, log_grown(node.log_least, node.rate, away) - rounding);
+  }
+
+  /// Lets source i ask for its size at p. Of those that ask for the same, that of the smallest spacing has
+  /// it, then the first one.
+  void take(local_id i, vec3 p, minimum& found) const {
+    const law& l = laws_[static_cast<std::size_t>(i)];
+    if (!contains(l.reached, p))
+      return;
+    const double candidate = log_size(i, p, 0.0);
+    const auto is_before = [&](local_id j) {
+      return std::pair(l.log_least, i) < std::pair(laws_[static_cast<std::size_t>(j)].log_least, j);
+    };
+    if (candidate < found.log_size ||
+        (candidate == found.log_size && found.source != no_id && is_before(found.source)))
+      found = {candidate, i};
+  }
+
+  /// As `take` for all sources.
+  void search(vec3 p, minimum& found) const {
+    tree_.least(
+        found.log_size,
+        [&](std::size_t node) {
+          if (!contains(tree_.box(node), p))
+            return infinite;
+          return least_from(nodes_[node], p, 0) - rounding; // what asks for the same is tried too
+        },
+        [&](local_id i) {
+          take(i, p, found);
+          return found.log_size;
+        });
+  }
 
   /// Fills the octree that evaluations use; finest sources first, so that an evaluation can stop early.
   void locate() {
@@ -199,7 +286,6 @@ private:
 
   /// Takes out sources that ask for more than another one does, wherever in the box.
   void remove_outdone(const box3& box, std::vector<local_id>& items) const {
-    constexpr double rounding = 1e-9; // far more than there is
     const vec3 center = box.center();
     const double radius = 0.5001 * box.diagonal();
     double most = log_ambient_; // the size is at most this
@@ -373,7 +459,7 @@ private:
   std::vector<law> laws_;
   candidate_octree located_;
   box_tree tree_;
-  std::vector<double> least_in_node_; ///< per tree node: log of the smallest spacing below it
+  std::vector<node_bound> nodes_; ///< per tree node
 };
 
 } // namespace dovetail
