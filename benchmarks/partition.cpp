@@ -45,8 +45,9 @@ public:
       const any_simplification_rule rule = simplify ? any_simplification_rule(simplifier::paper{})
                                                     : any_simplification_rule(simplifier::none{});
       report ignored;
-      simplified_.push_back(
-          detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights, subdomains, rule, ignored));
+      simplified_.push_back(detail::simplify_background(coarse.mesh, coarse.sides, coarse.weights,
+                                                        {.subdomains = static_cast<double>(subdomains)}, rule,
+                                                        ignored, {}));
     }
   }
 

@@ -60,7 +60,7 @@ struct decomposed_shell {
         background(make_background<3>(model, uniform_size(0.2), given)) {
     const simplicial_mesh<3>& volume = background.mesh.volume;
     divided.sides = build_sides(volume);
-    const auto simplified = simplify<3>(volume, sides, simplifier::none{});
+    const auto simplified = simplify<3>(volume, mesh_duals<3>(volume, sides), simplifier::none{});
     divided.side_states = simplified.side_states;
     divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
                                   given.partition_it, parts);
