@@ -1,13 +1,18 @@
 /// @file
-/// A rule that judges interfaces by the aspect ratio of triangles in place of their angles.
+/// A rule that judges interfaces by the aspect ratio of triangles in place of their angles; of small
+/// dihedrals the side of worse ratio goes.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/simplification/paper.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/simplification/rule_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace dovetail::simplifier {

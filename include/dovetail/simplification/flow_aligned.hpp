@@ -1,15 +1,19 @@
 /// @file
-/// A rule that keeps interfaces along a flow.
+/// A rule that keeps interfaces along a flow, given as a function of place (of the driver: along x): sides at
+/// more than 60 degrees to it go, and of small dihedrals the side that is aligned less.
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/simplification/paper.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/simplification/rule_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace dovetail::simplifier {

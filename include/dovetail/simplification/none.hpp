@@ -1,5 +1,5 @@
 /// @file
-/// The rule that removes nothing.
+/// The rule that removes nothing, for a plain partition.
 #pragma once
 
 #include "dovetail/simplification/concepts.hpp"

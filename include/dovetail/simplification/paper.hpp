@@ -1,5 +1,6 @@
 /// @file
-/// The rule of the paper.
+/// The rule of the paper: faces with a corner under 30 degrees go, and of two faces that include less than 30
+/// degrees (lines on the surface: 50) the worse.
 #pragma once
 
 #include "dovetail/simplification/rule_parts.hpp"

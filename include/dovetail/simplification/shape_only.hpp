@@ -2,7 +2,10 @@
 /// The paper's rule without the deletion of small dihedrals.
 #pragma once
 
-#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/rule_parts.hpp"
+#include "dovetail/simplification/side_shape.hpp"
+
+#include <optional>
 
 namespace dovetail::simplifier {
 
