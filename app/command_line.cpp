@@ -95,7 +95,7 @@ void add_policy_options(CLI::App& command, mesh_options& options) {
                      "Rule for sides that may not become interfaces: " + joined(simplifier_names()));
   command.add_option(
       "--wedge-angle", options.wedge_angle,
-      "Least angle that the rules paper and wedges let interfaces include, in degrees (default: 30; "
+      "Least angle that the simplifier lets interfaces include, where it has one, in degrees (default: 30; "
       "with --dimension 2 between lines, 50)");
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));
   command.add_option("--executor", options.executor, "Where pieces are meshed: " + joined(executor_names()));

@@ -13,17 +13,9 @@
 #include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
-#include "dovetail/partition/greedy.hpp"
-#include "dovetail/partition/inertial.hpp"
+#include "dovetail/partition/all.hpp"
 #include "dovetail/partition/metis.hpp"
-#include "dovetail/partition/recursive_coordinate.hpp"
-#include "dovetail/partition/space_filling_curve.hpp"
-#include "dovetail/simplification/aspect_ratio.hpp"
-#include "dovetail/simplification/flow_aligned.hpp"
-#include "dovetail/simplification/none.hpp"
-#include "dovetail/simplification/paper.hpp"
-#include "dovetail/simplification/shape_only.hpp"
-#include "dovetail/simplification/wedges_only.hpp"
+#include "dovetail/simplification/all.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
 #include "background_cgal.hpp"
@@ -47,50 +39,67 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 #include <system_error>
 #include <thread>
 
 namespace dovetail::app {
 namespace {
 
-std::vector<any_partitioner> partitioners() {
-  std::vector<any_partitioner> known{{partition::metis{}, "metis"},
-                                     {partition::metis{.recursive = true}, "metis-recursive"},
-                                     {partition::greedy{}, "greedy"},
-                                     {partition::inertial{}, "inertial"},
-                                     {partition::recursive_coordinate{}, "coordinate"},
-                                     {partition::space_filling_curve{}, "hilbert"}};
+std::string at_degrees(double angle) {
+  return " at " + number_text(angle) + " degrees";
+}
+
+/// Calls `visit(name, partitioner)` for all that were built, the default first.
+template <class Visit>
+void for_each_partitioner(const Visit& visit) {
+  visit("metis", partition::metis{});
+  visit("metis-recursive", partition::metis{.recursive = true});
+  for_each_policy(partition::all(), visit);
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
-  known.emplace_back(partition::scotch{}, "scotch");
+  visit("scotch", partition::scotch{});
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SPECTRA
-  known.emplace_back(partition::spectral{}, "spectral");
+  visit("spectral", partition::spectral{});
 #endif
+}
+
+std::vector<any_partitioner> partitioners() {
+  std::vector<any_partitioner> known;
+  for_each_partitioner(
+      [&](const char* name, const auto& partitioner) { known.emplace_back(partitioner, name); });
   return known;
 }
 
 /// Those that draw at random, from this seed, which is in their names.
 std::vector<any_partitioner> seeded_partitioners(int seed) {
-  const std::string drawn = ':' + std::to_string(seed);
-  const auto large_seed = static_cast<std::uint64_t>(seed);
-  std::vector<any_partitioner> known{
-      {partition::metis{.seed = seed}, "metis" + drawn},
-      {partition::metis{.recursive = true, .seed = seed}, "metis-recursive" + drawn},
-      {partition::greedy{.seed = large_seed}, "greedy" + drawn}};
-#ifdef DOVETAIL_DRIVER_WITH_SCOTCH
-  known.emplace_back(partition::scotch{.seed = seed}, "scotch" + drawn);
-#endif
-#ifdef DOVETAIL_DRIVER_WITH_SPECTRA
-  known.emplace_back(partition::spectral{.seed = large_seed}, "spectral" + drawn);
-#endif
+  std::vector<any_partitioner> known;
+  for_each_partitioner([&](const std::string& name, auto partitioner) {
+    if constexpr (requires { partitioner.seed; }) {
+      partitioner.seed = static_cast<decltype(partitioner.seed)>(seed);
+      known.emplace_back(partitioner, name + ':' + std::to_string(seed));
+    }
+  });
   return known;
 }
 
 std::vector<any_simplification_rule> simplifiers() {
-  return {{simplifier::paper{}, "paper"},         {simplifier::none{}, "none"},
-          {simplifier::shape_only{}, "shape"},    {simplifier::wedges_only{}, "wedges"},
-          {simplifier::aspect_ratio{}, "aspect"}, {simplifier::flow_aligned{}, "flow-x"}};
+  std::vector<any_simplification_rule> known;
+  for_each_policy(simplifier::all(),
+                  [&](const char* name, const auto& rule) { known.emplace_back(rule, name); });
+  return known;
+}
+
+/// The rules that have an angle between interfaces, with this one in place of their own, named as it is
+/// given: "paper at 40 degrees".
+std::vector<any_simplification_rule> simplifiers_at(double angle, int dimension) {
+  std::vector<any_simplification_rule> known;
+  for_each_policy(simplifier::all(), [&](const std::string& name, auto rule) {
+    if constexpr (requires { rule.volume_dihedral_deg; }) {
+      (dimension == 2 ? rule.surface_dihedral_deg : rule.volume_dihedral_deg) = angle;
+      known.emplace_back(rule, name + at_degrees(angle));
+    }
+  });
+  return known;
 }
 
 std::vector<any_mesher<3>> meshers() {
@@ -205,17 +214,11 @@ any_simplification_rule make_simplifier(const std::string& name, std::optional<d
   const double angle = *wedge_angle;
   if (!(angle >= 0 && angle <= 90))
     throw command_line_error("--wedge-angle: " + number_text(angle) + " is not between 0 and 90 degrees");
-  const std::string called = known.name() + " at " + number_text(angle) + " degrees";
-  if (known.name() == "paper")
-    return {dimension == 2 ? simplifier::paper{.surface_wedge_deg = angle}
-                           : simplifier::paper{.volume_wedge_deg = angle},
-            called};
-  if (known.name() == "wedges")
-    return {dimension == 2 ? simplifier::wedges_only{.surface_deg = angle}
-                           : simplifier::wedges_only{.volume_deg = angle},
-            called};
-  throw command_line_error("--wedge-angle: it is for the simplifiers paper and wedges, not for " +
-                           known.name());
+  for (const any_simplification_rule& rule : simplifiers_at(angle, dimension))
+    if (rule.name() == known.name() + at_degrees(angle))
+      return rule;
+  throw command_line_error("--wedge-angle: the simplifier " + known.name() +
+                           " has no angle between interfaces; take paper");
 }
 template <>
 any_mesher<3> make_mesher<3>(const std::string& name) {

@@ -2,11 +2,16 @@
 /// over a csr graph, next to the same walks written by hand over the arrays. Each is the median of several
 /// runs, taken in turns, each first in every other. No walk is inlined, and each begins at a multiple of 64
 /// bytes, so that none depends on the code around it: that alone changes a short loop by up to 1.7.
+/// Then what it costs to hide the rule of the simplification: the contraction by `simplifier::paper`, which
+/// is bound at compile time, next to the same by an `any_simplification_rule` that holds it.
 /// Usage: abstraction_penalty [cells per axis (default 60: 1.3 million tetrahedra)] [runs (default 31)]
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/graph/contraction.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/mesh_duals.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <algorithm>
@@ -85,9 +90,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Prints a row: both medians and their ratio. The two must give the same.
-template <class ByConcept, class Hand>
-bool compare(const char* what, int runs, const ByConcept& walk_by_concept, const Hand& hand) {
+/// Prints a row: the medians of both ways and their ratio. The two must give the same.
+template <class Way, class OtherWay>
+bool compare(const char* what, int runs, const Way& walk_by_concept, const OtherWay& hand) {
   std::vector<double> by_concept, by_hand;
   bool same = true;
   std::int64_t a = 0, b = 0;
@@ -110,6 +115,17 @@ bool compare(const char* what, int runs, const ByConcept& walk_by_concept, const
   std::printf("| %-34s | %9.2f | %7.2f | %5.2f |%s\n", what, 1e3 * m, 1e3 * n, m / n,
               same ? "" : " results differ");
   return same;
+}
+
+/// The contraction by a rule that has judged already, as a number that hangs on all of its result.
+template <contraction_rule Rule>
+std::int64_t contract_by(const Rule& rule, const mesh_duals<3>& duals, const side_judgement& judged) {
+  const auto result = contract_bounded(duals.elements(), duals.dihedrals(), judged, rule,
+                                       {.subdomains = 32, .fraction = 0.5});
+  std::int64_t sum = result.super_count;
+  for (const double weight : result.graph.edge_weights)
+    sum = 31 * (sum % 1'000'003) + static_cast<std::int64_t>(weight);
+  return sum;
 }
 
 } // namespace
@@ -138,5 +154,20 @@ int main(int argc, char** argv) {
   same &= compare(
       "breadth first on the csr graph", runs, [&] { return breadth_first_order(csr, 0).back(); },
       [&] { return breadth_first_by_hand(csr); });
+
+  const auto flat = [](auto coarse) {
+    for (vec3& p : coarse.points)
+      p.z *= 0.3; // so that the rule has much to decide
+    return coarse;
+  }(dovetail_test::jittered_cubes(std::max(2, cells / 2)));
+  const mesh_duals<3> duals(flat);
+  const simplifier::paper rule;
+  const any_simplification_rule hidden(rule);
+  const side_judgement judged = rule(flat, duals.sides());
+  std::printf("\n%zu tetrahedra\n\n| contraction | erased rule ms | static ms | ratio |\n|---|---|---|---|\n",
+              flat.elements.size());
+  same &= compare(
+      "by the paper's rule", std::max(3, runs / 3), [&] { return contract_by(hidden, duals, judged); },
+      [&] { return contract_by(rule, duals, judged); });
   return same ? 0 : 1;
 }

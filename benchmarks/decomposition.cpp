@@ -93,7 +93,8 @@ int main(int argc, char** argv) {
   const contraction_bound bound{.subdomains = static_cast<double>(parts)};
   const dovetail_benchmark::processor_clock simplification_clock;
   coarse.simplified =
-      simplify<3>(coarse.mesh, coarse.sides, simplifier::paper{}, {.element_weights = weights}, bound);
+      simplify<3>(coarse.mesh, mesh_duals<3>(coarse.mesh, coarse.sides, {.element_weights = weights}),
+                  simplifier::paper{}, bound);
   coarse.simplification_seconds = simplification_clock.seconds();
   print("simplification", n, coarse.simplification_seconds);
   std::printf("    super-elements           %d\n", coarse.simplified.super_count);

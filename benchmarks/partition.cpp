@@ -43,10 +43,11 @@ public:
   comparison(const coarse_model& coarse, int subdomains) : coarse_(coarse), subdomains_(subdomains) {
     const auto on_curves = detail::edges_on_curves(coarse.mesh.surface);
     const auto add = [&](const auto& rule) {
-      simplified_.push_back(simplify_coupled(coarse.mesh.surface.mesh, coarse.mesh.volume, coarse.sides, rule,
-                                             {.curve_edges = on_curves, .element_weights = coarse.weights},
-                                             {.subdomains = static_cast<double>(subdomains)})
-                                .volume);
+      simplified_.push_back(
+          simplify_coupled({coarse.mesh.surface.mesh, {.fixed_sides = span_of(on_curves)}},
+                           {coarse.mesh.volume, coarse.sides, {.element_weights = coarse.weights}}, rule,
+                           {.subdomains = static_cast<double>(subdomains)})
+              .volume);
     };
     add(simplifier::paper{});
     add(simplifier::none{});

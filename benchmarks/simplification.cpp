@@ -12,7 +12,8 @@ namespace {
 template <int D>
 void measure(const dovetail::simplicial_mesh<D>& mesh) {
   const auto sides = dovetail::build_sides(mesh);
-  const auto result = dovetail::simplify(mesh, sides, dovetail::simplifier::paper{}, {}, {.subdomains = 32});
+  const auto result = dovetail::simplify(mesh, dovetail::mesh_duals<D>(mesh, sides),
+                                         dovetail::simplifier::paper{}, {.subdomains = 32});
   const auto n = static_cast<double>(mesh.elements.size());
   std::printf("D = %d: %.0f elements -> %d super-elements, %.3f s, %.0f elements/s\n", D, n,
               result.super_count, result.summary.seconds, n / result.summary.seconds);

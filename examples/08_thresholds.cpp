@@ -29,8 +29,8 @@ found_angles decompose_at(double threshold_deg, const background_result<3>& back
     on_curves.push_back(edge.vertices);
 
   const auto simplified = simplify_coupled( // 3.3
-      surface.mesh, volume, sides, simplifier::paper{.volume_wedge_deg = threshold_deg},
-      {.curve_edges = on_curves, .element_weights = weights},
+      {surface.mesh, {.fixed_sides = on_curves}}, {volume, sides, {.element_weights = weights}},
+      simplifier::paper{.volume_dihedral_deg = threshold_deg},
       {.subdomains = static_cast<double>(subdomains)});
   const auto& kept = simplified.volume;
   const auto pieces = decompose<3>(volume, sides, kept.super_of_element, kept.graph, volume.tags, // 3.4

@@ -30,14 +30,14 @@ struct away_from {
     }
     return judged;
   }
-  /// Of a small wedge's two sides the nearer one goes; of equals the one whose removal makes less.
-  bool first_goes(const dovetail::wedge_side& a, const dovetail::wedge_side& b) const {
+  /// Of a small dihedral's two sides the nearer one goes; of equals the one whose removal makes less.
+  bool prefer_removal(const dovetail::dihedral_side& a, const dovetail::dihedral_side& b) const {
     return std::tuple(a.quality, a.weight, a.side) < std::tuple(b.quality, b.weight, b.side);
   }
   /// What is decided on the surface stays there.
-  std::optional<dovetail::ridge_decision> couples(const dovetail::side_below&) const { return {}; }
+  std::optional<dovetail::ridge_decision> propagate(const dovetail::side_below&) const { return {}; }
   /// The weight of a side that balance forbids to remove, in the graph that is partitioned.
-  double price(const dovetail::shortfall& missed) const { return 1 + 200 * (1 - missed.fraction()); }
+  double penalty(const dovetail::deficit& missed) const { return 1 + 200 * (1 - missed.fraction()); }
 };
 // end
 

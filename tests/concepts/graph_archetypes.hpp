@@ -59,6 +59,7 @@ struct row_of_elements {
                           : std::array<local_id, 2>{side - 1, side};
   }
   int is_fixed(local_id side) const { return side == 0 || side == elements_ ? 1 : 0; }
+  short side_weight(local_id) const { return 3; }
 
 private:
   short elements_;
@@ -66,25 +67,27 @@ private:
 // end
 
 // for side_dual_graph
-/// The sides of that row, all through one point: element k is the wedge of 10 degrees between the sides k and
-/// k + 1.
+/// The sides of that row, all through one point: element k is the dihedral of 10 degrees between the sides k
+/// and k + 1.
 struct fan_of_sides {
-  explicit fan_of_sides(short wedges) : wedges_(wedges) {}
+  explicit fan_of_sides(short dihedrals) : dihedrals_(dihedrals) {}
   fan_of_sides(const fan_of_sides&) = delete;
   fan_of_sides& operator=(const fan_of_sides&) = delete;
 
-  int side_count() const { return wedges_ + 1; }
-  std::vector<double> angles() const { return std::vector<double>(static_cast<std::size_t>(wedges_), 10.0); }
-  std::array<local_id, 2> sides(wedge_id w) const {
+  int side_count() const { return dihedrals_ + 1; }
+  std::vector<double> angles() const {
+    return std::vector<double>(static_cast<std::size_t>(dihedrals_), 10.0);
+  }
+  std::array<local_id, 2> sides(dihedral_id w) const {
     return {static_cast<local_id>(w), static_cast<local_id>(w) + 1};
   }
   template <class Visit>
   void for_each_joint(local_id side, const Visit& visit) const {
-    visit(static_cast<wedge_id>(side - 1), static_cast<wedge_id>(side));
+    visit(static_cast<dihedral_id>(side - 1), static_cast<dihedral_id>(side));
   }
 
 private:
-  short wedges_;
+  short dihedrals_;
 };
 // end
 
@@ -96,13 +99,13 @@ struct contraction_rule {
   contraction_rule(const contraction_rule&) = delete;
   contraction_rule& operator=(const contraction_rule&) = delete;
 
-  bool first_goes(const wedge_side& a, const wedge_side& b) const { return a.side > b.side; }
-  float price(const shortfall&) const { return 5; }
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const { return a.side > b.side; }
+  float penalty(const deficit&) const { return 5; }
 };
 // end
 
 // for simplification_rule
-/// Wedges under 20 degrees are too small. Copyable, and neither default constructible nor assignable.
+/// Dihedrals under 20 degrees are too small. Copyable, and neither default constructible nor assignable.
 class simplification_rule {
 public:
   explicit simplification_rule(int) {}
@@ -113,9 +116,9 @@ public:
   side_judgement operator()(const simplicial_mesh<D>&, const side_table<D>& sides) const {
     return {std::vector<double>(sides.size(), 1.0), 0, 20};
   }
-  std::optional<ridge_decision> couples(const side_below&) const { return ridge_decision{{1, 2}}; }
-  bool first_goes(const wedge_side& a, const wedge_side& b) const { return a.side > b.side; }
-  float price(const shortfall&) const { return 5; }
+  std::optional<ridge_decision> propagate(const side_below&) const { return ridge_decision{{1, 2}}; }
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const { return a.side > b.side; }
+  float penalty(const deficit&) const { return 5; }
 };
 // end
 

@@ -216,7 +216,7 @@ TEST_CASE("graph algorithms need no more of a graph than its concept says") {
   const archetype::weighted_path weighted(5);
   CHECK(contract(weighted, label, 2).edge_weights == std::vector<double>{4, 4});
   CHECK(induced_subgraph(weighted, label, 0).nodes == std::vector<local_id>{0, 1, 4});
-  CHECK(make_csr_graph(weighted).offsets == std::vector<std::int64_t>{0, 1, 3, 5, 7, 8});
+  CHECK(csr_graph(weighted).offsets == std::vector<std::int64_t>{0, 1, 3, 5, 7, 8});
 }
 
 TEST_CASE("the contraction needs no more of dual graphs and of a rule than their concepts say") {
@@ -224,14 +224,15 @@ TEST_CASE("the contraction needs no more of dual graphs and of a rule than their
   const archetype::fan_of_sides fan(5);
   const archetype::contraction_rule rule;
   const auto result = contract_bounded(row, fan, {std::vector<double>(6, 1.0), 0, 20}, rule);
-  // The sides 1, 3 and 5 are left: of the first wedge side 1 goes, of the third side 3.
+  // The sides 0, 2 and 5 are left: of the first dihedral side 1 goes, of the third side 3.
   CHECK(result.super_of_element == std::vector<local_id>{0, 0, 1, 1, 1});
+  CHECK(result.graph.edge_weights == std::vector<double>{3, 3});
   CHECK(result.forced.empty());
 
   simplicial_mesh<2> mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}, {0, 0.1, 0}};
   mesh.elements = {{0, 1, 2}, {0, 2, 3}};
-  CHECK(simplify<2>(mesh, build_sides(mesh), archetype::simplification_rule(0)).super_count == 1);
+  CHECK(simplify<2>(mesh, mesh_duals<2>(mesh), archetype::simplification_rule(0)).super_count == 1);
 }
 
 TEST_CASE("what policies cannot do is known before anything is meshed") {

@@ -218,8 +218,8 @@ TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, i
     point.z *= 0.8;
   const auto sides = build_sides(mesh);
   for (const int parts : {2, 8, 13}) {
-    const auto simplified =
-        simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = static_cast<double>(parts)});
+    const auto simplified = simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{},
+                                        {.subdomains = static_cast<double>(parts)});
     const auto d = decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, {},
                                 partition::greedy{}, parts);
     CAPTURE(parts);
@@ -243,8 +243,9 @@ TEST_CASE("a request to stop ends simplification and decomposition") {
   const auto mesh = jittered_cubes(4, 0.15, 3);
   const auto sides = build_sides(mesh);
   const progress stop{{}, [] { return true; }};
-  CHECK_THROWS_AS(simplify<3>(mesh, sides, simplifier::paper{}, {}, {}, stop), cancelled);
-  const auto simplified = simplify<3>(mesh, sides, simplifier::paper{});
+  CHECK_THROWS_AS(simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{}, {}, {}, stop),
+                  cancelled);
+  const auto simplified = simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{});
   CHECK_THROWS_AS(decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, {},
                                partition::greedy{}, 4, 1.05, stop),
                   cancelled);
@@ -253,7 +254,8 @@ TEST_CASE("a request to stop ends simplification and decomposition") {
 TEST_CASE("D = 2 goes through the same code") {
   const auto mesh = shuffled(jittered_squares(24, 0.2, 3), 4);
   const auto sides = build_sides(mesh);
-  const auto simplified = simplify<2>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 7});
+  const auto simplified =
+      simplify<2>(mesh, mesh_duals<2>(mesh, sides), simplifier::paper{}, {.subdomains = 7});
   const auto d =
       decompose<2>(mesh, sides, simplified.super_of_element, simplified.graph, {}, partition::greedy{}, 7);
   CHECK(d.parts == 7);
@@ -268,7 +270,8 @@ TEST_CASE("materials are never mixed, and every component gets its share") {
     mesh.tags.push_back(layer == 2 ? 1 : 0);
   }
   const auto sides = build_sides(mesh);
-  const auto simplified = simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 12});
+  const auto simplified =
+      simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{}, {.subdomains = 12});
   const auto d = decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, mesh.tags,
                               partition::greedy{}, 12);
   check_parts(mesh, sides, d);

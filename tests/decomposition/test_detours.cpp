@@ -24,7 +24,7 @@ std::size_t at(local_id id) {
 struct decomposed {
   explicit decomposed(simplicial_mesh<3> given, int parts)
       : mesh(std::move(given)), sides(build_sides(mesh)) {
-    const auto simplified = simplify<3>(mesh, sides, simplifier::none{});
+    const auto simplified = simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::none{});
     pieces = decompose<3>(mesh, sides, simplified.super_of_element, simplified.graph, {}, partition::greedy{},
                           parts);
   }

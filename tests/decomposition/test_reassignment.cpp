@@ -50,8 +50,8 @@ struct partitioned_mesh {
 
   partitioned_mesh(std::uint64_t seed, int parts, double imbalance)
       : mesh(shuffled(jittered_cubes(7, 0.15, seed), seed)), sides(build_sides(mesh)),
-        simplified(
-            simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = static_cast<double>(parts)})),
+        simplified(simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{},
+                               {.subdomains = static_cast<double>(parts)})),
         part(partition::greedy{.imbalance = 1.3, .seed = seed}(simplified.graph, parts)) {
     join(parts);
     const double total = static_cast<double>(mesh.elements.size());

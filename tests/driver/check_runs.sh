@@ -142,7 +142,7 @@ expect_error "--background-improver.*--dimension 2" \
 expect_error "--background-improver: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --background-improver nonsense
 expect_error "--wedge-angle: 91 is not between 0 and 90" mesh "$inputs/cube.off" --wedge-angle 91
-expect_error "--wedge-angle: .*not for aspect" mesh "$inputs/cube.off" --wedge-angle 20 --simplifier aspect
+expect_error "--wedge-angle: .*shape has no angle" mesh "$inputs/cube.off" --wedge-angle 20 --simplifier shape
 
 # The surface by every mesher that is offered.
 surface_meshers=$(offered surface "Mesher of the surface of --dimension 3")

@@ -13,11 +13,6 @@ using namespace dovetail;
 namespace {
 
 template <graph_partitioner P>
-void check_geometric_partitioner(P partitioner) {
-  dovetail_test::check_partitioner_contract(partitioner, 1.03, false);
-}
-
-template <graph_partitioner P>
 void check_needs_positions(const P& partitioner) {
   csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_squares(4));
   graph.positions[3].y = std::nan("");
@@ -28,18 +23,9 @@ void check_needs_positions(const P& partitioner) {
 
 } // namespace
 
-TEST_CASE("recursive coordinate bisection satisfies the partitioner contract") {
-  check_geometric_partitioner(partition::recursive_coordinate{});
+TEST_CASE("partitioners that go by place say so where a node has none") {
   check_needs_positions(partition::recursive_coordinate{});
-}
-
-TEST_CASE("inertial bisection satisfies the partitioner contract") {
-  check_geometric_partitioner(partition::inertial{});
   check_needs_positions(partition::inertial{});
-}
-
-TEST_CASE("the space-filling curve satisfies the partitioner contract") {
-  check_geometric_partitioner(partition::space_filling_curve{});
   check_needs_positions(partition::space_filling_curve{});
 }
 

@@ -5,10 +5,6 @@
 
 using namespace dovetail;
 
-TEST_CASE("greedy satisfies the partitioner contract") {
-  dovetail_test::check_partitioner_contract(partition::greedy{}, 1.03);
-}
-
 TEST_CASE("greedy with a looser limit keeps to it") {
   const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(6), 9);
   const partition::greedy loose{.imbalance = 1.2};

@@ -57,11 +57,11 @@ TEST_CASE("how heavy a super-element may become is an option") {
   const auto heaviest = [](contraction_bound bound) {
     auto options = in_parts(5);
     options.super_elements = bound;
-    const auto result =
-        generate<2>(plane_domain(square_with_hole()), uniform_size(0.03),
-                    parameters<>{}
-                        .with_simplifier(simplifier::paper{.surface_wedge_deg = 70, .surface_shape_deg = 50})
-                        .with_options(options));
+    const auto result = generate<2>(
+        plane_domain(square_with_hole()), uniform_size(0.03),
+        parameters<>{}
+            .with_simplifier(simplifier::paper{.surface_dihedral_deg = 70, .surface_shape_deg = 50})
+            .with_options(options));
     return result.summary.find("simplification").get("heaviest_super_element");
   };
   const double usual = heaviest({});

@@ -275,7 +275,7 @@ std::string complaint_of_partition(std::function<void(std::vector<local_id>&)> c
 /// The paper's rule, changed.
 struct changed_rule : simplifier::paper {
   std::function<void(side_judgement&)> change = [](side_judgement&) {};
-  std::optional<double> other_price = {};
+  std::optional<double> other_penalty = {};
 
   template <int D>
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {
@@ -283,8 +283,8 @@ struct changed_rule : simplifier::paper {
     change(judged);
     return judged;
   }
-  double price(const shortfall& missed) const {
-    return other_price ? *other_price : simplifier::paper::price(missed);
+  double penalty(const deficit& missed) const {
+    return other_penalty ? *other_penalty : simplifier::paper::penalty(missed);
   }
 };
 
@@ -351,19 +351,19 @@ TEST_CASE("A rule of simplification that says what is no number is refused") {
   CHECK(testing::has(complaint_of_rule(rule), "it must give one quality each"));
   rule.change = [](side_judgement& judged) { judged.wanted_angle_deg = no_number; };
   CHECK(testing::has(complaint_of_rule(rule), "wedges of nan"));
-  for (const double price : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
-    changed_rule priced;
-    priced.other_price = price;
-    CHECK(testing::has(complaint_of_rule(priced), "the price"));
+  for (const double penalty : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
+    changed_rule penalised;
+    penalised.other_penalty = penalty;
+    CHECK(testing::has(complaint_of_rule(penalised), "the penalty"));
   }
 }
 
-TEST_CASE("A rule that couples by what is no number is refused") {
+TEST_CASE("A rule that propagates what is no number is refused") {
   const auto mesh = dovetail_test::jittered_cubes(3);
   const auto sides = build_sides(mesh);
-  const auto with = [&](const shortfall& missed) {
+  const auto with = [&](const deficit& missed) {
     const coupled_ridge<3> ridge{{21, 22}, {missed}};
-    return simplify<3>(mesh, sides, simplifier::paper{}, {.coupled_ridges = std::span(&ridge, 1)});
+    return simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{}, {}, std::span(&ridge, 1));
   };
   CHECK_NOTHROW(with({1, 2}));
   CHECK_THROWS_AS(with({no_number, 2}), usage_error);

@@ -61,7 +61,7 @@ struct decomposed_shell {
     const simplicial_mesh<3>& volume = background.mesh.volume;
     divided.sides = build_sides(volume);
     divided.beside_surface = elements_beside_surface(background.mesh, divided.sides);
-    const auto simplified = simplify<3>(volume, sides, simplifier::none{});
+    const auto simplified = simplify<3>(volume, mesh_duals<3>(volume, sides), simplifier::none{});
     divided.side_states = simplified.side_states;
     divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
                                   given.partition_it, parts);
@@ -70,7 +70,7 @@ struct decomposed_shell {
 
   /// A rule that wants such interface angles; nothing is simplified by it any more.
   void want(double angle_deg) {
-    given.simplify_by = simplifier::paper{.volume_wedge_deg = angle_deg, .volume_shape_deg = angle_deg};
+    given.simplify_by = simplifier::paper{.volume_dihedral_deg = angle_deg, .volume_shape_deg = angle_deg};
   }
 
   /// The rounds, of which so large a fraction of the subdomains may be merged.

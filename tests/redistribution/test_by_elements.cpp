@@ -282,7 +282,7 @@ TEST_CASE("super-elements are about as many as asked for, connected, and none cr
   CHECK(between > 100);
 }
 
-TEST_CASE("bad sides of an old interface have a price, and so have those beside a small wedge") {
+TEST_CASE("bad sides of an old interface have a penalty, and so have those beside a small wedge") {
   const auto mesh = stacked_cubes{.cells = 8, .cuts = 2, .jitter = 0.9}.distributed();
   const auto sides = sort_by_subdomain(mesh.skeleton, mesh.counts.size());
   std::size_t dear = 0;
@@ -291,12 +291,12 @@ TEST_CASE("bad sides of an old interface have a price, and so have those beside 
     const auto known =
         simplify_piece<3>(piece, mesh.skeleton, sides[p], simplifier::paper{.volume_shape_deg = 36}, 50)
             .first;
-    for (std::size_t i = 0; i < known.price_of_side.size(); ++i) {
+    for (std::size_t i = 0; i < known.penalty_of_side.size(); ++i) {
       const auto corners_of =
           corners(span_of(mesh.skeleton.points), mesh.skeleton.sides[static_cast<std::size_t>(sides[p][i])]);
       if (smallest_corner_angle(corners_of) < 36)
-        CHECK(known.price_of_side[i] > 10);
-      dear += known.price_of_side[i] > 1 ? 1 : 0;
+        CHECK(known.penalty_of_side[i] > 10);
+      dear += known.penalty_of_side[i] > 1 ? 1 : 0;
     }
   }
   CHECK(dear > 0);

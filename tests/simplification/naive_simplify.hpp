@@ -14,21 +14,21 @@
 
 namespace dovetail_test {
 
-/// Wedges between consecutive remaining sides, for given remaining sides.
-struct naive_wedge {
+/// Dihedrals between consecutive remaining sides, for given remaining sides.
+struct naive_dihedral {
   double angle;
   dovetail::local_id from;
   dovetail::local_id to;
 };
 
 template <int D>
-std::vector<naive_wedge> remaining_wedges(const dovetail::simplicial_mesh<D>& mesh,
-                                          const dovetail_test::adjacency<D>& adj,
-                                          const std::vector<bool>& gone) {
+std::vector<naive_dihedral> remaining_dihedrals(const dovetail::simplicial_mesh<D>& mesh,
+                                                const dovetail_test::adjacency<D>& adj,
+                                                const std::vector<bool>& gone) {
   using namespace dovetail;
-  std::vector<naive_wedge> wedges;
+  std::vector<naive_dihedral> dihedrals;
   for (std::size_t f = 0; f < adj.fan_count(); ++f) {
-    std::vector<naive_wedge> parts;
+    std::vector<naive_dihedral> parts;
     for (const std::uint32_t code : adj.ridges.fan(f)) {
       const wedge w = ridge_table<D>::decode(code);
       const auto e = static_cast<std::size_t>(w.element);
@@ -45,18 +45,18 @@ std::vector<naive_wedge> remaining_wedges(const dovetail::simplicial_mesh<D>& me
         continue;
       std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(start), parts.end());
     }
-    naive_wedge run = parts[0];
+    naive_dihedral run = parts[0];
     for (std::size_t k = 1; k < parts.size(); ++k)
       if (gone[static_cast<std::size_t>(run.to)]) {
         run.angle += parts[k].angle;
         run.to = parts[k].to;
       } else {
-        wedges.push_back(run);
+        dihedrals.push_back(run);
         run = parts[k];
       }
-    wedges.push_back(run);
+    dihedrals.push_back(run);
   }
-  return wedges;
+  return dihedrals;
 }
 
 template <int D>
@@ -69,7 +69,7 @@ template <int D>
 naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
                                const dovetail_test::adjacency<D>& adj, const std::vector<bool>& fixed,
                                const std::vector<double>& weights, double bound, double shape_threshold,
-                               double wedge_threshold) {
+                               double dihedral_threshold) {
   using namespace dovetail;
   const auto shapes = side_shapes(mesh, adj.sides);
   std::vector<local_id> super(mesh.elements.size());
@@ -111,8 +111,8 @@ naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
     std::vector<bool> gone(adj.sides.size());
     for (std::size_t s = 0; s < gone.size(); ++s)
       gone[s] = internal(static_cast<local_id>(s));
-    naive_wedge worst{wedge_threshold, no_id, no_id};
-    for (const naive_wedge& w : remaining_wedges(mesh, adj, gone)) {
+    naive_dihedral worst{dihedral_threshold, no_id, no_id};
+    for (const naive_dihedral& w : remaining_dihedrals(mesh, adj, gone)) {
       const bool stuck = (fixed[static_cast<std::size_t>(w.from)] && fixed[static_cast<std::size_t>(w.to)]) ||
                          refused[static_cast<std::size_t>(w.from)] || refused[static_cast<std::size_t>(w.to)];
       if (!stuck && w.angle < worst.angle)

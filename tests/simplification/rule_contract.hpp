@@ -29,17 +29,17 @@ dovetail::side_judgement checked_judgement(const dovetail::simplicial_mesh<D>& m
   if (judged.wanted_angle_deg > 0)
     CHECK(dovetail::wanted_angles_of<D>(rule).wedge_deg == judged.wanted_angle_deg);
   for (dovetail::local_id s = 1; s < static_cast<dovetail::local_id>(sides.size()); ++s) {
-    const dovetail::wedge_side a{s - 1, judged.quality[static_cast<std::size_t>(s) - 1], 2};
-    const dovetail::wedge_side b{s, judged.quality[static_cast<std::size_t>(s)], 3};
-    REQUIRE(rule.first_goes(a, b) != rule.first_goes(b, a));
+    const dovetail::dihedral_side a{s - 1, judged.quality[static_cast<std::size_t>(s) - 1], 2};
+    const dovetail::dihedral_side b{s, judged.quality[static_cast<std::size_t>(s)], 3};
+    REQUIRE(rule.prefer_removal(a, b) != rule.prefer_removal(b, a));
   }
   for (const double value : {0.0, 0.3, 0.9})
-    CHECK(rule.price({value, 1.0}) > 0);
+    CHECK(rule.penalty({value, 1.0}) > 0);
   return judged;
 }
 
-/// Every side that the rule wants gone is, or the bound refused it, or it is fixed; every wedge that is too
-/// small afterwards lies between fixed sides or touches a refused one.
+/// Every side that the rule wants gone is, or the bound refused it, or it is fixed; every dihedral that is
+/// too small afterwards lies between fixed sides or touches a refused one.
 template <int D>
 void check_wishes(const dovetail::simplicial_mesh<D>& mesh, const dovetail::side_judgement& judged,
                   const dovetail::simplification& result) {
@@ -55,7 +55,7 @@ void check_wishes(const dovetail::simplicial_mesh<D>& mesh, const dovetail::side
   }
   CHECK(result.refused.size() == refused);
   std::size_t forced = 0;
-  for (const naive_wedge& w : remaining_wedges(mesh, adj, gone)) {
+  for (const naive_dihedral& w : remaining_dihedrals(mesh, adj, gone)) {
     if (!(w.angle < judged.wanted_angle_deg))
       continue;
     const auto from = result.side_states[static_cast<std::size_t>(w.from)];
@@ -100,18 +100,18 @@ void check_rule_on(const dovetail::simplicial_mesh<D>& mesh, const Rule& rule) {
   const auto judged = checked_judgement(mesh, sides, rule);
   for (const double fraction : {0.1, 0.5, unbounded}) {
     const contraction_bound bound{.subdomains = 8, .fraction = fraction};
-    const auto result = simplify<D>(mesh, sides, rule, {}, bound);
+    const auto result = simplify<D>(mesh, mesh_duals<D>(mesh, sides), rule, bound);
     check_contraction(mesh, sides, result);
     check_wishes(mesh, judged, result);
-    const auto again = simplify<D>(mesh, sides, rule, {}, bound);
+    const auto again = simplify<D>(mesh, mesh_duals<D>(mesh, sides), rule, bound);
     CHECK(again.side_states == result.side_states);
     CHECK(again.super_of_element == result.super_of_element);
     CHECK(again.graph.edge_weights == result.graph.edge_weights);
   }
 }
 
-/// The volume's result coupled to the surface's: every interior face at an edge that the rule couples is
-/// removed or refused.
+/// The volume's result coupled to the surface's: every interior face at an edge from which the rule
+/// propagates is removed or refused.
 template <class Rule>
 void check_coupling(const dovetail::simplicial_mesh<3>& volume, const Rule& rule) {
   using namespace dovetail;
@@ -122,11 +122,10 @@ void check_coupling(const dovetail::simplicial_mesh<3>& volume, const Rule& rule
     if (sides.is_boundary(static_cast<local_id>(s)))
       surface.elements.push_back(sides.vertices[s]);
   const auto edges = build_sides(surface);
-  const auto result = simplify_coupled(surface, volume, sides, rule, {}, {.subdomains = 16});
+  const auto result = simplify_coupled({surface}, {volume, sides}, rule, {.subdomains = 16});
   check_contraction(volume, sides, result.volume);
-  const auto quality = rule(surface, edges).quality;
   std::vector<simplex<1>> coupled;
-  for (const auto& ridge : coupled_ridges(edges, result.surface, span_of(quality), rule))
+  for (const auto& ridge : coupled_ridges(edges, result.surface, rule))
     coupled.push_back(sorted_vertices(ridge.vertices));
   sort_all(coupled);
   for (std::size_t s = 0; s < sides.size(); ++s)

@@ -1,3 +1,5 @@
+#include "dovetail/decomposition/decompose.hpp"
+#include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
@@ -41,12 +43,12 @@ void compare_with_naive(const simplicial_mesh<D>& mesh, double bound_fraction, s
   const auto weights = random_weights(mesh.elements.size(), seed);
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   const simplifier::paper rule;
-  const auto fast = simplify<D>(mesh, adj.sides, rule, {.element_weights = weights},
+  const auto fast = simplify<D>(mesh, mesh_duals<D>(mesh, adj.sides, {.element_weights = weights}), rule,
                                 {.fraction = bound_fraction, .always_allowed_elements = 0});
   const auto naive =
       naive_simplify<D>(mesh, adj, fixed_sides(mesh, adj.sides), weights, bound_fraction * total,
                         D == 2 ? rule.surface_shape_deg : rule.volume_shape_deg,
-                        D == 2 ? rule.surface_wedge_deg : rule.volume_wedge_deg);
+                        D == 2 ? rule.surface_dihedral_deg : rule.volume_dihedral_deg);
   CHECK(fast.side_states == naive.states);
   // The same classes of elements: naive labels are smallest members, fast ones are numbered in that order.
   std::map<local_id, local_id> renamed;
@@ -62,7 +64,32 @@ void compare_with_naive(const simplicial_mesh<D>& mesh, double bound_fraction, s
   CHECK(fast.super_count == next);
 }
 
+/// Simplifies and partitions a mesh that comes from no CAD model.
+template <int D>
+void simplify_and_partition(const simplicial_mesh<D>& mesh) {
+  const mesh_duals<D> duals(mesh);
+  const auto simplified = simplify<D>(mesh, duals, simplifier::paper{}, {.subdomains = 4});
+  CHECK(simplified.super_count < static_cast<local_id>(mesh.elements.size()));
+  const auto pieces = decompose<D>(mesh, duals.sides(), simplified.super_of_element, simplified.graph,
+                                   mesh.tags, partition::greedy{}, 4);
+  CHECK(pieces.parts == 4);
+  for (std::size_t s = 0; s < duals.sides().size(); ++s)
+    if (simplified.side_states[s] == side_state::removed) {
+      const auto [a, b] = duals.sides().elements[s];
+      CHECK(pieces.part_of_element[static_cast<std::size_t>(a)] ==
+            pieces.part_of_element[static_cast<std::size_t>(b)]);
+    }
+  // Its element-dual graph is a graph like any other.
+  const auto part = partition::greedy{}(duals.elements(), 4);
+  CHECK(imbalance_of(duals.elements(), part, 4) < 1.05);
+}
+
 } // namespace
+
+TEST_CASE("a mesh without a CAD model is simplified and partitioned, of triangles or tetrahedra") {
+  simplify_and_partition<2>(squeezed_squares(16, 3));
+  simplify_and_partition<3>(squeezed_cubes(6, 3));
+}
 
 TEST_CASE("the fast simplification equals the naive one, D = 3") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
@@ -101,7 +128,7 @@ TEST_CASE("a mesh without bad angles is left as it is") {
       mesh.elements.push_back({a, a + 1, a + 5});
       mesh.elements.push_back({a + 1, a + 6, a + 5});
     }
-  const auto result = simplify<2>(mesh, build_sides(mesh), simplifier::paper{});
+  const auto result = simplify<2>(mesh, mesh_duals<2>(mesh), simplifier::paper{});
   CHECK(result.super_count == static_cast<local_id>(mesh.elements.size()));
   CHECK(result.summary.get("removed_sides") == 0);
 }
@@ -111,7 +138,8 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
   const auto sides = build_sides(mesh);
   const auto weights = random_weights(mesh.elements.size(), 4);
   const simplifier::paper rule;
-  const auto result = simplify<3>(mesh, sides, rule, {.element_weights = weights}, {.subdomains = 8});
+  const auto result =
+      simplify<3>(mesh, mesh_duals<3>(mesh, sides, {.element_weights = weights}), rule, {.subdomains = 8});
   REQUIRE(result.refused.size() > 0);
   std::vector<double> node_weights(static_cast<std::size_t>(result.super_count), 0.0);
   for (std::size_t e = 0; e < weights.size(); ++e)
@@ -135,8 +163,8 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
     double weight = 1;
     if (const auto found = refusals.find(static_cast<local_id>(s)); found != refusals.end()) {
       weight +=
-          rule.price_of_refusal.base +
-          rule.price_of_refusal.penalty * (1 - found->second.missed.value / found->second.missed.wanted);
+          rule.penalty_of_refusal.base +
+          rule.penalty_of_refusal.growth * (1 - found->second.missed.value / found->second.missed.wanted);
       CHECK(weight > 1);
     }
     expected[{std::min(a, b), std::max(a, b)}] += weight;
@@ -157,13 +185,14 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
 TEST_CASE("given sides are fixed in any order of their vertices") {
   const auto mesh = squeezed_squares(10, 1);
   const auto sides = build_sides(mesh);
-  const auto free = simplify<2>(mesh, sides, simplifier::paper{});
+  const auto free = simplify<2>(mesh, mesh_duals<2>(mesh, sides), simplifier::paper{});
   std::vector<simplex<1>> given;
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (free.side_states[s] == side_state::removed && given.size() < 20)
       given.push_back({sides.vertices[s][1], sides.vertices[s][0]});
   REQUIRE(given.size() == 20);
-  const auto result = simplify<2>(mesh, sides, simplifier::paper{}, {.fixed_sides = given});
+  const auto result =
+      simplify<2>(mesh, mesh_duals<2>(mesh, sides, {.fixed_sides = given}), simplifier::paper{});
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (std::find(given.begin(), given.end(), simplex<1>{sides.vertices[s][1], sides.vertices[s][0]}) !=
         given.end())
@@ -180,7 +209,7 @@ TEST_CASE("removing a surface edge removes all interior faces at it") {
       surface.elements.push_back(sides.vertices[s]);
   const auto edges = build_sides(surface);
   const auto no_bound =
-      simplify_coupled(surface, volume, sides, simplifier::paper{}, {}, {.fraction = unbounded});
+      simplify_coupled({surface}, {volume, sides}, simplifier::paper{}, {.fraction = unbounded});
   std::size_t removed = 0;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     if (no_bound.surface.side_states[k] != side_state::removed)
@@ -196,7 +225,7 @@ TEST_CASE("removing a surface edge removes all interior faces at it") {
   CHECK(removed > 10);
 
   // With a bound on both, what is not removed there is refused.
-  const auto bounded = simplify_coupled(surface, volume, sides, simplifier::paper{}, {}, {.subdomains = 16});
+  const auto bounded = simplify_coupled({surface}, {volume, sides}, simplifier::paper{}, {.subdomains = 16});
   REQUIRE(bounded.volume.refused.size() > 0);
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const auto state = bounded.surface.side_states[k];
@@ -215,7 +244,7 @@ TEST_CASE("a side between elements that are one already is removed whatever the 
   simplicial_mesh<2> mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0}};
   mesh.elements = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
-  const auto result = simplify<2>(mesh, build_sides(mesh), simplifier::paper{.surface_wedge_deg = 130}, {},
+  const auto result = simplify<2>(mesh, mesh_duals<2>(mesh), simplifier::paper{.surface_dihedral_deg = 130},
                                   {.fraction = 1, .always_allowed_elements = 0});
   CHECK(result.super_count == 1);
   CHECK(result.summary.get("refused_sides") == 0);
@@ -225,17 +254,17 @@ TEST_CASE("a side between elements that are one already is removed whatever the 
 TEST_CASE("the result is the same every time and for empty meshes") {
   const auto mesh = squeezed_cubes(6, 5);
   const auto sides = build_sides(mesh);
-  const auto first = simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 16});
-  const auto second = simplify<3>(mesh, sides, simplifier::paper{}, {}, {.subdomains = 16});
+  const auto first = simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{}, {.subdomains = 16});
+  const auto second = simplify<3>(mesh, mesh_duals<3>(mesh, sides), simplifier::paper{}, {.subdomains = 16});
   CHECK(first.side_states == second.side_states);
   CHECK(first.super_of_element == second.super_of_element);
   const simplicial_mesh<3> empty;
-  CHECK(simplify<3>(empty, build_sides(empty), simplifier::paper{}).super_count == 0);
+  CHECK(simplify<3>(empty, mesh_duals<3>(empty), simplifier::paper{}).super_count == 0);
 }
 
 TEST_CASE("a wrong number of weights is refused") {
   const auto mesh = squeezed_squares(3, 1);
   const std::vector<double> weights(5, 1.0);
-  CHECK_THROWS_AS(simplify<2>(mesh, build_sides(mesh), simplifier::paper{}, {.element_weights = weights}),
+  CHECK_THROWS_AS(simplify<2>(mesh, mesh_duals<2>(mesh, {.element_weights = weights}), simplifier::paper{}),
                   usage_error);
 }

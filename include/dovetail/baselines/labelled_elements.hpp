@@ -138,7 +138,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
   };
   for (auto& pair : label_at_side)
     moves.beside.push_back({numbered({pair[0]})[0], pair[1] == no_id ? no_id : numbered({pair[1]})[0]});
-  moves.price_of_side.assign(mesh.skeleton.sides.size(), 1);
+  moves.penalty_of_side.assign(mesh.skeleton.sides.size(), 1);
   moves.of_piece = [&](local_id p) -> moves_of_piece {
     return {numbered(store->value<std::vector<local_id>>(keys[static_cast<std::size_t>(p)]))};
   };

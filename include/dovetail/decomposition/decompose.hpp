@@ -5,8 +5,8 @@
 ///
 ///     const auto sides = build_sides(volume); // simplicial_mesh<3>, tags = materials
 ///     const auto simplified =
-///         simplify_coupled(surface, volume, sides, simplifier::paper{},
-///                          {.curve_edges = edges_on_cad_curves, .element_weights = weights},
+///         simplify_coupled({surface, {.fixed_sides = edges_on_cad_curves}},
+///                          {volume, sides, {.element_weights = weights}}, simplifier::paper{},
 ///                          {.subdomains = parts});
 ///     const auto parts =
 ///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,

@@ -25,7 +25,7 @@ public:
       : mesh_(mesh), sides_(sides), pieces_(pieces) {}
 
   /// A place is a list of sides, of which one at least should lie inside a part. Adds some to those of
-  /// earlier calls and makes detours around them, at the least price of what then lies between parts. Parts
+  /// earlier calls and makes detours around them, at the least penalty of what then lies between parts. Parts
   /// stay connected, of one material and as manifold as they are, and gain little weight where others can. A
   /// place where that is not possible stays as it is. `parts` are those of `part_of_element`, which may have
   /// been merged since the decomposition. Returns the number of super-elements that went. About linear in the

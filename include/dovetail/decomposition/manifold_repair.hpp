@@ -76,7 +76,7 @@ private:
     std::vector<local_id> supers;
     local_id to = no_id;
     int edges = 0;   ///< by how much the number of defects at edges grows
-    double cost = 0; ///< by how much the price of defects at points and the cut grow together
+    double cost = 0; ///< by how much the penalty of defects at points and the cut grow together
     double weight = 0;
 
     auto key() const { return std::tuple(edges, cost, weight, to, supers); }
@@ -140,7 +140,7 @@ private:
   void add_if_gain(std::vector<change>& changes, const std::vector<local_id>& group, local_id to) {
     const double cut = parts_.cut_added_by(group, to);
     const auto cost = [&](const defect_count& removed) {
-      return cut - partition_standing::price_of_point * removed.points;
+      return cut - partition_standing::penalty_of_point * removed.points;
     };
     const auto is_gain = [&](const defect_count& removed) {
       return removed.edges > 0 || (removed.edges == 0 && removed.points > 0 && cost(removed) < 0);

@@ -24,13 +24,13 @@ namespace dovetail {
 struct partition_standing {
   /// What a point where a boundary is not manifold may cost in cut: as much as a side of a quarter of its
   /// angle missing. Meshers cope with such points, but not all do with edges, which are always avoided first.
-  static constexpr double price_of_point = 50;
+  static constexpr double penalty_of_point = 50;
 
   defect_count defects; ///< of the boundaries of parts
   double excess = 0;    ///< weight over the limits
   double cut = 0;       ///< weight of the edges between parts; refused sides are dear
 
-  double cost() const { return cut + price_of_point * defects.points; }
+  double cost() const { return cut + penalty_of_point * defects.points; }
   bool is_better_than(const partition_standing& other) const {
     if (defects.edges != other.defects.edges)
       return defects.edges < other.defects.edges;

@@ -3,31 +3,90 @@
 /// header that includes Boost.Graph; its target is dovetail::boost_graph.
 #pragma once
 
+#include "dovetail/core/vector.hpp"
 #include "dovetail/graph/concepts.hpp"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/graph_traits.hpp>
 #include <boost/graph/properties.hpp>
+#include <boost/property_map/property_map.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace dovetail {
 
-/// A view of an undirected Boost graph (IncidenceGraph and VertexListGraph) whose vertices are whole numbers,
-/// such as `adjacency_list<vecS, vecS, undirectedS>`. Edges weigh what their property `edge_weight_t` says,
-/// or 1. What it is given must outlive it.
+/// Whether every edge of a Boost graph is met from both of its ends: undirected graphs. Specialise it for a
+/// type of directed graphs that have every edge in both directions, such as `boost::grid_graph`.
 template <class BoostGraph>
-  requires std::is_integral_v<typename boost::graph_traits<BoostGraph>::vertex_descriptor> &&
-      std::is_convertible_v<typename boost::graph_traits<BoostGraph>::directed_category,
-                            boost::undirected_tag>
+inline constexpr bool is_symmetric_boost_graph =
+    std::is_convertible_v<typename boost::graph_traits<BoostGraph>::directed_category, boost::undirected_tag>;
+
+/// The weights of edges in a Boost graph that has none inside: 1 each.
+struct equal_edge_weights {
+  template <class Edge>
+  friend double get(const equal_edge_weights&, const Edge&) {
+    return 1;
+  }
+};
+
+namespace detail {
+
+/// The weights that a Boost graph has inside, as `edge_weight_t`, or 1 each.
+template <class BoostGraph>
+auto inner_edge_weights(const BoostGraph& graph) {
+  if constexpr (requires { typename BoostGraph::edge_property_type; }) {
+    using properties = typename BoostGraph::edge_property_type;
+    if constexpr (boost::lookup_one_property<properties, boost::edge_weight_t>::found)
+      return get(boost::edge_weight, graph);
+    else
+      return equal_edge_weights{};
+  } else {
+    return equal_edge_weights{};
+  }
+}
+
+template <class Weights, class BoostGraph>
+inline constexpr bool are_edge_weights =
+    requires(const Weights& weights, typename boost::graph_traits<BoostGraph>::edge_descriptor edge) {
+  { get(weights, edge) } -> std::convertible_to<double>;
+};
+
+} // namespace detail
+
+/// A view of a symmetric Boost graph as a `weighted_graph`. The Boost graph is an IncidenceGraph and
+/// VertexListGraph whose vertices have the numbers 0, 1, 2, ... as `vertex_index`; self loops are passed
+/// over. Edges weigh what a property map says: the one given, such as `get(&road::lanes, graph)`, or the
+/// graph's own `edge_weight_t`, or else 1. What the view is given must outlive it.
+template <class BoostGraph,
+          class EdgeWeights = decltype(detail::inner_edge_weights(std::declval<const BoostGraph&>()))>
+  requires is_symmetric_boost_graph<BoostGraph> && detail::are_edge_weights<EdgeWeights, BoostGraph>
 class boost_view {
 public:
+  /// Of the nodes, one each, for partitioners that go by place; or empty.
+  std::span<const vec3> positions;
+
   /// `node_weights`: one per vertex, or empty for 1 each.
-  explicit boost_view(const BoostGraph& viewed, std::span<const double> node_weights = {})
-      : graph_(&viewed), node_weights_(node_weights) {}
-  explicit boost_view(const BoostGraph&&, std::span<const double> = {}) = delete; // it would be gone
+  explicit boost_view(const BoostGraph& viewed, std::span<const double> node_weights = {},
+                      std::span<const vec3> node_positions = {})
+      : boost_view(viewed, detail::inner_edge_weights(viewed), node_weights, node_positions) {}
+  boost_view(const BoostGraph& viewed, EdgeWeights edge_weights, std::span<const double> node_weights = {},
+             std::span<const vec3> node_positions = {})
+      : positions(node_positions), graph_(&viewed), edge_weights_(std::move(edge_weights)),
+        node_weights_(node_weights) {
+    if constexpr (!is_numbered) {
+      vertices_.resize(num_vertices(viewed));
+      const auto number = get(boost::vertex_index, viewed);
+      for (auto [v, end] = vertices(viewed); v != end; ++v)
+        vertices_[static_cast<std::size_t>(get(number, *v))] = *v;
+    }
+  }
+  template <class... Given>
+  explicit boost_view(const BoostGraph&&, const Given&...) = delete; // it would be gone
 
   std::size_t node_count() const { return num_vertices(*graph_); }
   double node_weight(local_id node) const {
@@ -35,26 +94,37 @@ public:
   }
   template <class Visit>
   void for_each_neighbour(local_id node, const Visit& visit) const {
-    for_each_edge(node, [&](local_id other, double) { visit(other); });
+    visit_edges(node, [&](local_id other, const auto&) { visit(other); });
   }
   template <class Visit>
   void for_each_edge(local_id node, const Visit& visit) const {
-    for (auto [edge, end] = out_edges(static_cast<vertex>(node), *graph_); edge != end; ++edge)
-      if constexpr (has_weights)
-        visit(static_cast<local_id>(target(*edge, *graph_)),
-              static_cast<double>(get(boost::edge_weight, *graph_, *edge)));
-      else
-        visit(static_cast<local_id>(target(*edge, *graph_)), 1.0);
+    visit_edges(node, [&](local_id other, const auto& edge) {
+      visit(other, static_cast<double>(get(edge_weights_, edge)));
+    });
   }
 
 private:
   using vertex = typename boost::graph_traits<BoostGraph>::vertex_descriptor;
-  static constexpr bool has_weights =
-      boost::lookup_one_property<typename boost::edge_property_type<BoostGraph>::type,
-                                 boost::edge_weight_t>::found;
+  static constexpr bool is_numbered = std::is_integral_v<vertex>;
+
+  vertex vertex_of(local_id node) const {
+    if constexpr (is_numbered)
+      return static_cast<vertex>(node);
+    else
+      return vertices_[static_cast<std::size_t>(node)];
+  }
+  template <class Visit>
+  void visit_edges(local_id node, const Visit& visit) const {
+    const auto number = get(boost::vertex_index, *graph_);
+    for (auto [edge, end] = out_edges(vertex_of(node), *graph_); edge != end; ++edge)
+      if (const auto other = static_cast<local_id>(get(number, target(*edge, *graph_))); other != node)
+        visit(other, *edge);
+  }
 
   const BoostGraph* graph_;
+  EdgeWeights edge_weights_;
   std::span<const double> node_weights_;
+  std::vector<vertex> vertices_; ///< by number, where they are no numbers themselves
 };
 
 /// The type of `to_boost`.

@@ -23,15 +23,15 @@ namespace dovetail {
 ///
 /// Failure: none; a node out of range is undefined behaviour.
 ///
-/// Models: csr_graph, element_dual, boost_view.
+/// Models: every weighted_graph.
 template <class G>
 concept graph = requires(const G& g, local_id v, void (&visit)(local_id)) {
   { g.node_count() } -> std::convertible_to<std::size_t>;
   g.for_each_neighbour(v, visit);
 };
 
-/// A graph with weights: enough to contract it, to take parts of it and to make it a `csr_graph`, as
-/// partitioners take it.
+/// A graph with weights: enough to partition it, to contract it and to take parts of it. It converts to a
+/// `csr_graph`, which partitioners work on.
 ///
 /// Valid expressions, beside those of `graph`, for `const G& g`, `local_id v`, `visit` callable with a
 /// `local_id` and a `double`:
@@ -45,7 +45,7 @@ concept graph = requires(const G& g, local_id v, void (&visit)(local_id)) {
 ///
 /// Failure: none; a node out of range is undefined behaviour.
 ///
-/// Models: csr_graph, boost_view.
+/// Models: csr_graph, element_dual, boost_view.
 template <class G>
 concept weighted_graph = graph<G> && requires(const G& g, local_id v, void (&visit)(local_id, double)) {
   { g.node_weight(v) } -> std::convertible_to<double>;

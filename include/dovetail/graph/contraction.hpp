@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -82,15 +81,6 @@ inline std::vector<vec3> mean_positions(std::span<const vec3> positions, std::sp
   return sums;
 }
 
-/// The positions of a graph's nodes, where it has any.
-template <graph G>
-std::span<const vec3> positions_of(const G& graph) {
-  if constexpr (requires { graph.positions; })
-    return span_of(graph.positions);
-  else
-    return {};
-}
-
 /// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
 /// parallel add up, edges inside a label vanish, positions are averaged.
 template <weighted_graph G>
@@ -108,14 +98,6 @@ csr_graph contract(const G& graph, std::span<const local_id> label, local_id lab
   csr_graph contracted = make_csr_graph(std::move(weights), edges);
   contracted.positions = mean_positions(positions_of(graph), label, labels);
   return contracted;
-}
-
-/// Any graph in compressed rows, as partitioners take it.
-template <weighted_graph G>
-csr_graph make_csr_graph(const G& graph) {
-  std::vector<local_id> itself(static_cast<std::size_t>(graph.node_count()));
-  std::iota(itself.begin(), itself.end(), 0);
-  return contract(graph, itself, static_cast<local_id>(itself.size()));
 }
 
 /// A part of a graph with the numbers its nodes have in the whole.

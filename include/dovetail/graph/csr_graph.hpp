@@ -1,5 +1,6 @@
 /// @file
-/// An undirected weighted graph in compressed rows, as partitioners take it.
+/// An undirected weighted graph in compressed rows: what partitioners work on, and what every weighted graph
+/// converts to.
 #pragma once
 
 #include "dovetail/core/ids.hpp"
@@ -7,13 +8,24 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/graph/concepts.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// The positions of a graph's nodes, where it has any.
+template <graph G>
+std::span<const vec3> positions_of(const G& graph) {
+  if constexpr (requires { graph.positions.data(); })
+    return {graph.positions.data(), graph.positions.size()};
+  else
+    return {};
+}
 
 /// Every edge is stored twice, once in the row of each end. No self loops, no parallel edges.
 struct csr_graph {
@@ -26,6 +38,13 @@ struct csr_graph {
   static constexpr auto fields =
       std::tuple(&csr_graph::offsets, &csr_graph::neighbours, &csr_graph::edge_weights,
                  &csr_graph::node_weights, &csr_graph::positions);
+  csr_graph() = default;
+  /// A copy of any weighted graph: parallel edges are merged (weights added), self loops dropped, rows
+  /// sorted. It converts, so that whatever takes a `const csr_graph&`, such as a partitioner, takes every
+  /// weighted graph, and a `csr_graph` itself without a copy. Linear but for sorting the rows.
+  template <class G>
+    requires(!std::same_as<G, csr_graph>)
+  &&weighted_graph<G> csr_graph(const G& graph); // NOLINT: converts
 
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
   std::span<const local_id> row(local_id node) const {
@@ -48,5 +67,34 @@ struct csr_graph {
   }
 };
 static_assert(weighted_graph<csr_graph>);
+
+template <class G>
+  requires(!std::same_as<G, csr_graph>)
+&&weighted_graph<G> csr_graph::csr_graph(const G& graph) {
+  const auto nodes = static_cast<local_id>(graph.node_count());
+  offsets.reserve(static_cast<std::size_t>(nodes) + 1);
+  node_weights.reserve(static_cast<std::size_t>(nodes));
+  std::vector<std::pair<local_id, double>> row;
+  for (local_id v = 0; v < nodes; ++v) {
+    row.clear();
+    graph.for_each_edge(v, [&](local_id other, double weight) {
+      if (other != v)
+        row.emplace_back(other, weight);
+    });
+    sort_all(row); // by weight too, so that both ends add parallel edges up in the same order
+    const std::size_t begin = neighbours.size();
+    for (const auto& [other, weight] : row)
+      if (neighbours.size() > begin && neighbours.back() == other) {
+        edge_weights.back() += weight;
+      } else {
+        neighbours.push_back(other);
+        edge_weights.push_back(weight);
+      }
+    offsets.push_back(static_cast<std::int64_t>(neighbours.size()));
+    node_weights.push_back(graph.node_weight(v));
+  }
+  const auto known = positions_of(graph);
+  positions.assign(known.begin(), known.end());
+}
 
 } // namespace dovetail

@@ -9,7 +9,7 @@ namespace dovetail {
 enum class side_state : std::uint8_t {
   kept,    ///< may become an interface
   removed, ///< inside a super-element: can never become an interface
-  refused, ///< ought to be removed, but the bound forbade it: may become an interface, at a high price
+  refused, ///< ought to be removed, but the bound forbade it: may become an interface, at a high penalty
   fixed    ///< boundary, change of tag, non-manifold, or given as fixed
 };
 

@@ -29,6 +29,7 @@ public:
     for (const local_id p : part)
       ++counts_[index(p)];
   }
+  movable_parts(csr_graph&&, std::span<local_id>, std::vector<double>) = delete; // it would be gone
 
   const csr_graph& graph() const { return graph_; }
   std::size_t node_count() const { return part_.size(); }

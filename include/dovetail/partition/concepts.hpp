@@ -12,7 +12,8 @@ namespace dovetail {
 /// The role `graph_partitioner`: split a weighted graph into balanced parts with a small cut.
 ///
 /// Valid expression for `const P& p`, `const csr_graph& g`, `int parts`: `p(g, parts)` ->
-/// std::vector<local_id>, the part in [0, parts) of every node.
+/// std::vector<local_id>, the part in [0, parts) of every node. Every `weighted_graph` converts to a
+/// `csr_graph`, so a model that takes `const csr_graph&` takes them all.
 ///
 /// Semantics: every part is non-empty when the graph has at least `parts` nodes; the heaviest part weighs
 /// at most `imbalance` times the average, or the heaviest node allows no better; deterministic for the

@@ -20,30 +20,31 @@
 namespace dovetail {
 
 /// Sum of the node weights of each part.
-inline std::vector<double> part_weights(const csr_graph& graph, std::span<const local_id> part, int parts) {
+template <weighted_graph G>
+std::vector<double> part_weights(const G& graph, std::span<const local_id> part, int parts) {
   std::vector<double> weights(static_cast<std::size_t>(parts), 0.0);
   for (std::size_t v = 0; v < part.size(); ++v)
-    weights[static_cast<std::size_t>(part[v])] += graph.node_weights[v];
+    weights[static_cast<std::size_t>(part[v])] += graph.node_weight(static_cast<local_id>(v));
   return weights;
 }
 
 /// Heaviest part over average part; 1 is perfect.
-inline double imbalance_of(const csr_graph& graph, std::span<const local_id> part, int parts) {
+template <weighted_graph G>
+double imbalance_of(const G& graph, std::span<const local_id> part, int parts) {
   const auto weights = part_weights(graph, part, parts);
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   return total > 0 ? *std::max_element(weights.begin(), weights.end()) * parts / total : 1.0;
 }
 
 /// Sum of the weights of edges between different parts.
-inline double edge_cut(const csr_graph& graph, std::span<const local_id> part) {
+template <weighted_graph G>
+double edge_cut(const G& graph, std::span<const local_id> part) {
   double cut = 0;
-  for (local_id v = 0; v < graph.node_count(); ++v) {
-    const auto row = graph.row(v);
-    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (v < row[k] && part[static_cast<std::size_t>(v)] != part[static_cast<std::size_t>(row[k])])
-        cut += graph.edge_weights[begin + k];
-  }
+  for (local_id v = 0; v < static_cast<local_id>(graph.node_count()); ++v)
+    graph.for_each_edge(v, [&](local_id w, double weight) {
+      if (v < w && part[static_cast<std::size_t>(v)] != part[static_cast<std::size_t>(w)])
+        cut += weight;
+    });
   return cut;
 }
 

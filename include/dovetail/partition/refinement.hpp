@@ -24,6 +24,7 @@ class partition_refiner {
 public:
   partition_refiner(const csr_graph& graph, std::span<local_id> part, std::vector<double> limits)
       : parts_(graph, part, std::move(limits)) {}
+  partition_refiner(csr_graph&&, std::span<local_id>, std::vector<double>) = delete; // it would be gone
 
   void refine(int max_passes = 8) {
     part_balancer(parts_).run();

@@ -190,7 +190,7 @@ private:
     for (auto& pair : moves.beside)
       for (local_id& at : pair)
         at = at == no_id ? no_id : piece_of_super_[index(at)];
-    moves.price_of_side = joined_.price_of_side;
+    moves.penalty_of_side = joined_.penalty_of_side;
     moves.of_piece = [this](local_id p) { return moves_of(p); };
     key_maker all;
     all(piece_of_super_);

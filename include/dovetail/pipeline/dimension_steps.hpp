@@ -30,27 +30,28 @@ inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
   return edges;
 }
 
-/// In D = 3 the surface is simplified first, and what goes there is coupled to the volume.
-template <int D>
-simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
-                                   std::span<const double> weights, const contraction_bound& bound,
-                                   const any_simplification_rule& rule, report& summary,
-                                   const progress& on_progress) {
-  const auto on_curves = edges_on_curves(mesh.surface);
-  if constexpr (D == 3) {
-    auto coupled =
-        simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
-                         {.curve_edges = span_of(on_curves), .element_weights = weights}, bound, on_progress);
-    summary = std::move(coupled.summary);
-    return std::move(coupled.volume);
-  } else {
-    auto simplified =
-        simplify<D>(mesh.surface.mesh, sides, rule,
-                    {.fixed_sides = span_of(on_curves), .element_weights = weights}, bound, on_progress);
-    summary = simplified.summary;
-    return simplified;
+/// The simplification of a background mesh; in D = 3 that of its surface goes before. No rule is named: it is
+/// bound at compile time.
+template <int D, class Rule>
+  requires simplification_rule<Rule, 2> && simplification_rule<Rule, D>
+      simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
+                                         std::span<const double> weights, const contraction_bound& bound,
+                                         const Rule& rule, report& summary, const progress& on_progress) {
+    const auto on_curves = edges_on_curves(mesh.surface);
+    const auto& surface = mesh.surface.mesh;
+    if constexpr (D == 2) {
+      const mesh_duals<2> duals(surface, sides, {span_of(on_curves), weights});
+      auto simplified = simplify<2>(surface, duals, rule, bound, {}, on_progress);
+      summary = simplified.summary;
+      return simplified;
+    } else {
+      auto coupled =
+          simplify_coupled({surface, {.fixed_sides = span_of(on_curves)}},
+                           {mesh.volume, sides, {.element_weights = weights}}, rule, bound, {}, on_progress);
+      summary = std::move(coupled.summary);
+      return std::move(coupled.volume);
+    }
   }
-}
 
 /// Measured through the elements. In D = 3 the CAD entities are found that force an angle.
 template <int D>

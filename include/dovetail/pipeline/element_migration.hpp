@@ -40,7 +40,8 @@ struct element_moves {
   std::vector<global_id> sizes;               ///< per new piece: its elements, about
   std::vector<std::array<local_id, 2>>
       beside; ///< per side of the skeleton: the new pieces behind and in front, or no_id
-  std::vector<double> price_of_side; ///< per side of the skeleton: above 1 where it ought to be no interface
+  std::vector<double>
+      penalty_of_side; ///< per side of the skeleton: above 1 where it ought to be no interface
   std::function<moves_of_piece(local_id)> of_piece; ///< called in tasks
   content_key key;                                  ///< of all of the above and the mesh
   io::mesh_hasher hash;                             ///< of all elements, by place
@@ -113,7 +114,7 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
     if (targets[p] > 1)
       to_cut.push_back(static_cast<local_id>(p));
   auto cuts = detail::cut_old_pieces<D>(mesh, sides, moves, to_cut, tasks);
-  auto made = join_cuts<D>(mesh.skeleton, moves.beside, moves.price_of_side, cuts);
+  auto made = join_cuts<D>(mesh.skeleton, moves.beside, moves.penalty_of_side, cuts);
   std::vector<std::vector<local_id>> own_points; // per old piece: of its own, those on the new skeleton
   for (auto& cut : cuts)
     own_points.push_back(std::move(cut.points));

@@ -42,26 +42,26 @@ std::vector<vec3> centres_of_elements(const simplicial_mesh<D>& mesh) {
   return centres;
 }
 
-/// What each side of a piece's boundary would cost as an interface, for its own quality and for the wedges
+/// What each side of a piece's boundary would cost as an interface, for its own quality and for the dihedrals
 /// that it makes with another fixed side.
-inline std::vector<double> prices_of_sides(std::span<const local_id> sides, const side_judgement& judged,
-                                           const simplification& simplified,
-                                           const any_simplification_rule& rule) {
-  std::map<local_id, double> worst;                   // angle of the smallest wedge
-  for (const forced_wedge& wedge : simplified.forced) // by growing angle
-    for (const local_id side : wedge.sides)
-      worst.try_emplace(side, wedge.angle_deg);
-  std::vector<double> prices;
+inline std::vector<double> penalties_of_sides(std::span<const local_id> sides, const side_judgement& judged,
+                                              const simplification& simplified,
+                                              const any_simplification_rule& rule) {
+  std::map<local_id, double> worst;                         // angle of the smallest dihedral
+  for (const forced_dihedral& dihedral : simplified.forced) // by growing angle
+    for (const local_id side : dihedral.sides)
+      worst.try_emplace(side, dihedral.angle_deg);
+  std::vector<double> penalties;
   for (const local_id side : sides) {
-    double price = 1;
+    double penalty = 1;
     const double quality = judged.quality[static_cast<std::size_t>(side)];
     if (quality < judged.wanted_quality)
-      price = std::max(price, rule.price({quality, judged.wanted_quality}));
-    if (const auto wedge = worst.find(side); wedge != worst.end())
-      price = std::max(price, rule.price({wedge->second, judged.wanted_angle_deg}));
-    prices.push_back(price);
+      penalty = std::max(penalty, rule.penalty({quality, judged.wanted_quality}));
+    if (const auto dihedral = worst.find(side); dihedral != worst.end())
+      penalty = std::max(penalty, rule.penalty({dihedral->second, judged.wanted_angle_deg}));
+    penalties.push_back(penalty);
   }
-  return prices;
+  return penalties;
 }
 
 } // namespace detail
@@ -86,7 +86,7 @@ simplify_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& s
   supers.super_of_element = std::move(simplified.super_of_element);
   for (const refused_side& refused : simplified.refused)
     supers.refused.push_back(refused.side);
-  known.price_of_side = detail::prices_of_sides(on_skeleton.sides, judged, simplified, rule);
+  known.penalty_of_side = detail::penalties_of_sides(on_skeleton.sides, judged, simplified, rule);
   known.graph = std::move(simplified.graph);
   for (coarsened_graph& level : coarsened_levels(known.graph, 1, {.coarse_nodes_per_part = most})) {
     for (local_id& super : supers.super_of_element)

@@ -92,7 +92,7 @@ struct new_skeleton {
 template <int D>
 new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
                           const std::vector<std::array<local_id, 2>>& new_pieces,
-                          const std::vector<double>& price_of_side, const std::vector<piece_cut<D>>& cuts) {
+                          const std::vector<double>& penalty_of_side, const std::vector<piece_cut<D>>& cuts) {
   new_skeleton<D> made;
   auto& fine = made.fine;
   made.number.assign(old.points.size(), no_id);
@@ -131,7 +131,7 @@ new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
     made.avoided.push_back(avoided ? 1 : 0);
   };
   for (const std::size_t s : kept) {
-    add(old.sides[s], no_id, new_pieces[s], old.side_hosts[s], price_of_side[s] > 1);
+    add(old.sides[s], no_id, new_pieces[s], old.side_hosts[s], penalty_of_side[s] > 1);
     made.seams += old.side_hosts[s] == no_id ? 1 : 0;
   }
   for (std::size_t p = 0; p < cuts.size(); ++p)

@@ -81,10 +81,10 @@ sides_of_piece find_skeleton_sides(const simplicial_piece<D>& piece, const side_
 struct simplified_piece {
   csr_graph graph;                     ///< of its super-elements; nodes weigh their elements
   std::vector<local_id> super_at_side; ///< per side of the skeleton, as in `sides_of_piece`
-  std::vector<double> price_of_side;   ///< of each such side as an interface; 1 for a good one
+  std::vector<double> penalty_of_side; ///< of each such side as an interface; 1 for a good one
 
   static constexpr auto fields = std::tuple(&simplified_piece::graph, &simplified_piece::super_at_side,
-                                            &simplified_piece::price_of_side);
+                                            &simplified_piece::penalty_of_side);
 };
 
 /// The super-elements of a whole mesh.
@@ -92,20 +92,20 @@ struct joined_supers {
   csr_graph graph;
   std::vector<local_id> first_of_piece; ///< number of a piece's first super-element; the last is their number
   std::vector<std::array<local_id, 2>>
-      at_side;                       ///< per side of the skeleton: behind and in front of it, or no_id
-  std::vector<double> price_of_side; ///< per side of the skeleton: the higher of those of its two pieces
+      at_side;                         ///< per side of the skeleton: behind and in front of it, or no_id
+  std::vector<double> penalty_of_side; ///< per side of the skeleton: the higher of those of its two pieces
 };
 
 /// Joins the graphs of all pieces over the sides of the skeleton. A side inside a solid weighs `seam_weight`
-/// times its price: the partitioner goes elsewhere where it can, and what was an interface becomes interior.
-/// Sides on CAD entities, which stay in any skeleton, weigh 1. Linear but for sorting rows.
+/// times its penalty: the partitioner goes elsewhere where it can, and what was an interface becomes
+/// interior. Sides on CAD entities, which stay in any skeleton, weigh 1. Linear but for sorting rows.
 template <int D>
 joined_supers join_supers(const simplicial_skeleton<D>& skeleton, const std::vector<simplified_piece>& pieces,
                           double seam_weight) {
   joined_supers joined;
   joined.first_of_piece = {0};
   joined.at_side.assign(skeleton.sides.size(), {no_id, no_id});
-  joined.price_of_side.assign(skeleton.sides.size(), 1);
+  joined.penalty_of_side.assign(skeleton.sides.size(), 1);
   const auto sides = sort_by_subdomain(skeleton, pieces.size());
   std::vector<double> weights;
   std::vector<vec3> positions;
@@ -125,7 +125,7 @@ joined_supers join_supers(const simplicial_skeleton<D>& skeleton, const std::vec
       const auto s = static_cast<std::size_t>(listed[i]);
       const bool behind = is_behind(skeleton, listed, i, static_cast<local_id>(p));
       joined.at_side[s][behind ? 0 : 1] = first + pieces[p].super_at_side[i];
-      joined.price_of_side[s] = std::max(joined.price_of_side[s], pieces[p].price_of_side[i]);
+      joined.penalty_of_side[s] = std::max(joined.penalty_of_side[s], pieces[p].penalty_of_side[i]);
     }
     joined.first_of_piece.push_back(first + graph.node_count());
   }
@@ -133,7 +133,7 @@ joined_supers join_supers(const simplicial_skeleton<D>& skeleton, const std::vec
     if (const auto [behind, front] = joined.at_side[s];
         front != no_id && skeleton.subdomains[s][0] != skeleton.subdomains[s][1])
       edges.push_back(
-          {behind, front, skeleton.side_hosts[s] == no_id ? seam_weight * joined.price_of_side[s] : 1.0});
+          {behind, front, skeleton.side_hosts[s] == no_id ? seam_weight * joined.penalty_of_side[s] : 1.0});
   joined.graph = make_csr_graph(std::move(weights), edges);
   joined.graph.positions = std::move(positions);
   return joined;

@@ -33,14 +33,14 @@ public:
   side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
     return asked([&] { return held_->judge(mesh, sides); });
   }
-  bool first_goes(const wedge_side& a, const wedge_side& b) const {
-    return asked([&] { return held_->first_goes(a, b); });
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const {
+    return asked([&] { return held_->prefer_removal(a, b); });
   }
-  std::optional<ridge_decision> couples(const side_below& below) const {
-    return asked([&] { return held_->couples(below); });
+  std::optional<ridge_decision> propagate(const side_below& below) const {
+    return asked([&] { return held_->propagate(below); });
   }
-  double price(const shortfall& missed) const {
-    return asked([&] { return held_->price(missed); });
+  double penalty(const deficit& missed) const {
+    return asked([&] { return held_->penalty(missed); });
   }
   wanted_angles wants(int dimension) const {
     return asked([&] { return held_->wants(dimension); });
@@ -56,9 +56,9 @@ private:
     virtual ~interface() = default;
     virtual side_judgement judge(const simplicial_mesh<2>&, const side_table<2>&) const = 0;
     virtual side_judgement judge(const simplicial_mesh<3>&, const side_table<3>&) const = 0;
-    virtual bool first_goes(const wedge_side&, const wedge_side&) const = 0;
-    virtual std::optional<ridge_decision> couples(const side_below&) const = 0;
-    virtual double price(const shortfall&) const = 0;
+    virtual bool prefer_removal(const dihedral_side&, const dihedral_side&) const = 0;
+    virtual std::optional<ridge_decision> propagate(const side_below&) const = 0;
+    virtual double penalty(const deficit&) const = 0;
     virtual wanted_angles wants(int dimension) const = 0;
   };
   template <class R>
@@ -70,11 +70,13 @@ private:
     side_judgement judge(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const override {
       return rule(mesh, sides);
     }
-    bool first_goes(const wedge_side& a, const wedge_side& b) const override { return rule.first_goes(a, b); }
-    std::optional<ridge_decision> couples(const side_below& below) const override {
-      return rule.couples(below);
+    bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const override {
+      return rule.prefer_removal(a, b);
     }
-    double price(const shortfall& missed) const override { return rule.price(missed); }
+    std::optional<ridge_decision> propagate(const side_below& below) const override {
+      return rule.propagate(below);
+    }
+    double penalty(const deficit& missed) const override { return rule.penalty(missed); }
     wanted_angles wants(int dimension) const override {
       return dimension == 2 ? wanted_angles_of<2>(rule) : wanted_angles_of<3>(rule);
     }

@@ -1,35 +1,40 @@
 /// @file
-/// A rule that judges interfaces by the aspect ratio of triangles in place of their angles.
+/// A rule that judges interfaces by the aspect ratio of triangles in place of their angles; of small
+/// dihedrals the side of worse ratio goes.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/simplification/paper.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/simplification/rule_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace dovetail::simplifier {
 
-/// Faces of bad aspect ratio go, in D = 2 edges beside a triangle of bad aspect ratio; of small wedges, as in
-/// the paper's rule, one side goes, but the one of worse ratio. The ratio is twice the inscribed over the
+/// Faces of bad aspect ratio go, in D = 2 edges beside a triangle of bad aspect ratio; of small dihedrals, as
+/// in the paper's rule, one side goes, but the one of worse ratio. The ratio is twice the inscribed over the
 /// circumscribed circle's radius: 1 for an equilateral triangle, 0.46 for one with two angles of 30 degrees.
 struct aspect_ratio {
-  double surface_ratio = 0;      ///< edges beside worse triangles are removed; 0: none
-  double volume_ratio = 0.46;    ///< worse faces are removed; 0: none
-  double surface_wedge_deg = 50; ///< smaller corners between lines of the surface are removed; 0: none
-  double volume_wedge_deg = 30;  ///< smaller dihedral angles between faces are removed; 0: none
-  refusal_price price_of_refusal = {};
+  double surface_ratio = 0;         ///< edges beside worse triangles are removed; 0: none
+  double volume_ratio = 0.46;       ///< worse faces are removed; 0: none
+  double surface_dihedral_deg = 50; ///< smaller corners between lines of the surface are removed; 0: none
+  double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed; 0: none
+  refusal_penalty penalty_of_refusal = {};
 
   side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
-    side_judgement judged{std::vector<double>(sides.size()), volume_ratio, volume_wedge_deg};
+    side_judgement judged{std::vector<double>(sides.size()), volume_ratio, volume_dihedral_deg};
     for (std::size_t s = 0; s < sides.size(); ++s)
       judged.quality[s] = ratio(corners(span_of(mesh.points), sides.vertices[s]));
     return judged;
   }
   side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const {
-    side_judgement judged{std::vector<double>(sides.size(), 1.0), surface_ratio, surface_wedge_deg};
+    side_judgement judged{std::vector<double>(sides.size(), 1.0), surface_ratio, surface_dihedral_deg};
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       for (const local_id side : sides.of_element[e]) {
         double& quality = judged.quality[static_cast<std::size_t>(side)];
@@ -37,9 +42,9 @@ struct aspect_ratio {
       }
     return judged;
   }
-  bool first_goes(const wedge_side& a, const wedge_side& b) const { return is_worse(a, b); }
-  std::optional<ridge_decision> couples(const side_below& below) const { return as_below(below, 1); }
-  double price(const shortfall& missed) const { return price_of_refusal(missed); }
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const { return is_worse(a, b); }
+  std::optional<ridge_decision> propagate(const side_below& below) const { return as_below(below, 1); }
+  double penalty(const deficit& missed) const { return penalty_of_refusal(missed); }
 
   /// Twice the radius of the inscribed circle over that of the circumscribed one; 0 for a degenerate
   /// triangle.

@@ -4,9 +4,9 @@
 ///
 /// Section 3.3 of J. Chen et al., "Scalable generation of large-scale unstructured meshes by a novel domain
 /// decomposition approach": coupled sides (S0), sides of bad shape (S1), then node deletion on the SDG,
-/// smallest wedge first (S2). All contractions are bounded: one that would make a super-element too heavy is
-/// refused, and the side gets its price as weight in the contracted graph instead, so that the partitioner
-/// avoids it.
+/// smallest dihedral first (S2). All contractions are bounded: one that would make a super-element too heavy
+/// is refused, and the side's weight is multiplied by its penalty in the contracted graph instead, so that
+/// the partitioner avoids it.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -15,8 +15,8 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/simplification/dihedral_runs.hpp"
 #include "dovetail/simplification/types.hpp"
-#include "dovetail/simplification/wedge_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,10 +46,10 @@ inline void require_one_each(const side_judgement& judged, std::size_t sides) {
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 class bounded_contraction {
 public:
-  bounded_contraction(const Elements& elements, const Sides& sides, const side_judgement& judged,
-                      const Rule& rule, const contraction_bound& bound, const progress& on_progress)
-      : elements_(elements), judged_(judged), rule_(rule), weights_(weights_of(elements)), runs_(sides),
-        supers_(weights_), refusals_(elements.side_count()), fixed_(elements.side_count(), 0),
+  bounded_contraction(const Elements& elements, const Sides& sides, side_judgement judged, const Rule& rule,
+                      const contraction_bound& bound, const progress& on_progress)
+      : elements_(elements), judged_(std::move(judged)), rule_(rule), weights_(weights_of(elements)),
+        runs_(sides), supers_(weights_), refusals_(elements.side_count()), fixed_(elements.side_count(), 0),
         bound_(heaviest_allowed(bound)), on_progress_(on_progress) {
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
@@ -61,9 +61,9 @@ public:
     for (const coupled_side& each : coupled) {
       if (is_fixed(each.side))
         continue;
-      const shortfall& missed = each.decision.missed;
+      const deficit& missed = each.decision.missed;
       if (!(missed.value >= 0) || !(missed.wanted >= 0) || std::isinf(missed.wanted))
-        throw usage_error("the simplification rule couples side " + std::to_string(each.side) +
+        throw usage_error("the simplification rule propagates to side " + std::to_string(each.side) +
                           " since it misses " + number_text(missed.wanted) + " by being " +
                           number_text(missed.value) + "; both must be finite and not negative");
       candidates.push_back(each);
@@ -79,19 +79,19 @@ public:
     contract_worst_first(candidates);
   }
 
-  void delete_small_wedges() {
-    std::vector<queued_wedge> first;
-    for (wedge_id w = 0; w < runs_.wedge_count(); ++w)
+  void delete_small_dihedrals() {
+    std::vector<queued_dihedral> first;
+    for (dihedral_id w = 0; w < runs_.dihedral_count(); ++w)
       if (runs_.is_name(w) && is_small(runs_.angle(w)))
         first.push_back({runs_.angle(w), w});
-    queue_ = wedge_queue(std::greater<>(), std::move(first));
+    queue_ = dihedral_queue(std::greater<>(), std::move(first));
     queue_is_open_ = true;
     while (!queue_.empty()) {
       poll();
       const auto [angle, w] = queue_.top();
       queue_.pop();
       if (runs_.is_end(w) && runs_.angle(w) == angle) // else an older state of a run that has grown
-        treat_wedge(w, angle);
+        treat_dihedral(w, angle);
     }
   }
 
@@ -113,13 +113,14 @@ public:
     }
     out.forced = std::move(forced_);
     out.graph = contracted_graph(out);
+    out.quality = std::move(judged_.quality);
     summarize(out);
     return out;
   }
 
 private:
-  using queued_wedge = std::pair<double, wedge_id>; ///< ties by wedge number
-  using wedge_queue = std::priority_queue<queued_wedge, std::vector<queued_wedge>, std::greater<>>;
+  using queued_dihedral = std::pair<double, dihedral_id>; ///< ties by dihedral number
+  using dihedral_queue = std::priority_queue<queued_dihedral, std::vector<queued_dihedral>, std::greater<>>;
 
   static std::vector<double> weights_of(const Elements& elements) {
     std::vector<double> weights(elements.element_count());
@@ -128,24 +129,31 @@ private:
     return weights;
   }
 
-  /// The orders of sides and wedges are none where something is not a number.
+  /// The orders of sides and dihedrals are none where something is not a number.
   void require_judgement() const {
     require_one_each(judged_, fixed_.size());
     if (!(judged_.wanted_quality >= 0) || !(judged_.wanted_angle_deg >= 0))
       throw usage_error("the simplification rule wants the quality " + number_text(judged_.wanted_quality) +
-                        " and wedges of " + number_text(judged_.wanted_angle_deg) +
+                        " and dihedrals of " + number_text(judged_.wanted_angle_deg) +
                         " degrees; neither may be negative");
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       if (fixed_[s] == 0 && !(judged_.quality[s] >= 0))
         throw usage_error("the simplification rule gave side " + std::to_string(s) + " the quality " +
                           number_text(judged_.quality[s]) + "; it must not be negative");
   }
-  double price_of(const shortfall& missed) const {
-    const double price = rule_.price(missed);
-    if (!(price > 0) || !std::isfinite(price))
-      throw usage_error("the simplification rule gave a refused side the price " + number_text(price) +
+  double side_weight(local_id side) const {
+    const double weight = elements_.side_weight(side);
+    if (!(weight >= 0) || !std::isfinite(weight))
+      throw usage_error("side " + std::to_string(side) + " has the weight " + number_text(weight) +
+                        "; it must be finite and not negative");
+    return weight;
+  }
+  double penalty_of(const deficit& missed) const {
+    const double penalty = rule_.penalty(missed);
+    if (!(penalty > 0) || !std::isfinite(penalty))
+      throw usage_error("the simplification rule gave a refused side the penalty " + number_text(penalty) +
                         "; it must be positive and finite");
-    return price;
+    return penalty;
   }
 
   double heaviest_allowed(const contraction_bound& bound) const {
@@ -167,7 +175,7 @@ private:
   void contract_worst_first(std::vector<coupled_side>& candidates) {
     sort_all(candidates, [](const coupled_side& a, const coupled_side& b) {
       const auto key = [](const coupled_side& c) {
-        const shortfall& missed = c.decision.missed;
+        const deficit& missed = c.decision.missed;
         return std::tuple(missed.value - missed.wanted, c.side, c.decision.only_penalise);
       };
       return key(a) < key(b);
@@ -187,7 +195,7 @@ private:
       on_progress_.stop_if_requested();
   }
 
-  void treat_wedge(wedge_id w, double angle) {
+  void treat_dihedral(dihedral_id w, double angle) {
     const auto [a, b] = runs_.bounding_sides(w);
     // Sides that became internal by other contractions are only noticed here: joining their runs puts the
     // grown run back into the queue when it is still small.
@@ -210,13 +218,13 @@ private:
       return is_fixed(a) ? b : a;
     const auto seen = [&](local_id side) {
       const auto [e, f] = elements_.elements(side); // not in one super-element yet
-      return wedge_side{side, judged_.quality[static_cast<std::size_t>(side)],
-                        supers_.weight(e) + supers_.weight(f)};
+      return dihedral_side{side, judged_.quality[static_cast<std::size_t>(side)],
+                           supers_.weight(e) + supers_.weight(f)};
     };
-    return rule_.first_goes(seen(a), seen(b)) ? a : b;
+    return rule_.prefer_removal(seen(a), seen(b)) ? a : b;
   }
 
-  void remove_or_refuse(local_id side, const shortfall& missed) {
+  void remove_or_refuse(local_id side, const deficit& missed) {
     const auto [a, b] = elements_.elements(side);
     const bool already_one = supers_.find(a) == supers_.find(b);
     if (!already_one && supers_.weight(a) + supers_.weight(b) > bound_) {
@@ -227,7 +235,7 @@ private:
     remove(side);
   }
 
-  void refuse(local_id side, const shortfall& missed) {
+  void refuse(local_id side, const deficit& missed) {
     refused_side& refusal = refusals_[static_cast<std::size_t>(side)];
     if (refusal.side == no_id || missed.fraction() < refusal.missed.fraction())
       refusal = {side, missed};
@@ -236,7 +244,7 @@ private:
   void remove(local_id side) {
     if (runs_.is_removed(side))
       return;
-    runs_.remove(side, [&](wedge_id name) {
+    runs_.remove(side, [&](dihedral_id name) {
       if (queue_is_open_ && is_small(runs_.angle(name)))
         queue_.emplace(runs_.angle(name), name);
     });
@@ -254,9 +262,10 @@ private:
       if (b == no_id)
         continue;
       const refused_side& refusal = refusals_[s];
+      const double factor = refusal.side == no_id ? 1.0 : penalty_of(refusal.missed);
       edges.push_back({out.super_of_element[static_cast<std::size_t>(a)],
                        out.super_of_element[static_cast<std::size_t>(b)],
-                       refusal.side == no_id ? 1.0 : price_of(refusal.missed)});
+                       factor * side_weight(static_cast<local_id>(s))});
     }
     return make_csr_graph(std::move(weights), edges);
   }
@@ -281,16 +290,16 @@ private:
   }
 
   const Elements& elements_;
-  const side_judgement& judged_;
+  side_judgement judged_;
   const Rule& rule_;
   std::vector<double> weights_; ///< per element
-  wedge_runs<Sides> runs_;
+  dihedral_runs<Sides> runs_;
   disjoint_sets supers_;
   std::vector<refused_side> refusals_; ///< per side; side == no_id where none
   std::vector<std::uint8_t> fixed_;    ///< per side
   double bound_;
-  std::vector<forced_wedge> forced_;
-  wedge_queue queue_;
+  std::vector<forced_dihedral> forced_;
+  dihedral_queue queue_;
   bool queue_is_open_ = false; ///< before S2 the queue is not filled
   const progress& on_progress_;
   std::size_t steps_ = 0;
@@ -298,22 +307,25 @@ private:
 
 } // namespace detail
 
-/// Contracts an element-dual graph as far as a rule wants it and the bound allows it. `coupled` sides go
-/// first, whatever their quality; fixed ones among them are passed over.
+/// Contracts an element-dual graph as far as a rule wants it and the bound allows it. `judged` is what the
+/// rule says about the sides. `coupled` sides go first, whatever their quality; fixed ones among them are
+/// passed over.
 ///
-/// Afterwards every wedge under `judged.wanted_angle_deg`, measured across super-elements, lies between two
-/// fixed sides or touches a refused one. Deterministic: ties break by side and wedge number. Complexity: n
-/// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities, and for what a
-/// rule says that is not a number or negative, `cancelled` when `on_progress` asks to stop.
+/// Afterwards every dihedral under `judged.wanted_angle_deg`, measured across super-elements, lies between
+/// two fixed sides or touches a refused one. Deterministic: ties break by side and dihedral number.
+/// Complexity: n log n in the number of small dihedrals. Throws `usage_error` for a wrong number of
+/// qualities, and for what a rule or a side's weight says that is not a number or negative, `cancelled` when
+/// `on_progress` asks to stop.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
-simplification contract_bounded(const Elements& elements, const Sides& sides, const side_judgement& judged,
+simplification contract_bounded(const Elements& elements, const Sides& sides, side_judgement judged,
                                 const Rule& rule, const contraction_bound& bound = {},
                                 std::span<const coupled_side> coupled = {},
                                 const progress& on_progress = {}) {
-  detail::bounded_contraction<Elements, Sides, Rule> run(elements, sides, judged, rule, bound, on_progress);
+  detail::bounded_contraction<Elements, Sides, Rule> run(elements, sides, std::move(judged), rule, bound,
+                                                         on_progress);
   run.contract_coupled_sides(coupled);
   run.contract_bad_shapes();
-  run.delete_small_wedges();
+  run.delete_small_dihedrals();
   return run.result();
 }
 

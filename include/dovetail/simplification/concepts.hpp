@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dovetail/core/ids.hpp"
-#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/side_state.hpp"
+#include "dovetail/mesh/side_table.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <concepts>
@@ -14,7 +14,7 @@
 namespace dovetail {
 
 /// How good something is, and how good it would have to be. Neither is negative.
-struct shortfall {
+struct deficit {
   double value = 0;
   double wanted = 0;
 
@@ -22,16 +22,16 @@ struct shortfall {
   double fraction() const { return value / wanted; }
 };
 
-/// What a rule says about the sides and wedges of one mesh.
+/// What a rule says about the sides and dihedrals of one mesh, or the edges of one graph.
 struct side_judgement {
   std::vector<double> quality =
       {};                      ///< of each side as an interface, not negative, in a unit of the rule's own
   double wanted_quality = 0;   ///< sides below it are candidates; 0: none are
-  double wanted_angle_deg = 0; ///< wedges below it are too small; 0: none are
+  double wanted_angle_deg = 0; ///< dihedrals below it are too small; 0: none are
 };
 
-/// One of the two sides of a wedge that is too small.
-struct wedge_side {
+/// One of the two sides of a dihedral that is too small.
+struct dihedral_side {
   local_id side = no_id;
   double quality = 0;
   double weight = 0; ///< of the super-element that arises when the side is removed
@@ -41,25 +41,26 @@ struct wedge_side {
 struct side_below {
   side_state state = side_state::kept;
   double quality = 0;
-  shortfall missed; ///< of a refused side: why it ought to have been removed
+  deficit missed; ///< of a refused side: why it ought to have been removed
 };
 
 /// What becomes of the sides at a ridge.
 struct ridge_decision {
-  shortfall missed;
-  bool only_penalise = false; ///< false: they are removed; true: they get the price of refused ones
+  deficit missed;
+  bool only_penalise = false; ///< false: they are removed; true: they stay, penalised like refused ones
 };
 
 /// What the contraction of dual graphs asks while it runs.
 ///
-/// Valid expressions for `const R& r`, `const wedge_side& a`, `const wedge_side& b`, `const shortfall& s`:
+/// Valid expressions for `const R& r`, `const dihedral_side& a` and `b`, `const deficit& d`:
 ///
-/// - `r.first_goes(a, b)`: bool: of the two sides of a wedge that is too small, neither of them fixed, a is
-///   removed rather than b
-/// - `r.price(s)`: double: the weight of a refused side in the contracted graph, where a kept side weighs 1
+/// - `r.prefer_removal(a, b)`: bool: of the two sides of a dihedral that is too small, neither of them fixed,
+///   a is removed rather than b
+/// - `r.penalty(d)`: double: how many times its own weight a refused side weighs in the contracted graph
 ///
-/// Semantics: both are pure functions; `first_goes(a, b) != first_goes(b, a)` for different sides. The price
-/// is positive; a partitioner cuts through a refused side where that costs less than to go around it.
+/// Semantics: both are pure functions; `prefer_removal(a, b) != prefer_removal(b, a)` for different sides.
+/// The penalty is positive; a partitioner cuts through a refused side where that costs less than to go around
+/// it.
 ///
 /// Complexity: constant.
 ///
@@ -67,10 +68,10 @@ struct ridge_decision {
 ///
 /// Models: every simplification_rule.
 template <class R>
-concept contraction_rule = requires(const R& r, const wedge_side& a, const wedge_side& b,
-                                    const shortfall& s) {
-  { r.first_goes(a, b) } -> std::same_as<bool>;
-  { r.price(s) } -> std::convertible_to<double>;
+concept contraction_rule = requires(const R& r, const dihedral_side& a, const dihedral_side& b,
+                                    const deficit& d) {
+  { r.prefer_removal(a, b) } -> std::same_as<bool>;
+  { r.penalty(d) } -> std::convertible_to<double>;
 };
 
 /// The role `simplification_rule` (`simplification_rule<R, D>`): which sides of a coarse mesh are to become
@@ -79,8 +80,8 @@ concept contraction_rule = requires(const R& r, const wedge_side& a, const wedge
 /// Valid expressions, beside those of `contraction_rule`, for `const R& r`, `const simplicial_mesh<D>& mesh`,
 /// `const side_table<D>& sides`, `const side_below& below`:
 ///
-/// - `r(mesh, sides)`: side_judgement: which sides are candidates, and which wedges are too small
-/// - `r.couples(below)`: std::optional<ridge_decision>: what a removed or refused side of the surface means
+/// - `r(mesh, sides)`: side_judgement: which sides are candidates, and which dihedrals are too small
+/// - `r.propagate(below)`: std::optional<ridge_decision>: what a removed or refused side of the surface means
 ///   for the interior sides of the volume at it; nothing for nothing
 /// - optional: `r.wants(D)`: wanted_angles: the interface angles below which the stages after the
 ///   simplification mend, move and count interfaces (`wanted_angles_of`); of wedges the same as in the
@@ -88,7 +89,7 @@ concept contraction_rule = requires(const R& r, const wedge_side& a, const wedge
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
 /// sides unused. First the sides at coupled ridges are removed, then candidates, worst first; then, smallest
-/// wedge first and measured across what was removed, of each wedge that is too small one side. Where a
+/// dihedral first and measured across what was removed, of each dihedral that is too small one side. Where a
 /// removal would make a super-element too heavy the side is refused. All calls are pure functions of the
 /// rule's members and their arguments, so equal rules make equal decompositions.
 ///
@@ -96,14 +97,14 @@ concept contraction_rule = requires(const R& r, const wedge_side& a, const wedge
 ///
 /// Failure: throws `usage_error` when its members make no sense.
 ///
-/// Models: simplifier::paper, none, shape_only, wedges_only, aspect_ratio, flow_aligned;
+/// Models: simplifier::paper, none, shape_only, dihedrals_only, aspect_ratio, flow_aligned;
 /// any_simplification_rule.
 template <class R, int D>
 concept simplification_rule = contraction_rule<R> && std::copy_constructible<R> &&
     requires(const R& r, const simplicial_mesh<D>& mesh, const side_table<D>& sides,
              const side_below& below) {
   { r(mesh, sides) } -> std::same_as<side_judgement>;
-  { r.couples(below) } -> std::same_as<std::optional<ridge_decision>>;
+  { r.propagate(below) } -> std::same_as<std::optional<ridge_decision>>;
 };
 
 } // namespace dovetail

@@ -1,19 +1,23 @@
 /// @file
-/// The dual graphs of a mesh as views: nothing is stored beyond the adjacency. Wedges are numbered
-/// element x wedges per element + local ridge.
+/// The dual graphs of a mesh as views: nothing is stored beyond the adjacency. Dihedrals are numbered
+/// element x dihedrals per element + local ridge.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/concepts.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/simplification/dual_graphs.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -43,8 +47,15 @@ public:
     return (!fixed_.empty() && fixed_[static_cast<std::size_t>(side)] != 0) || elements(side)[1] == no_id;
   }
 
-  // The edges that are not fixed, as a `graph`.
+  double side_weight(local_id) const { return 1; }
+
+  // The edges that are not fixed, as a `weighted_graph`.
   std::size_t node_count() const { return element_count(); }
+  double node_weight(local_id element) const { return weight(element); }
+  template <class Visit>
+  void for_each_edge(local_id element, const Visit& visit) const {
+    for_each_neighbour(element, [&](local_id other) { visit(other, 1.0); });
+  }
   template <class Visit>
   void for_each_neighbour(local_id element, const Visit& visit) const {
     for (const local_id side : sides_->of_element[static_cast<std::size_t>(element)])
@@ -61,29 +72,29 @@ private:
   bool is_manifold_;
 };
 static_assert(element_dual_graph<element_dual<2>> && element_dual_graph<element_dual<3>>);
-static_assert(graph<element_dual<2>> && graph<element_dual<3>>);
+static_assert(weighted_graph<element_dual<2>> && weighted_graph<element_dual<3>>);
 
 /// The side-dual graph. The mesh and its table must outlive it, unchanged.
 template <int D>
 class side_dual {
 public:
-  static constexpr std::size_t wedges_per_element = numbering::ridges<D>.size();
+  static constexpr std::size_t dihedrals_per_element = numbering::ridges<D>.size();
 
   side_dual(const simplicial_mesh<D>& mesh, const side_table<D>& sides) : mesh_(&mesh), sides_(&sides) {}
 
   std::size_t side_count() const { return sides_->size(); }
   std::vector<double> angles() const {
     std::vector<double> all;
-    all.reserve(mesh_->elements.size() * wedges_per_element);
+    all.reserve(mesh_->elements.size() * dihedrals_per_element);
     for (const auto& element : mesh_->elements) {
       const auto angles = wedge_angles(corners(span_of(mesh_->points), element));
       all.insert(all.end(), angles.begin(), angles.end());
     }
     return all;
   }
-  std::array<local_id, 2> sides(wedge_id wedge) const {
-    const auto& of_element = sides_->of_element[wedge / wedges_per_element];
-    const auto& local = numbering::sides_of_ridge<D>[wedge % wedges_per_element];
+  std::array<local_id, 2> sides(dihedral_id dihedral) const {
+    const auto& of_element = sides_->of_element[dihedral / dihedrals_per_element];
+    const auto& local = numbering::sides_of_ridge<D>[dihedral % dihedrals_per_element];
     return {of_element[static_cast<std::size_t>(local[0])], of_element[static_cast<std::size_t>(local[1])]};
   }
   template <class Visit>
@@ -91,7 +102,7 @@ public:
     const auto [a, b] = sides_->elements[static_cast<std::size_t>(side)];
     const auto& of_a = sides_->of_element[static_cast<std::size_t>(a)];
     const auto local = static_cast<int>(std::find(of_a.begin(), of_a.end(), side) - of_a.begin());
-    for (std::size_t r = 0; r < wedges_per_element; ++r) {
+    for (std::size_t r = 0; r < dihedrals_per_element; ++r) {
       const auto& ends = numbering::sides_of_ridge<D>[r];
       if (ends[0] == local || ends[1] == local)
         visit(number_of(a, r), number_of(b, same_ridge(a, r, b)));
@@ -99,8 +110,8 @@ public:
   }
 
 private:
-  static wedge_id number_of(local_id element, std::size_t ridge) {
-    return static_cast<wedge_id>(static_cast<std::size_t>(element) * wedges_per_element + ridge);
+  static dihedral_id number_of(local_id element, std::size_t ridge) {
+    return static_cast<dihedral_id>(static_cast<std::size_t>(element) * dihedrals_per_element + ridge);
   }
   /// The local ridge of element `to` with the vertices of local ridge r of element `from`.
   std::size_t same_ridge(local_id from, std::size_t r, local_id to) const {
@@ -117,5 +128,75 @@ private:
   const side_table<D>* sides_;
 };
 static_assert(side_dual_graph<side_dual<2>> && side_dual_graph<side_dual<3>>);
+
+namespace detail {
+
+/// Not zero for the given sides, and for those between elements of different tags.
+template <int D>
+std::vector<std::uint8_t> fixed_inside(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                                       std::span<const simplex<D - 1>> fixed_sides) {
+  std::vector<simplex<D - 1>> given;
+  given.reserve(fixed_sides.size());
+  for (const auto& vertices : fixed_sides)
+    given.push_back(sorted_vertices(vertices));
+  sort_all(given);
+  const auto changes_tag = [&](std::size_t side) {
+    const auto [a, b] = sides.elements[side];
+    return !mesh.tags.empty() && b != no_id &&
+           mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)];
+  };
+  std::vector<std::uint8_t> fixed(sides.size(), 0);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const bool listed =
+        !given.empty() && std::binary_search(given.begin(), given.end(), sorted_vertices(sides.vertices[s]));
+    fixed[s] = listed || changes_tag(s) ? 1 : 0;
+  }
+  return fixed;
+}
+
+} // namespace detail
+
+/// What is known of a mesh beside it; each may be empty.
+template <int D>
+struct mesh_dual_options {
+  std::span<const simplex<D - 1>> fixed_sides = {}; ///< in any order of vertices; read at once
+  std::span<const double> element_weights = {};     ///< predicted final elements; empty: 1 each
+};
+
+/// Both dual graphs of a mesh, and its sides. Fixed are the boundary, sides between elements of different
+/// tags and the sides given. The mesh and the weights must outlive it, unchanged, and so must the table of
+/// sides unless it was moved in or left out.
+template <int D>
+class mesh_duals {
+public:
+  mesh_duals(const simplicial_mesh<D>& mesh, const mesh_dual_options<D>& given = {})
+      : mesh_duals(mesh, build_sides(mesh), given) {}
+  /// `sides`: `build_sides(mesh)`. Throws `usage_error` for a wrong number of weights.
+  mesh_duals(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+             const mesh_dual_options<D>& given = {})
+      : mesh_duals(mesh, std::shared_ptr<const side_table<D>>(std::shared_ptr<void>(), &sides), given) {}
+  mesh_duals(const simplicial_mesh<D>& mesh, side_table<D>&& sides, const mesh_dual_options<D>& given = {})
+      : mesh_duals(mesh, std::make_shared<const side_table<D>>(std::move(sides)), given) {}
+
+  const simplicial_mesh<D>& mesh() const { return *mesh_; }
+  const side_table<D>& sides() const { return *sides_; }
+  element_dual<D> elements() const { return element_dual<D>(*sides_, weights_, span_of(fixed_)); }
+  side_dual<D> dihedrals() const { return {*mesh_, *sides_}; }
+
+private:
+  mesh_duals(const simplicial_mesh<D>& mesh, std::shared_ptr<const side_table<D>> sides,
+             const mesh_dual_options<D>& given)
+      : mesh_(&mesh), sides_(std::move(sides)), weights_(given.element_weights),
+        fixed_(detail::fixed_inside<D>(mesh, *sides_, given.fixed_sides)) {
+    if (!weights_.empty() && weights_.size() != mesh.elements.size())
+      throw usage_error("mesh_duals: " + std::to_string(weights_.size()) + " element weights for " +
+                        std::to_string(mesh.elements.size()) + " elements; give one each or none");
+  }
+
+  const simplicial_mesh<D>* mesh_;
+  std::shared_ptr<const side_table<D>> sides_;
+  std::span<const double> weights_;
+  std::vector<std::uint8_t> fixed_; ///< per side
+};
 
 } // namespace dovetail

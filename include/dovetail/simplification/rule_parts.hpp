@@ -10,24 +10,24 @@
 
 namespace dovetail::simplifier {
 
-/// Weight of a refused side: 1 + base at what was wanted, growing linearly with what is missing of it by up
-/// to `penalty`.
-struct refusal_price {
+/// The penalty of a refused side: 1 + base for one that is as good as wanted, growing linearly to 1 + base +
+/// growth for one that has nothing of what is wanted.
+struct refusal_penalty {
   double base = 10;
-  double penalty = 200;
+  double growth = 200;
 
-  double operator()(const shortfall& missed) const {
-    return 1 + base + penalty * std::max(0.0, 1 - missed.fraction());
+  double operator()(const deficit& missed) const {
+    return 1 + base + growth * std::max(0.0, 1 - missed.fraction());
   }
 };
 
 /// The side of lower quality goes; ties by number.
-inline bool is_worse(const wedge_side& a, const wedge_side& b) {
+inline bool is_worse(const dihedral_side& a, const dihedral_side& b) {
   return std::pair(a.quality, a.side) < std::pair(b.quality, b.side);
 }
 
-/// As below, so here: sides at a removed edge are removed, the worse the edge against `wanted` the sooner;
-/// those at a refused one are penalised by what it missed.
+/// The decision of the surface goes for the volume too: sides at a removed edge are removed, those at the
+/// worst edge (against `wanted`) first; those at a refused edge are penalised by what the edge missed.
 inline ridge_decision as_below(const side_below& below, double wanted) {
   if (below.state == side_state::refused)
     return {below.missed, true};

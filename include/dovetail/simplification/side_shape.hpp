@@ -3,8 +3,9 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/mesh/side_table.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
 #include <cstddef>

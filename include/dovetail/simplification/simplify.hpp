@@ -1,46 +1,23 @@
 /// @file
-/// Mesh simplification: the bounded contraction on the dual graphs of a mesh, by any rule.
+/// The stage of simplification: the bounded contraction of the dual graphs of a mesh, or of any graph, by any
+/// rule.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/simplification/bounded_contraction.hpp"
+#include "dovetail/simplification/graph_dual.hpp"
 #include "dovetail/simplification/mesh_duals.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace dovetail {
 
 namespace detail {
-
-/// Not zero for the given sides, and for those between elements of different tags.
-template <int D>
-std::vector<std::uint8_t> fixed_inside(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
-                                       std::span<const simplex<D - 1>> fixed_sides) {
-  std::vector<simplex<D - 1>> given;
-  given.reserve(fixed_sides.size());
-  for (const auto& vertices : fixed_sides)
-    given.push_back(sorted_vertices(vertices));
-  sort_all(given);
-  const auto changes_tag = [&](std::size_t side) {
-    const auto [a, b] = sides.elements[side];
-    return !mesh.tags.empty() && b != no_id &&
-           mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)];
-  };
-  std::vector<std::uint8_t> fixed(sides.size(), 0);
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const bool listed =
-        !given.empty() && std::binary_search(given.begin(), given.end(), sorted_vertices(sides.vertices[s]));
-    fixed[s] = listed || changes_tag(s) ? 1 : 0;
-  }
-  return fixed;
-}
 
 /// All sides at coupled ridges.
 template <int D>
@@ -72,33 +49,36 @@ std::vector<coupled_side> sides_at_ridges(const side_table<D>& sides, std::size_
   return found;
 }
 
-/// `simplify` for a mesh that the rule has judged.
-template <int D, contraction_rule Rule>
-simplification simplify_judged(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
-                               const side_judgement& judged, const Rule& rule,
-                               const simplify_constraints<D>& given, const contraction_bound& bound,
-                               const progress& on_progress) {
-  if (!given.element_weights.empty() && given.element_weights.size() != mesh.elements.size())
-    throw usage_error("simplify: " + std::to_string(given.element_weights.size()) + " element weights for " +
-                      std::to_string(mesh.elements.size()) + " elements; give one each or none");
-  on_progress.stop_if_requested();
-  const auto fixed = fixed_inside(mesh, sides, given.fixed_sides);
-  const auto coupled = sides_at_ridges<D>(sides, mesh.points.size(), given.coupled_ridges);
-  return contract_bounded(element_dual<D>(sides, given.element_weights, span_of(fixed)),
-                          side_dual<D>(mesh, sides), judged, rule, bound, span_of(coupled), on_progress);
-}
-
 } // namespace detail
 
-/// Simplifies a mesh by a rule. `sides` is `build_sides(mesh)`. Sides between elements of different tags are
-/// fixed. For the rest see `contract_bounded`. Throws `usage_error` for a wrong number of weights.
+/// The simplification (paper, section 3.3): which sides of a mesh are to become no interfaces, and the
+/// element-dual graph contracted across them, as a partitioner takes it. `coupled` is what was decided one
+/// dimension below. For the rest see `contract_bounded`; the rule is bound at compile time down to its call
+/// in there.
 template <int D, simplification_rule<D> Rule>
-simplification simplify(const simplicial_mesh<D>& mesh, const side_table<D>& sides, const Rule& rule,
-                        const simplify_constraints<D>& given = {}, const contraction_bound& bound = {},
+simplification simplify(const simplicial_mesh<D>& mesh, const mesh_duals<D>& duals, const Rule& rule,
+                        const contraction_bound& bound = {}, std::span<const coupled_ridge<D>> coupled = {},
                         const progress& on_progress = {}) {
   const stopwatch time;
-  simplification out =
-      detail::simplify_judged<D>(mesh, sides, rule(mesh, sides), rule, given, bound, on_progress);
+  on_progress.stop_if_requested();
+  const auto coupled_sides = detail::sides_at_ridges<D>(duals.sides(), mesh.points.size(), coupled);
+  simplification out = contract_bounded(duals.elements(), duals.dihedrals(), rule(mesh, duals.sides()), rule,
+                                        bound, span_of(coupled_sides), on_progress);
+  out.summary.seconds = time.seconds();
+  return out;
+}
+
+/// The same for any graph. The rule judges its edges: `rule(graph, duals)` has one quality per edge of
+/// `duals`, which is `graph_dual(graph)`.
+template <weighted_graph G, contraction_rule Rule>
+  requires requires(const G& graph, const graph_dual& duals, const Rule& rule) {
+    { rule(graph, duals) } -> std::same_as<side_judgement>;
+  }
+simplification simplify(const G& graph, const graph_dual& duals, const Rule& rule,
+                        const contraction_bound& bound = {}, const progress& on_progress = {}) {
+  const stopwatch time;
+  on_progress.stop_if_requested();
+  simplification out = contract_bounded(duals, duals, rule(graph, duals), rule, bound, {}, on_progress);
   out.summary.seconds = time.seconds();
   return out;
 }

@@ -2,30 +2,27 @@
 /// The simplification of a solid's coarse mesh: first its surface, then, coupled to it, its volume.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
 
 /// The coupling from a surface (D = 2) to the volume it bounds (D = 3): what a rule makes of the removed and
-/// refused surface edges. `quality` is the rule's judgement of the edges; `volume_point` gives the volume's
-/// number of each surface point, empty when they are the same.
+/// refused surface edges. `volume_point` gives the volume's number of each surface point, empty when they are
+/// the same.
 template <simplification_rule<3> Rule>
 std::vector<coupled_ridge<3>> coupled_ridges(const side_table<2>& edges, const simplification& simplified,
-                                             std::span<const double> quality, const Rule& rule,
-                                             std::span<const local_id> volume_point = {}) {
+                                             const Rule& rule, std::span<const local_id> volume_point = {}) {
   std::vector<coupled_ridge<3>> ridges;
   auto refused = simplified.refused.begin();
   for (std::size_t s = 0; s < edges.size(); ++s) {
     const side_state state = simplified.side_states[s];
     if (state != side_state::refused && state != side_state::removed)
       continue;
-    const shortfall missed = state == side_state::refused ? (refused++)->missed : shortfall{};
-    const auto decision = rule.couples({state, quality[s], missed});
+    const deficit missed = state == side_state::refused ? (refused++)->missed : deficit{};
+    const auto decision = rule.propagate({state, simplified.quality[s], missed});
     if (!decision)
       continue;
     coupled_ridge<3> ridge{edges.vertices[s], *decision};
@@ -44,34 +41,22 @@ struct coupled_simplification {
   report summary; ///< the two steps' reports are its children
 };
 
-/// What is given beside the two meshes; all but `curve_edges` may be empty.
-struct coupled_constraints {
-  std::span<const simplex<1>> curve_edges = {}; ///< surface edges on CAD curves, as surface points
-  std::span<const local_id> volume_point = {};  ///< the volume's number of each surface point; empty: equal
-  std::span<const double> element_weights = {}; ///< predicted final elements per tetrahedron; empty: 1
-};
-
-/// Simplifies the surface, then the volume such that what the rule couples to removed and refused surface
-/// edges is done: the paper's removes all interior faces at a removed edge and penalises those at a refused
-/// one. `surface` consists of the boundary and the material faces of `volume`; `sides` is
-/// `build_sides(volume)`.
+/// Simplifies the surface, then the volume such that what the rule makes of removed and refused surface edges
+/// is done: the paper's removes all interior faces at a removed edge and penalises those at a refused one.
+/// The surface consists of the boundary and the material faces of the volume; `volume_point` gives the
+/// volume's number of each of its points, empty when they are the same.
 template <class Rule>
-  requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3> coupled_simplification
-  simplify_coupled(const simplicial_mesh<2>& surface, const simplicial_mesh<3>& volume,
-                   const side_table<3>& sides, const Rule& rule, const coupled_constraints& given = {},
-                   const contraction_bound& bound = {}, const progress& on_progress = {}) {
+  requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3>
+      coupled_simplification simplify_coupled(const mesh_duals<2>& surface, const mesh_duals<3>& volume,
+                                              const Rule& rule, const contraction_bound& bound = {},
+                                              std::span<const local_id> volume_point = {},
+                                              const progress& on_progress = {}) {
     const stopwatch time;
     coupled_simplification out;
-    const side_table<2> edges = build_sides(surface);
-    const side_judgement judged = rule(surface, edges);
-    out.surface = detail::simplify_judged<2>(surface, edges, judged, rule, {.fixed_sides = given.curve_edges},
-                                             bound, on_progress);
-    out.surface.summary.seconds = time.seconds();
+    out.surface = simplify<2>(surface.mesh(), surface, rule, bound, {}, on_progress);
     out.surface.summary.name = "surface";
-    const auto ridges = coupled_ridges(edges, out.surface, span_of(judged.quality), rule, given.volume_point);
-    out.volume = simplify<3>(volume, sides, rule,
-                             {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights},
-                             bound, on_progress);
+    const auto ridges = coupled_ridges(surface.sides(), out.surface, rule, volume_point);
+    out.volume = simplify<3>(volume.mesh(), volume, rule, bound, span_of(ridges), on_progress);
     out.volume.summary.name = "volume";
     out.summary.name = "simplification";
     out.summary.children = {out.surface.summary, out.volume.summary};

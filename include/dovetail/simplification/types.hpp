@@ -9,7 +9,6 @@
 #include "dovetail/simplification/concepts.hpp"
 
 #include <array>
-#include <span>
 #include <vector>
 
 namespace dovetail {
@@ -37,22 +36,14 @@ struct coupled_ridge {
   ridge_decision decision;
 };
 
-/// What is given beside the mesh. All may be empty.
-template <int D>
-struct simplify_constraints {
-  std::span<const simplex<D - 1>> fixed_sides = {};      ///< in any order of vertices
-  std::span<const coupled_ridge<D>> coupled_ridges = {}; ///< all interior sides there are removed
-  std::span<const double> element_weights = {};          ///< predicted final elements; empty: 1 each
-};
-
-/// A side that the bound refused, and what it falls short of: of its own quality, or a wedge it bounds.
+/// A side that the bound refused, and what it falls short of: of its own quality, or a dihedral it bounds.
 struct refused_side {
   local_id side = no_id;
-  shortfall missed;
+  deficit missed;
 };
 
-/// A wedge under the threshold between two fixed sides: nothing can be done about it.
-struct forced_wedge {
+/// A dihedral under the threshold between two fixed sides: nothing can be done about it.
+struct forced_dihedral {
   std::array<local_id, 2> sides{};
   double angle_deg = 0;
 };
@@ -61,9 +52,12 @@ struct simplification {
   std::vector<side_state> side_states;
   std::vector<local_id> super_of_element;
   local_id super_count = 0;
-  csr_graph graph; ///< the EDG contracted: node = super-element; a side weighs 1, a refused one its price
-  std::vector<refused_side> refused; ///< sides in state `refused`, growing
-  std::vector<forced_wedge> forced;  ///< by growing angle; boundary against boundary included
+  /// The EDG contracted: node = super-element. Edges that become one add up, each the weight of its side, for
+  /// a refused one times its penalty.
+  csr_graph graph;
+  std::vector<refused_side> refused;   ///< sides in state `refused`, growing
+  std::vector<double> quality;         ///< of each side, as the rule judged it
+  std::vector<forced_dihedral> forced; ///< by growing angle; boundary against boundary included
   report summary;
 };
 

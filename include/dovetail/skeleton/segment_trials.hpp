@@ -71,7 +71,7 @@ public:
     if (before <= most)
       return best;
     int left = most_trials;
-    for (const auto& [price, other] : changes_of(f, before)) {
+    for (const auto& [penalty, other] : changes_of(f, before)) {
       if (before - least_deficit(f, other) <= most)
         continue;
       if (left-- == 0)
@@ -98,12 +98,12 @@ private:
   static constexpr double shortest = 0.45, longest = 1.8;
 
   struct change {
-    double price = 0; ///< how far lengths come away from the sizes; more for lines on the surface
+    double penalty = 0; ///< how far lengths come away from the sizes; more for lines on the surface
     face_segments lines{};
   };
   /// What one line may become.
   struct choice {
-    double price = 0;
+    double penalty = 0;
     line_segments segments{};
   };
 
@@ -145,12 +145,12 @@ private:
                   least_gain) {
             all.emplace_back();
             for (std::size_t i = 0; i < 3; ++i) {
-              all.back().price += choices[i][c[i]].price;
+              all.back().penalty += choices[i][c[i]].penalty;
               all.back().lines[i] = choices[i][c[i]].segments;
             }
           }
     sort_all(all, [](const change& a, const change& b) {
-      return std::tie(a.price, a.lines) < std::tie(b.price, b.lines);
+      return std::tie(a.penalty, a.lines) < std::tie(b.penalty, b.lines);
     });
     return all;
   }

@@ -4,6 +4,8 @@
 // error 2: g\.elements\(side\).*return-type|std::array<int, 2>|'std::array<dovetail::local_id, 2>'
 // near miss 3: it does not say which sides are fixed
 // error 3: g\.is_fixed\(side\)
+// near miss 4: its sides have no weights
+// error 4: g\.side_weight\(side\)
 #include "dovetail/simplification/dual_graphs.hpp"
 
 struct my_graph {
@@ -19,6 +21,9 @@ struct my_graph {
 #endif
 #if NEAR_MISS != 3
   bool is_fixed(dovetail::local_id side) const;
+#endif
+#if NEAR_MISS != 4
+  double side_weight(dovetail::local_id side) const;
 #endif
 };
 

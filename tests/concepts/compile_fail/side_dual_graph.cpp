@@ -1,8 +1,8 @@
-// near miss 1: its wedges have no angles
+// near miss 1: its dihedrals have no angles
 // error 1: g\.angles\(\)
-// near miss 2: it does not say which sides bound a wedge
-// error 2: g\.sides\(wedge\)
-// near miss 3: it visits the wedges at a side one by one, so nothing says which join
+// near miss 2: it does not say which sides bound a dihedral
+// error 2: g\.sides\(dihedral\)
+// near miss 3: it visits the dihedrals at a side one by one, so nothing says which join
 // error 3: g\.for_each_joint\(side, visit\)
 #include "dovetail/simplification/dual_graphs.hpp"
 
@@ -12,12 +12,12 @@ struct my_graph {
   std::vector<double> angles() const;
 #endif
 #if NEAR_MISS != 2
-  std::array<dovetail::local_id, 2> sides(dovetail::wedge_id wedge) const;
+  std::array<dovetail::local_id, 2> sides(dovetail::dihedral_id dihedral) const;
 #endif
 #if NEAR_MISS == 3
-  void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::wedge_id)) const;
+  void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::dihedral_id)) const;
 #else
-  void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::wedge_id, dovetail::wedge_id)) const;
+  void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::dihedral_id, dovetail::dihedral_id)) const;
 #endif
 };
 

@@ -3,9 +3,9 @@
 // near miss 2: it returns the sides' qualities without what is wanted
 // error 2: r\(mesh, sides\).*return-type|constraint 'std::same_as<std::vector<double>
 // near miss 3: it does not say what is coupled from the surface
-// error 3: r\.couples\(below\)
-// near miss 4: it has no price of a refused side
-// error 4: r\.price\(s\)
+// error 3: r\.propagate\(below\)
+// near miss 4: it has no penalty of a refused side
+// error 4: r\.penalty\(d\)
 #include "dovetail/simplification/concepts.hpp"
 
 struct my_rule {
@@ -19,11 +19,11 @@ struct my_rule {
                                       const dovetail::side_table<3>&) const;
 #endif
 #if NEAR_MISS != 3
-  std::optional<dovetail::ridge_decision> couples(const dovetail::side_below& below) const;
+  std::optional<dovetail::ridge_decision> propagate(const dovetail::side_below& below) const;
 #endif
-  bool first_goes(const dovetail::wedge_side& a, const dovetail::wedge_side& b) const;
+  bool prefer_removal(const dovetail::dihedral_side& a, const dovetail::dihedral_side& b) const;
 #if NEAR_MISS != 4
-  double price(const dovetail::shortfall& missed) const;
+  double penalty(const dovetail::deficit& missed) const;
 #endif
 };
 

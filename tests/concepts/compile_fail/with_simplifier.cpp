@@ -1,7 +1,7 @@
 // near miss 1: it judges meshes of triangles only
 // error 1: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
-// near miss 2: it does not say which side of a small wedge goes
-// error 2: r\.first_goes\(a, b\)
+// near miss 2: it does not say which side of a small dihedral goes
+// error 2: r\.prefer_removal\(a, b\)
 // near miss 3: its judgement changes it
 // error 3: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
 #include "dovetail/pipeline/parameters.hpp"
@@ -18,11 +18,11 @@ struct my_rule {
   dovetail::side_judgement operator()(const dovetail::simplicial_mesh<D>&,
                                       const dovetail::side_table<D>&) const;
 #endif
-  std::optional<dovetail::ridge_decision> couples(const dovetail::side_below& below) const;
+  std::optional<dovetail::ridge_decision> propagate(const dovetail::side_below& below) const;
 #if NEAR_MISS != 2
-  bool first_goes(const dovetail::wedge_side& a, const dovetail::wedge_side& b) const;
+  bool prefer_removal(const dovetail::dihedral_side& a, const dovetail::dihedral_side& b) const;
 #endif
-  double price(const dovetail::shortfall& missed) const;
+  double penalty(const dovetail::deficit& missed) const;
 };
 
 void call() {
