@@ -5,9 +5,9 @@
 
 #include "run_figures.hpp"
 
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
-#include "dovetail/parallel/run_task.hpp"
 
 #include <algorithm>
 #include <span>

@@ -97,8 +97,8 @@ TEST_CASE("what interface angles a rule wants follows from its own numbers, or f
   };
   wants(simplifier::paper{}, {30, 30}, 50);
   wants(simplifier::none{}, {30, 30}, 50);
-  wants(simplifier::paper{.surface_dihedral_deg = 45, .volume_dihedral_deg = 20, .volume_shape_deg = 25}, {25, 20},
-        45);
+  wants(simplifier::paper{.surface_dihedral_deg = 45, .volume_dihedral_deg = 20, .volume_shape_deg = 25},
+        {25, 20}, 45);
   wants(simplifier::paper{.surface_dihedral_deg = 0, .volume_dihedral_deg = 0}, {30, 30}, 50);
   wants(simplifier::shape_only{.volume_deg = 35}, {35, 30}, 50);
   wants(simplifier::dihedrals_only{.surface_dihedral_deg = 40, .volume_dihedral_deg = 25}, {30, 25}, 40);

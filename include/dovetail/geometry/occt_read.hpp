@@ -4,12 +4,12 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/core/input_file.hpp"
 #include "dovetail/geometry/occt_memory.hpp"
 #include "dovetail/geometry/occt_options.hpp"
 #include "dovetail/geometry/occt_shape.hpp"
 #include "dovetail/geometry/occt_xcaf.hpp"
-#include "dovetail/parallel/run_task.hpp"
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>

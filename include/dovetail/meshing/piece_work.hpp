@@ -4,6 +4,7 @@
 
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -12,7 +13,6 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
-#include "dovetail/parallel/run_task.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
 #include <algorithm>
