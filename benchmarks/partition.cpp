@@ -15,7 +15,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/paper.hpp"
-#include "dovetail/simplification/simplify.hpp"
+#include "dovetail/simplification/simplify_coupled.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "timed_partitioner.hpp"
@@ -41,7 +41,9 @@ struct coarse_model {
 class comparison {
 public:
   comparison(const coarse_model& coarse, int subdomains) : coarse_(coarse), subdomains_(subdomains) {
-    const auto on_curves = detail::edges_on_curves(coarse.mesh.surface);
+    std::vector<simplex<1>> on_curves;
+    for (const auto& edge : coarse.mesh.surface.curve_edges)
+      on_curves.push_back(edge.vertices);
     const auto add = [&](const auto& rule) {
       simplified_.push_back(
           simplify_coupled({coarse.mesh.surface.mesh, {.fixed_sides = span_of(on_curves)}},
