@@ -17,7 +17,8 @@ struct my_graph {
 #if NEAR_MISS == 3
   void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::dihedral_id)) const;
 #else
-  void for_each_joint(dovetail::local_id side, void (&visit)(dovetail::dihedral_id, dovetail::dihedral_id)) const;
+  void for_each_joint(dovetail::local_id side,
+                      void (&visit)(dovetail::dihedral_id, dovetail::dihedral_id)) const;
 #endif
 };
 
