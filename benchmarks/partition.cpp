@@ -3,6 +3,7 @@
 /// Usage: partition [subdomains (default 32)] [background elements (default 75000)] [models...]
 /// Models are names of built-in ones or CAD files; by default the aircraft and, when DOVETAIL_SHARED is set,
 /// models/linkrods.step in that folder.
+#include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/geometry/builtin_models.hpp"
 #include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/partition/greedy.hpp"
