@@ -22,6 +22,7 @@
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/pipeline/model_measure.hpp"
 
 #include <algorithm>
 #include <array>
@@ -244,6 +245,9 @@ private:
 
   void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
     generated<D> result = generate(source, folder);
+    if constexpr (D == 3)
+      if (source.volume && result.failures.empty())
+        compare_volume(result.mesh.skeleton, source.volume(), result.summary);
     describe(source, result);
     if (!result.failures.empty()) {
       finish();

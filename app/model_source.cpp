@@ -46,6 +46,13 @@ bool is_drawing(const std::filesystem::path& file) {
   return ending == ".svg" || ending == ".txt";
 }
 
+/// A model with what reading and healing report, and what tells its volume.
+struct read_geometry {
+  any_geometry geometry;
+  report summary;
+  std::function<std::optional<double>()> volume;
+};
+
 /// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
 any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
   if (dimension != 2)
@@ -59,14 +66,12 @@ any_geometry plane_geometry(const std::filesystem::path& file, int dimension) {
 }
 
 /// Triangles may be meshed with triangles even where they enclose nothing.
-any_geometry triangle_geometry(const std::filesystem::path& file, int dimension, report& summary) {
-  discrete_model model = read_discrete_model(file, {.allow_sheets = dimension == 2});
-  summary = model.repairs();
-  return any_geometry(std::move(model));
+read_geometry triangle_geometry(const std::filesystem::path& file, int dimension) {
+  const discrete_model model = read_discrete_model(file, {.allow_sheets = dimension == 2});
+  return {any_geometry(model), model.repairs(), [model] { return model.volume(); }};
 }
 
-any_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension,
-                          report& summary) {
+read_geometry cad_geometry(const std::filesystem::path& file, const model_options& options, int dimension) {
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(file, unknown);
   const double megabytes = unknown ? 0 : 1e-6 * static_cast<double>(bytes);
@@ -76,19 +81,17 @@ any_geometry cad_geometry(const std::filesystem::path& file, const model_options
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
   auto read = read_occt_model(file, {.unit = unit, .entities = entities});
-  summary = std::move(read.report);
-  return any_geometry(std::move(read.model));
+  return {any_geometry(read.model), std::move(read.report), [model = read.model] { return model.volume(); }};
 }
 
-/// `summary` receives what reading and healing report.
-any_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options, int dimension,
-                              report& summary) {
+read_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options,
+                               int dimension) {
   try {
     if (is_drawing(file))
-      return plane_geometry(file, dimension);
+      return {plane_geometry(file, dimension), {}, {}};
     if (!triangle_format_of(file).empty())
-      return triangle_geometry(file, dimension, summary);
-    return cad_geometry(file, options, dimension, summary);
+      return triangle_geometry(file, dimension);
+    return cad_geometry(file, options, dimension);
   } catch (const std::bad_alloc&) {
     throw error(file.string() +
                 ": out of memory while the model was read; allow more, if there is a limit to "
@@ -99,7 +102,7 @@ any_geometry geometry_of_file(const std::filesystem::path& file, const model_opt
 /// The built-in model's own sizes; a size given scales all of them.
 model_source builtin_source(const std::string& name, const given_sizes& sizes) {
   auto built = builtin_model(name);
-  any_geometry geometry(std::move(built.model));
+  any_geometry geometry(built.model);
   const box3 domain = geometry.bounds();
   std::string meshes;
   any_sizing size;
@@ -115,6 +118,7 @@ model_source builtin_source(const std::string& name, const given_sizes& sizes) {
   model_source source{name, std::move(geometry), std::move(size), std::move(built.report)};
   source.sizing_meshes = std::move(meshes);
   source.own_size = built.size;
+  source.volume = [model = std::move(built.model)] { return model.volume(); };
   return source;
 }
 
@@ -126,9 +130,8 @@ std::string checksum_if_file(const std::filesystem::path& path) {
 
 model_source file_source(const model_options& options, const given_sizes& sizes, int dimension) {
   const std::filesystem::path file = options.input;
-  report summary;
   const std::string checksum = checksum_if_file(file);
-  any_geometry geometry = geometry_of_file(file, options, dimension, summary);
+  auto [geometry, summary, volume] = geometry_of_file(file, options, dimension);
   if (checksum_if_file(file) != checksum)
     throw geometry_error(file.string() + ": the file was changed while it was read; run again");
   const box3 domain = geometry.bounds();
@@ -142,6 +145,7 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
     size = sizes.field(domain, &geometry, &meshes);
   model_source source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
   source.file = checksum;
+  source.volume = std::move(volume);
   source.sizing_meshes = std::move(meshes);
   return source;
 }

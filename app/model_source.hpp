@@ -9,6 +9,7 @@
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/erased.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -44,10 +45,11 @@ struct model_source {
   std::string name; ///< for the summary
   any_geometry geometry;
   any_sizing size;
-  report summary;                   ///< of reading and healing
-  std::string file{};               ///< checksum of what was read of the model; empty for a built-in one
-  std::string sizing{};             ///< of the text of the sizing file; empty without one
-  std::string sizing_meshes{};      ///< of the meshes that it names; empty when it names none
+  report summary;              ///< of reading and healing
+  std::string file{};          ///< checksum of what was read of the model; empty for a built-in one
+  std::string sizing{};        ///< of the text of the sizing file; empty without one
+  std::string sizing_meshes{}; ///< of the meshes that it names; empty when it names none
+  std::function<std::optional<double>()> volume{}; ///< of the model; empty where it does not know it
   std::optional<double> own_size{}; ///< the ambient size of a built-in model, which a given size scales
 };
 

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -73,6 +74,19 @@ public:
   local_id face_id(local_id f) const { return data_->face_ids[index(f)]; }
   /// The triangles, split where charts end; `chart_of` is the face of each.
   const charted_surface& surface() const { return data_->surface; }
+
+  /// The volume of all solids, exactly.
+  std::optional<double> volume() const {
+    const charted_surface& s = data_->surface;
+    const vec3 origin = data_->bounds.center();
+    double sum = 0;
+    for (std::size_t t = 0; t < s.mesh.elements.size(); ++t) {
+      const auto& v = s.mesh.elements[t];
+      const double cone = signed_volume(origin, mesh_point(v[0]), mesh_point(v[1]), mesh_point(v[2]));
+      sum += (s.solid_of[t] != no_id ? cone : 0) - (s.front_of[t] != no_id ? cone : 0);
+    }
+    return sum;
+  }
 
   /// The parameters of a curve's corners, where edges of triangles meet: ascending.
   std::span<const double> lengths_along(local_id c) const { return span_of(data_->curves[index(c)].lengths); }

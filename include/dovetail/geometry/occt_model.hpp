@@ -54,6 +54,8 @@ public:
   double project_to_curve(local_id c, vec3 p, double seed) const;
   /// The plane that a face lies in, if all its curves are in it too; meshers then evaluate it themselves.
   std::optional<surface_frame> plane_of_face(local_id f) const;
+  /// The volume of all solids, which OCCT integrates over their faces; nothing when it fails.
+  std::optional<double> volume() const;
 
 private:
   vec3 pole(local_id c) const;

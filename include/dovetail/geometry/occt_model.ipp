@@ -9,6 +9,7 @@
 #include "dovetail/geometry/occt_heal.hpp"
 #include "dovetail/geometry/occt_model.hpp"
 #include "dovetail/geometry/occt_read.hpp"
+#include "dovetail/geometry/occt_repair.hpp"
 
 #include <algorithm>
 #include <array>
@@ -158,6 +159,17 @@ DOVETAIL_INLINE_OCCT double occt_model::project_to_curve(local_id c, vec3 p, dou
   if (curve.degenerate)
     return std::clamp(seed, curve.t[0], curve.t[1]);
   return occt::query("curve", c, [&] { return occt::nearest_parameter(own_->curve(c), curve.t, p, seed); });
+}
+
+DOVETAIL_INLINE_OCCT std::optional<double> occt_model::volume() const {
+  try {
+    double sum = 0;
+    for (const TopoDS_Solid& solid : data_->solids)
+      sum += std::abs(occt::volume_of(solid));
+    return sum;
+  } catch (const Standard_Failure&) {
+    return std::nullopt;
+  }
 }
 
 DOVETAIL_INLINE_OCCT std::optional<surface_frame> occt_model::plane_of_face(local_id f) const {

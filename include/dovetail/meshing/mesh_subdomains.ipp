@@ -243,6 +243,7 @@ private:
             merge_deviations(deviation, child);
       }
     }
+    warn_of_deviations(summary, deviation);
     if (!deviation.children.empty())
       summary.children.push_back(std::move(deviation));
   }

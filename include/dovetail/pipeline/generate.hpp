@@ -11,6 +11,7 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/model_measure.hpp"
 
 #include <vector>
 
@@ -48,8 +49,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 ///
 /// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
 /// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could
-/// mesh is data. Where too many subdomains would have to be merged, half as many are made, which a warning
-/// tells.
+/// mesh is data. The report warns of faces that the mesh is further from than sizes explain, and where the
+/// model knows its `volume()` of a volume that differs by more than lies between. Where too many subdomains
+/// would have to be merged, half as many are made, which a warning tells.
 template <int D, geometry_model G, sizing_field H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {
@@ -57,7 +59,10 @@ generated<D> generate(const G& given_model, const H& given_size, const Parameter
     const any_geometry model(given_model);
     const erased_sizing size(given_size);
     const any_parameters<D> given(policies);
-    return generate_from_background<D>(model, make_background<D>(model, size, given), given);
+    auto result = generate_from_background<D>(model, make_background<D>(model, size, given), given);
+    if constexpr (D == 3 && requires { given_model.volume(); })
+      compare_volume(result.mesh.skeleton, given_model.volume(), result.summary);
+    return result;
   }
 }
 

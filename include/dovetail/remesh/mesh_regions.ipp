@@ -204,10 +204,9 @@ private:
         [&](std::size_t r, const patch_mesh& mesh) {
           const auto labels = std::as_const(result_.labels)[r];
           store_.known[result_.keys[r]] = {
-              mesh.inner_points.size(),
-              mesh.triangles.size(),
+              mesh.inner_points.size(), mesh.triangles.size(),
               !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
-              {mesh.summary.get("points"), mesh.summary.get("centres")},
+              deviation_in(mesh.summary),
               chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
         });
   }
@@ -222,6 +221,8 @@ private:
       const surface_deviation off = measure_deviation(surface, region.boundary, made, size);
       made.summary.set("points", off.points);
       made.summary.set("centres", off.centres);
+      made.summary.set("cut_off", off.cut_off);
+      made.summary.set("gap", off.gap);
     }
     if (!options_.parameters)
       made.inner_uv.clear();

@@ -124,6 +124,7 @@ private:
           result.patches.failures.push_back(failure_of(p, mesh));
         });
     result.patches.keys = std::move(meshed_.keys);
+    warn_of_deviations(result.summary, deviation);
     result.summary.children.push_back(std::move(deviation));
     return result;
   }
