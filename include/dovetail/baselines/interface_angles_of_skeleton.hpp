@@ -22,8 +22,13 @@ inline interface_angles angles_of_interfaces(const fine_skeleton& fine, const an
   std::vector<triangle_origin> origins;
   for (std::size_t s = 0; s < fine.sides.size(); ++s)
     origins.push_back(is_interface(fine, s) ? triangle_origin::kept : triangle_origin::cad);
-  auto angles = measure_interface_angles(
-      {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)}, threshold_deg);
+  auto angles = measure_interface_angles({span_of(fine.points),
+                                          span_of(fine.sides),
+                                          span_of(fine.subdomains),
+                                          span_of(origins),
+                                          {},
+                                          mesh_state::valid},
+                                         threshold_deg);
   find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
               size, threshold_deg);
   return angles;

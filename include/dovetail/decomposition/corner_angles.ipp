@@ -2,6 +2,7 @@
 /// What `corner_angles.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/corner_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
@@ -12,7 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace dovetail {
@@ -23,7 +26,14 @@ namespace detail {
 class corner_checker {
 public:
   corner_checker(const corner_angles_input& input, double threshold_deg)
-      : in_(input), threshold_(threshold_deg - rounding_deg) {}
+      : in_(input), threshold_(threshold_deg - rounding_deg) {
+    require_valid_unless(in_.mesh_is, in_.mesh, in_.sides, "measure_corner_angles");
+    if (in_.side_states.size() != in_.sides.size())
+      throw usage_error("measure_corner_angles: " + std::to_string(in_.side_states.size()) + " states for " +
+                        std::to_string(in_.sides.size()) + " sides; give one each");
+    require_one_per_element(in_.part_of_element, in_.mesh.elements.size(),
+                            std::numeric_limits<local_id>::max(), "measure_corner_angles", "parts");
+  }
 
   interface_angles run() {
     for (std::size_t s = 0; s < in_.sides.size(); ++s)

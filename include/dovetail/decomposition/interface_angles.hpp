@@ -6,6 +6,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/subdomain_boundary.hpp"
 
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
@@ -45,6 +46,7 @@ struct interface_angles_input {
   /// Of the edges whose wedges are measured: 3 t + k for side k of triangle t, all of an edge or none. All
   /// edges when it is empty.
   std::span<const std::uint32_t> half_edges = {};
+  mesh_state mesh_is = mesh_state::unknown; ///< `valid`: the triangles need not be looked at
 };
 
 /// An angle under the threshold.
@@ -96,7 +98,9 @@ std::vector<triangle_origin> triangle_origins(const subdomain_boundary_sides<3>&
                                               std::span<const side_state> side_states);
 
 /// Measures the interface angles. About linear in the number of triangles. Throws `usage_error` when the
-/// spans do not match.
+/// spans do not match, and `mesh_error` for points that do not exist or are not finite, for a triangle that
+/// is flat or there twice, and where the subdomains around an edge contradict each other since a triangle is
+/// turned over.
 interface_angles measure_interface_angles(const interface_angles_input& input, double threshold_deg = 30);
 
 } // namespace dovetail

@@ -19,6 +19,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -34,6 +35,8 @@ public:
       throw usage_error("interface angles: " + std::to_string(in_.triangles.size()) + " triangles, but " +
                         std::to_string(in_.subdomains.size()) + " pairs of subdomains and " +
                         std::to_string(in_.origins.size()) + " origins");
+    if (in_.mesh_is == mesh_state::unknown)
+      require_triangles();
   }
 
   interface_angles run() {
@@ -71,6 +74,51 @@ private:
     local_id after;  ///< on the counter-clockwise side
   };
 
+  void require_triangles() const {
+    constexpr std::string_view who = "measure_interface_angles";
+    require_finite(in_.points, who);
+    for (std::size_t t = 0; t < in_.triangles.size(); ++t) {
+      const auto& vertices = in_.triangles[t];
+      const std::string triangle =
+          "triangle " + std::to_string(t) + " (points " + listed_points(vertices) + ")";
+      for (const local_id v : vertices)
+        if (v < 0 || static_cast<std::size_t>(v) >= in_.points.size())
+          refuse_mesh(who, triangle + " refers to point " + std::to_string(v) + ", but there are " +
+                               std::to_string(in_.points.size()) + " points");
+      if (collinear(at(vertices[0]), at(vertices[1]), at(vertices[2])))
+        refuse_mesh(who, triangle + " is flat: its area is 0; remove it or move a point of it");
+    }
+    for (const std::uint32_t h : in_.half_edges)
+      if (h / 3 >= in_.triangles.size())
+        throw usage_error("measure_interface_angles: there is no half edge " + std::to_string(h) + " of " +
+                          std::to_string(in_.triangles.size()) + " triangles");
+  }
+
+  /// Of the flaps at an edge: those in one direction are not one triangle twice, and what is behind one of
+  /// them is what is before the next, unless they are so close that rounding may have swapped them.
+  void require_flaps(const std::array<local_id, 2>& edge) const {
+    constexpr double rounding = 1e-9;
+    for (std::size_t k = 0; k < flaps_.size(); ++k) {
+      const flap& here = flaps_[k];
+      const flap& next = flaps_[(k + 1) % flaps_.size()];
+      const double turn =
+          next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
+      if (turn < rounding && sorted_vertices(in_.triangles[static_cast<std::size_t>(here.triangle)]) ==
+                                 sorted_vertices(in_.triangles[static_cast<std::size_t>(next.triangle)]))
+        refuse_mesh("measure_interface_angles",
+                    "triangle " + std::to_string(next.triangle) + " has the same points (" +
+                        listed_points(in_.triangles[static_cast<std::size_t>(here.triangle)]) +
+                        ") as triangle " + std::to_string(here.triangle) + "; remove one of them");
+      if (here.after != next.before && turn > rounding && turn < 2 * std::numbers::pi - rounding)
+        refuse_mesh("measure_interface_angles",
+                    "between the triangles " + std::to_string(here.triangle) + " and " +
+                        std::to_string(next.triangle) + " at the edge (" + listed_points(edge) +
+                        ") there is subdomain " + std::to_string(here.after) + " by one and " +
+                        std::to_string(next.before) +
+                        " by the other; orient each triangle outwards of its first subdomain");
+    }
+  }
+
   bool is_cad(local_id t) const { return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::cad; }
   bool is_refused(local_id t) const {
     return in_.origins[static_cast<std::size_t>(t)] == triangle_origin::refused;
@@ -103,6 +151,8 @@ private:
     if (all_cad || half_edges.size() < 2)
       return;
     collect_flaps(edge, half_edges);
+    if (in_.mesh_is == mesh_state::unknown)
+      require_flaps(edge);
     for (std::size_t k = 0; k < flaps_.size(); ++k) {
       const flap& here = flaps_[k];
       const flap& next = flaps_[(k + 1) % flaps_.size()];

@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/graph/require_valid_graph.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -63,6 +64,7 @@ inline void require_partitionable(local_id nodes, std::span<const double> weight
                             std::to_string(weights[v]) + "; weights must be finite and not negative");
 }
 inline void require_partitionable(const csr_graph& graph, int parts) {
+  require_valid_graph(graph);
   require_partitionable(graph.node_count(), graph.node_weights, parts);
 }
 

@@ -265,9 +265,13 @@ private:
       origins.push_back(fine.side_hosts[s] != no_id || fine.subdomains[s][1] == no_id ? triangle_origin::cad
                         : migrated_.avoided[s] != 0 ? triangle_origin::refused
                                                     : triangle_origin::kept);
-    const interface_angles angles = measure_interface_angles(
-        {span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains), span_of(origins)},
-        given_.interface_angle_deg);
+    const interface_angles angles = measure_interface_angles({span_of(fine.points),
+                                                              span_of(fine.sides),
+                                                              span_of(fine.subdomains),
+                                                              span_of(origins),
+                                                              {},
+                                                              mesh_state::valid},
+                                                             given_.interface_angle_deg);
     to.set("min_face_angle_deg", angles.face_angle.angle_deg);
     to.set("min_wedge_deg", angles.min_wedge_deg());
     to.set("small_angles", static_cast<double>(angles.violations.size()));

@@ -36,9 +36,10 @@ simplification simplify_background(const simplicial_background<D>& mesh, const s
                                    const any_simplification_rule& rule, report& summary,
                                    const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto simplified =
-      simplify<D>(mesh.surface.mesh, sides, rule,
-                  {.fixed_sides = span_of(on_curves), .element_weights = weights}, bound, on_progress);
+  auto simplified = simplify<D>(
+      mesh.surface.mesh, sides, rule,
+      {.fixed_sides = span_of(on_curves), .element_weights = weights, .mesh_is = mesh_state::valid}, bound,
+      on_progress);
   summary = simplified.summary;
   return simplified;
 }
@@ -50,9 +51,10 @@ simplification simplify_background(const simplicial_background<D>& mesh, const s
                                    const any_simplification_rule& rule, report& summary,
                                    const progress& on_progress) {
   const auto on_curves = edges_on_curves(mesh.surface);
-  auto coupled =
-      simplify_coupled(mesh.surface.mesh, mesh.volume, sides, rule,
-                       {.curve_edges = span_of(on_curves), .element_weights = weights}, bound, on_progress);
+  auto coupled = simplify_coupled(
+      mesh.surface.mesh, mesh.volume, sides, rule,
+      {.curve_edges = span_of(on_curves), .element_weights = weights, .meshes_are = mesh_state::valid}, bound,
+      on_progress);
   summary = std::move(coupled.summary);
   return std::move(coupled.volume);
 }
@@ -62,11 +64,14 @@ inline interface_angles coarse_interface_angles(const simplicial_background<3>& 
                                                 std::span<const side_state> side_states,
                                                 std::span<const local_id> subdomain_of_element,
                                                 const any_sizing& size, const generate_options& options) {
-  const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element);
+  const auto boundary = subdomain_boundary<3>(mesh.volume, sides, subdomain_of_element, mesh_state::valid);
   const auto origins = triangle_origins(boundary, side_states);
-  auto angles = measure_interface_angles(
-      {span_of(mesh.volume.points), span_of(boundary.sides), span_of(boundary.subdomains), span_of(origins)},
-      options.interface_angle_deg);
+  auto angles = measure_interface_angles({.points = span_of(mesh.volume.points),
+                                          .triangles = span_of(boundary.sides),
+                                          .subdomains = span_of(boundary.subdomains),
+                                          .origins = span_of(origins),
+                                          .mesh_is = mesh_state::valid},
+                                         options.interface_angle_deg);
   const auto on_curves = edges_on_curves(mesh.surface);
   std::vector<local_id> curves;
   for (const auto& edge : mesh.surface.curve_edges)
@@ -82,8 +87,9 @@ inline interface_angles coarse_interface_angles(const simplicial_background<2>& 
                                                 std::span<const side_state> side_states,
                                                 std::span<const local_id> subdomain_of_element,
                                                 const any_sizing&, const generate_options& options) {
-  return measure_corner_angles({mesh.surface.mesh, sides, side_states, subdomain_of_element},
-                               options.surface_angle_deg);
+  return measure_corner_angles(
+      {mesh.surface.mesh, sides, side_states, subdomain_of_element, {}, mesh_state::valid},
+      options.surface_angle_deg);
 }
 
 /// Of the edges at which a wedge may be small: not those inside of a plane interface face, nor those inside
@@ -119,7 +125,7 @@ inline interface_angles fine_interface_angles(const realized<3>& skeleton, const
   const fine_skeleton& fine = skeleton.fine;
   const std::vector<std::uint32_t> half_edges = half_edges_that_matter(skeleton);
   auto angles = measure_interface_angles({span_of(fine.points), span_of(fine.sides), span_of(fine.subdomains),
-                                          span_of(origins), span_of(half_edges)},
+                                          span_of(origins), span_of(half_edges), mesh_state::valid},
                                          options.interface_angle_deg);
   find_forced(angles, fine.sides, {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves},
               size, options.interface_angle_deg);
@@ -140,9 +146,9 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
     const auto& points = skeleton.lines.points;
     return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
   };
-  auto angles =
-      measure_corner_angles({mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves},
-                            options.surface_angle_deg);
+  auto angles = measure_corner_angles(
+      {mesh.surface.mesh, sides, side_states, skeleton.subdomain_of_element, leaves, mesh_state::valid},
+      options.surface_angle_deg);
   const auto& fine = skeleton.fine;
   angles.interface_faces = 0;
   for (std::size_t e = 0; e < fine.sides.size(); ++e)

@@ -52,6 +52,7 @@ public:
         bound_(heaviest_allowed(bound)), on_progress_(on_progress) {
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
+    require_graphs();
     require_judgement();
   }
 
@@ -127,6 +128,17 @@ private:
     return weights;
   }
 
+  /// Before a rule is blamed for what comes of them.
+  void require_graphs() const {
+    for (std::size_t e = 0; e < weights_.size(); ++e)
+      if (!(weights_[e] >= 0) || !std::isfinite(weights_[e]))
+        throw usage_error("contraction: element " + std::to_string(e) + " has the weight " +
+                          std::to_string(weights_[e]) + "; weights must be finite and not negative");
+    for (wedge_id w = 0; w < runs_.wedge_count(); ++w)
+      if (!std::isfinite(runs_.angle(w)))
+        throw usage_error("contraction: the side-dual graph gives wedge " + std::to_string(w) +
+                          " the angle " + std::to_string(runs_.angle(w)) + "; angles must be finite");
+  }
   /// The orders of sides and wedges are none where something is not a number.
   void require_judgement() const {
     require_one_each(judged_, fixed_.size());
@@ -302,7 +314,8 @@ private:
 ///
 /// Afterwards every wedge under `judged.wanted_angle_deg`, measured across super-elements, lies between two
 /// fixed sides or touches a refused one. Deterministic: ties break by side and wedge number. Complexity: n
-/// log n in the number of small wedges. Throws `usage_error` for a wrong number of qualities, and for what a
+/// log n in the number of small wedges. Throws `usage_error` for weights and angles of the graphs that
+/// are no numbers, for a wrong number of qualities, and for what a
 /// rule says that is not a number or negative, `cancelled` when `on_progress` asks to stop.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 simplification contract_bounded(const Elements& elements, const Sides& sides, const side_judgement& judged,

@@ -7,6 +7,7 @@
 #include "dovetail/graph/concepts.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/simplification/dual_graphs.hpp"
 
 #include <algorithm>
@@ -69,7 +70,12 @@ class side_dual {
 public:
   static constexpr std::size_t wedges_per_element = numbering::ridges<D>.size();
 
-  side_dual(const simplicial_mesh<D>& mesh, const side_table<D>& sides) : mesh_(&mesh), sides_(&sides) {}
+  /// Throws `mesh_error` when `require_valid` refuses the mesh, unless it is known to be valid.
+  side_dual(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+            mesh_state mesh_is = mesh_state::unknown)
+      : mesh_(&mesh), sides_(&sides) {
+    detail::require_valid_unless(mesh_is, mesh, sides, "side_dual");
+  }
 
   std::size_t side_count() const { return sides_->size(); }
   std::vector<double> angles() const {

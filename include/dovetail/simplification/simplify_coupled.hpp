@@ -5,7 +5,9 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
+#include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,12 +51,33 @@ struct coupled_constraints {
   std::span<const simplex<1>> curve_edges = {}; ///< surface edges on CAD curves, as surface points
   std::span<const local_id> volume_point = {};  ///< the volume's number of each surface point; empty: equal
   std::span<const double> element_weights = {}; ///< predicted final elements per tetrahedron; empty: 1
+  mesh_state meshes_are = mesh_state::unknown;  ///< `valid`: `require_valid` has seen both
 };
+
+namespace detail {
+
+/// Throws `usage_error` for a point of the surface that is none of the volume.
+inline void require_surface_points(const coupled_constraints& given, const simplicial_mesh<2>& surface,
+                                   const simplicial_mesh<3>& volume) {
+  if (given.volume_point.empty())
+    return;
+  if (given.volume_point.size() != surface.points.size())
+    throw usage_error("simplify_coupled: " + std::to_string(given.volume_point.size()) +
+                      " points of the volume for " + std::to_string(surface.points.size()) +
+                      " points of the surface; give one each or none");
+  for (std::size_t v = 0; v < given.volume_point.size(); ++v)
+    if (given.volume_point[v] < 0 || static_cast<std::size_t>(given.volume_point[v]) >= volume.points.size())
+      throw usage_error("simplify_coupled: point " + std::to_string(v) + " of the surface is point " +
+                        std::to_string(given.volume_point[v]) + " of the volume, which has " +
+                        std::to_string(volume.points.size()));
+}
+
+} // namespace detail
 
 /// Simplifies the surface, then the volume such that what the rule couples to removed and refused surface
 /// edges is done: the paper's removes all interior faces at a removed edge and penalises those at a refused
 /// one. `surface` consists of the boundary and the material faces of `volume`; `sides` is
-/// `build_sides(volume)`.
+/// `build_sides(volume)`. Throws what `simplify` throws.
 template <class Rule>
   requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3> coupled_simplification
   simplify_coupled(const simplicial_mesh<2>& surface, const simplicial_mesh<3>& volume,
@@ -63,13 +86,19 @@ template <class Rule>
     const stopwatch time;
     coupled_simplification out;
     const side_table<2> edges = build_sides(surface);
-    out.surface = simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges}, bound, on_progress);
+    detail::require_valid_unless(given.meshes_are, volume, sides, "simplify_coupled");
+    detail::require_surface_points(given, surface, volume);
+    out.surface =
+        simplify<2>(surface, edges, rule, {.fixed_sides = given.curve_edges, .mesh_is = given.meshes_are},
+                    bound, on_progress);
     out.surface.summary.name = "surface";
     const side_judgement judged = rule(surface, edges);
     detail::require_one_each(judged, edges.size());
     const auto ridges = coupled_ridges(edges, out.surface, span_of(judged.quality), rule, given.volume_point);
     out.volume = simplify<3>(volume, sides, rule,
-                             {.coupled_ridges = span_of(ridges), .element_weights = given.element_weights},
+                             {.coupled_ridges = span_of(ridges),
+                              .element_weights = given.element_weights,
+                              .mesh_is = given.meshes_are},
                              bound, on_progress);
     out.volume.summary.name = "volume";
     out.summary.name = "simplification";

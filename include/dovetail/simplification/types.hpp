@@ -4,6 +4,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex.hpp"
 #include "dovetail/simplification/concepts.hpp"
@@ -43,6 +44,7 @@ struct simplify_constraints {
   std::span<const simplex<D - 1>> fixed_sides = {};      ///< in any order of vertices
   std::span<const coupled_ridge<D>> coupled_ridges = {}; ///< all interior sides there are removed
   std::span<const double> element_weights = {};          ///< predicted final elements; empty: 1 each
+  mesh_state mesh_is = mesh_state::unknown;              ///< `valid`: `require_valid` has seen it
 };
 
 /// A side that the bound refused, and what it falls short of: of its own quality, or a wedge it bounds.
