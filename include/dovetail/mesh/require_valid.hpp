@@ -47,7 +47,9 @@ std::string listed_points(const std::array<local_id, N>& vertices) {
 }
 
 inline std::string place_text(vec3 p) {
-  return "(" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + ")";
+  std::string text = "(";
+  text.append(number_text(p.x)).append(", ").append(number_text(p.y)).append(", ").append(number_text(p.z));
+  return text += ")";
 }
 
 inline bool is_finite(vec3 p) {
