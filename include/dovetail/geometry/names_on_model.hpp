@@ -232,6 +232,9 @@ inline model_names names_on_model(const any_geometry& model, const surface_mesh&
   detail::number_votes ids("face", "id", topology.faces.size());
   detail::number_votes materials("solid", "material", topology.solids.size());
   detail::strays strays;
+  const auto id_of = [&](local_id group) {
+    return group == no_id ? no_id : old.group_numbers[static_cast<std::size_t>(group)];
+  };
   detail::for_each_sample(model, coarse, surface.mean_longest_edge(), [&](const detail::face_sample& at) {
     const auto [behind, front] = topology.faces[static_cast<std::size_t>(at.face)].solids;
     if (behind == no_id && front == no_id)
@@ -244,7 +247,7 @@ inline model_names names_on_model(const any_geometry& model, const surface_mesh&
     if (stray)
       return;
     const std::size_t t = found.triangle;
-    ids.add(at.face, old.groups[t], at.area);
+    ids.add(at.face, id_of(old.groups[t]), at.area);
     const auto& v = old.mesh.elements[t];
     const auto corner = [&](std::size_t k) { return old.mesh.points[static_cast<std::size_t>(v[k])]; };
     const bool same_way = dot(cross(corner(1) - corner(0), corner(2) - corner(0)), at.normal) > 0;
@@ -265,11 +268,8 @@ inline model_names names_on_model(const any_geometry& model, const surface_mesh&
       throw mesh_error(
           "the model's solid " + std::to_string(s) +
           " has no elements in the mesh; give the model that it was made of, or adapt without one");
-  std::vector<local_id> given = old.groups;
-  sort_unique(given);
-  for (const local_id id : given)
-    if (id != no_id &&
-        std::find(names.id_of_face.begin(), names.id_of_face.end(), id) == names.id_of_face.end())
+  for (const local_id id : old.group_numbers)
+    if (std::find(names.id_of_face.begin(), names.id_of_face.end(), id) == names.id_of_face.end())
       throw mesh_error("no face of the model has the id " + std::to_string(id) +
                        " that sides of the mesh have; adapt without the model, which keeps it");
   return names;

@@ -76,7 +76,7 @@ std::vector<coupled_side> sides_at_ridges(const side_table<D>& sides, std::size_
 
 /// Simplifies a mesh by a rule. `sides` is `build_sides(mesh)`. Sides between elements of different tags are
 /// fixed. For the rest see `contract_bounded`. Throws `mesh_error` when `require_valid` refuses the mesh,
-/// which takes about a hundredth of the time, and `usage_error` for a wrong number of weights.
+/// which takes about a tenth of the time, and `usage_error` for a wrong number of weights.
 template <int D, simplification_rule<D> Rule>
 simplification simplify(const simplicial_mesh<D>& mesh, const side_table<D>& sides, const Rule& rule,
                         const simplify_constraints<D>& given = {}, const contraction_bound& bound = {},
