@@ -109,7 +109,9 @@ private:
                     "triangle " + std::to_string(next.triangle) + " has the same points (" +
                         listed_points(in_.triangles[static_cast<std::size_t>(here.triangle)]) +
                         ") as triangle " + std::to_string(here.triangle) + "; remove one of them");
-      if (here.after != next.before && turn > rounding && turn < 2 * std::numbers::pi - rounding)
+      // Nothing behind one is where the triangles are only some of a skeleton's.
+      if (here.after != no_id && next.before != no_id && here.after != next.before && turn > rounding &&
+          turn < 2 * std::numbers::pi - rounding)
         refuse_mesh("measure_interface_angles",
                     "between the triangles " + std::to_string(here.triangle) + " and " +
                         std::to_string(next.triangle) + " at the edge (" + listed_points(edge) +
