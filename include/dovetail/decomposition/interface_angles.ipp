@@ -94,30 +94,31 @@ private:
                           std::to_string(in_.triangles.size()) + " triangles");
   }
 
-  /// Of the flaps at an edge: those in one direction are not one triangle twice, and what is behind one of
-  /// them is what is before the next, unless they are so close that rounding may have swapped them.
+  /// Of the flaps at an edge those in one direction are not one triangle twice, and none is turned over: on
+  /// both of its sides there would be what its neighbours have there if it were not. Where the triangles are
+  /// only some of a skeleton's, others may be missing on one side.
   void require_flaps(const std::array<local_id, 2>& edge) const {
     constexpr double rounding = 1e-9;
-    for (std::size_t k = 0; k < flaps_.size(); ++k) {
+    const std::size_t count = flaps_.size();
+    const auto points = [&](const flap& f) { return in_.triangles[static_cast<std::size_t>(f.triangle)]; };
+    for (std::size_t k = 0; k < count; ++k) {
+      const flap& before = flaps_[(k + count - 1) % count];
       const flap& here = flaps_[k];
-      const flap& next = flaps_[(k + 1) % flaps_.size()];
-      const double turn =
-          next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
-      if (turn < rounding && sorted_vertices(in_.triangles[static_cast<std::size_t>(here.triangle)]) ==
-                                 sorted_vertices(in_.triangles[static_cast<std::size_t>(next.triangle)]))
+      const flap& next = flaps_[(k + 1) % count];
+      const auto name = [&] {
+        return "triangle " + std::to_string(here.triangle) + " (points " + listed_points(points(here)) + ")";
+      };
+      if (k + 1 < count && next.direction - here.direction < rounding &&
+          sorted_vertices(points(here)) == sorted_vertices(points(next)))
+        refuse_mesh("measure_interface_angles", name() + " has the same points as triangle " +
+                                                    std::to_string(next.triangle) + "; remove one of them");
+      if (here.before != here.after && before.after == here.after && next.before == here.before)
         refuse_mesh("measure_interface_angles",
-                    "triangle " + std::to_string(next.triangle) + " has the same points (" +
-                        listed_points(in_.triangles[static_cast<std::size_t>(here.triangle)]) +
-                        ") as triangle " + std::to_string(here.triangle) + "; remove one of them");
-      // Nothing behind one is where the triangles are only some of a skeleton's.
-      if (here.after != no_id && next.before != no_id && here.after != next.before && turn > rounding &&
-          turn < 2 * std::numbers::pi - rounding)
-        refuse_mesh("measure_interface_angles",
-                    "between the triangles " + std::to_string(here.triangle) + " and " +
-                        std::to_string(next.triangle) + " at the edge (" + listed_points(edge) +
-                        ") there is subdomain " + std::to_string(here.after) + " by one and " +
-                        std::to_string(next.before) +
-                        " by the other; orient each triangle outwards of its first subdomain");
+                    name() + " or its neighbours are turned over: at the edge (" + listed_points(edge) +
+                        ") subdomain " + std::to_string(here.before) + " is on its one side and " +
+                        std::to_string(here.after) +
+                        " on the other, and they have them the other way round; orient each "
+                        "triangle outwards of its first subdomain");
     }
   }
 
