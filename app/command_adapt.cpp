@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
+#include "finished_run.hpp"
 #include "mesh_files.hpp"
 #include "model_source.hpp"
 #include "pipeline.hpp"
@@ -70,6 +71,41 @@ io::loaded_mesh named(adaptable_mesh<D> made, const io::loaded_mesh& old) {
   return whole;
 }
 
+/// What is meshed again.
+struct chosen_model {
+  std::string file_or_name; ///< empty: the boundary of the mesh
+  std::string unit = "mm";
+  bool was_asked_for = false;
+  std::string said; ///< of it, for the summary
+  std::vector<std::string> warnings = {};
+
+  void take_boundary() {
+    file_or_name.clear();
+    said = "on the boundary of the mesh; --model FILE takes the model that it is a mesh of";
+  }
+};
+
+chosen_model model_for(const adapt_options& options) {
+  chosen_model chosen;
+  chosen.take_boundary();
+  if (options.model == "none") {
+    chosen.said = "on the boundary of the mesh";
+  } else if (!options.model.empty()) {
+    chosen = {options.model, options.unit, true, "on the model " + options.model};
+  } else if (const auto recorded = model_of_run_beside(options.input)) {
+    const std::string of_run = ", which the run that made " + options.input + " names";
+    if (recorded->file.empty())
+      chosen = {recorded->name, "mm", false, "on the built-in model " + recorded->name + of_run};
+    else if (recorded->is_as_it_was)
+      chosen = {recorded->file.string(), recorded->unit, false,
+                "on the model " + recorded->file.string() + of_run};
+    else
+      chosen.warnings.push_back(recorded->file.string() + of_run +
+                                ", is not there or has changed since, so that it is not used; give --model");
+  }
+  return chosen;
+}
+
 template <int D>
 class adapt_run {
 public:
@@ -92,7 +128,8 @@ public:
       parameters_.on_progress.stop_requested = stop_was_requested;
     parameters_.largest_prediction = most_adapted_elements;
 
-    const auto made = adapted_mesh(old, std::move(at_points));
+    chosen_model model = model_for(options_);
+    const auto made = adapted_mesh(old, at_points, model);
     if (!made.failures.empty())
       throw mesher_error(text_of_failures(made.failures));
     const quality_statistics before = measure_quality(old.mesh);
@@ -102,9 +139,12 @@ public:
     if (!options_.report.empty())
       write_quality_report(made.quality, D, static_cast<std::int64_t>(whole.mesh.points.size()), made.summary,
                            options_.report);
-    if (!options_.quiet)
+    if (!options_.quiet) {
+      std::printf("Meshed again %s\n", model.said.c_str());
       print_change(D, before, made.quality, clock.seconds());
-    std::vector<std::string> warnings;
+      print_size(made.summary.find("adaptation"));
+    }
+    std::vector<std::string> warnings = model.warnings;
     collect_warnings(made.summary, warnings);
     for (const auto& warning : warnings)
       std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -112,18 +152,42 @@ public:
   }
 
 private:
-  adapted<D> adapted_mesh(const adaptable_mesh<D>& old, std::vector<double> at_points) const {
+  static void print_size(const report& change) {
+    const char* what = D == 3 ? "volume" : "area";
+    std::printf("%s before %.6g, after %.6g\n", D == 3 ? "Volume" : "Area",
+                change.get(std::string(what) + "_before"), change.get(std::string(what) + "_after"));
+  }
+
+  adapted<D> mesh_boundary_again(boundary_model<D> boundary, const adaptable_mesh<D>& old,
+                                 const std::vector<double>& at_points) const {
     const auto given = composed(policies_, parameters_);
     if (options_.sizes.empty()) {
-      auto boundary = model_of_boundary(old, options_.how.feature_angle_deg);
       const any_sizing size = sizes_.field(boundary.model.bounds(), &boundary.model);
       return mesh_again<D>(std::move(boundary), erased_sizing(size), given);
     }
     try {
-      return adapt<D>(old, at_points, given, options_.how);
+      const auto size = sizes_at_points(old.mesh, at_points, options_.how.growth);
+      return mesh_again<D>(std::move(boundary), size, given);
     } catch (const sizing_error& problem) {
       throw sizing_error(options_.input + ": the values '" + options_.sizes + "': " + problem.what());
     }
+  }
+
+  /// A model that nobody asked for, and that does not fit the mesh, is left.
+  adapted<D> adapted_mesh(const adaptable_mesh<D>& old, const std::vector<double>& at_points,
+                          chosen_model& model) const {
+    if (!model.file_or_name.empty()) {
+      auto boundary = model_of_mesh<D>(load_geometry(model.file_or_name, model.unit, D), old);
+      try {
+        return mesh_boundary_again(std::move(boundary), old, at_points);
+      } catch (const mesh_error& problem) {
+        if (model.was_asked_for)
+          throw mesh_error(std::string(problem.what()) + " (--model none)");
+        model.warnings.push_back(model.file_or_name + " is not used: " + problem.what());
+        model.take_boundary();
+      }
+    }
+    return mesh_boundary_again(model_of_boundary(old, options_.how.feature_angle_deg), old, at_points);
   }
 
   const adapt_options& options_;

@@ -343,6 +343,7 @@ struct parser {
     auto& command =
         *app.add_subcommand("adapt", "Mesh what a mesh file is a mesh of in other sizes, boundary kept");
     add_examples(command, {"dovetail adapt mesh.vtu --sizes h -o next.vtu",
+                           "dovetail adapt mesh.vtu --sizes h --model part.step -o next.vtu",
                            "dovetail adapt mesh.msh -s 2 --feature-angle 30 -o next.msh -j 2"});
     command.add_option("MESH", adapt.input, "Mesh file (VTU, PVTU, MSH)")->required();
     command.add_option("-o,--out", adapt.out, "Mesh file to write (VTU or MSH)")->required();
@@ -354,6 +355,16 @@ struct parser {
     command.add_option("--sizing", adapt.sizing, "JSON file with a sizing field (docs/sizing.md)")
         ->excludes(sizes)
         ->excludes(size);
+    command.add_option(
+        "--model", adapt.model,
+        "The model that the mesh is a mesh of: a CAD or triangle file, or the name of a built-in "
+        "model. Without it the one that finished_run.txt beside the mesh names; none: the "
+        "boundary of the mesh alone");
+    command
+        .add_option("--unit", adapt.unit,
+                    "Unit of a STEP or IGES file of --model: mm, or file for the file's own")
+        ->check(CLI::IsMember({"mm", "file"}))
+        ->capture_default_str();
     command.add_option("--growth", adapt.how.growth, "Most that --sizes may grow per length")
         ->capture_default_str();
     command

@@ -28,6 +28,11 @@ std::string text_of_rank_partitioner(const mesh_options& options) {
 finished_run::finished_run(const std::filesystem::path& folder, const run_identity& identity,
                            const mesh_options& options)
     : folder_(folder) {
+  if (!options.model.input.empty())
+    input_ = std::filesystem::absolute(options.model.input)
+                 .lexically_normal()
+                 .lexically_relative(std::filesystem::absolute(folder).lexically_normal())
+                 .string();
   for (const auto& [what, value] : identity)
     started_with_ += what + " " + value + "\n";
   for (const auto& format : options.formats)
@@ -64,7 +69,38 @@ void finished_run::record(const std::vector<written_file>& files) const {
   for (const written_file& each : files)
     file.text(std::to_string(each.bytes) + " " + (each.checksum.empty() ? "-" : each.checksum) + " " +
               each.name + "\n");
+  if (!input_.empty()) // behind the files: where it lies is no part of what the run is
+    file.text("input " + input_ + "\n");
   file.commit();
+}
+
+std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& mesh) {
+  const std::filesystem::path folder = std::filesystem::absolute(mesh).parent_path();
+  std::ifstream record(folder / record_name, std::ios::binary);
+  recorded_model model;
+  std::string checksum, line;
+  while (std::getline(record, line)) {
+    const std::size_t space = line.find(' ');
+    if (space == std::string::npos)
+      continue;
+    const std::string what = line.substr(0, space), value = line.substr(space + 1);
+    if (what == "model")
+      model.name = value;
+    else if (what == "unit")
+      model.unit = value;
+    else if (what == "file")
+      checksum = value;
+    else if (what == "input")
+      model.file = (folder / value).lexically_normal();
+  }
+  if (model.name.empty() || (!checksum.empty() && model.file.empty()))
+    return {};
+  if (!model.file.empty()) {
+    std::error_code missing;
+    model.is_as_it_was = std::filesystem::is_regular_file(model.file, missing) && !missing &&
+                         checksum_of_file(model.file) == checksum;
+  }
+  return model;
 }
 
 void finished_run::forget() const {

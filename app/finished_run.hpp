@@ -8,6 +8,7 @@
 #include "dovetail/parallel/spool.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,19 @@ public:
 private:
   std::filesystem::path folder_;
   std::string started_with_;
+  std::string input_; ///< the model's file, from the folder; empty for a built-in one
 };
+
+/// The model that the run in a folder made its mesh of.
+struct recorded_model {
+  std::filesystem::path file; ///< empty for a built-in model
+  std::string name;           ///< of the built-in model, or the file's
+  std::string unit = "mm";
+  bool is_as_it_was = true; ///< the file is there, with the content that it had
+};
+
+/// By the record of the finished run beside a mesh file; nothing where there is none, or an older one that
+/// does not say where the file is.
+std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& mesh);
 
 } // namespace dovetail::app

@@ -20,6 +20,7 @@
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -230,6 +231,21 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
   if (meshes && read.value() != nothing)
     *meshes = hexadecimal(read.value());
   return sizes;
+}
+
+any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
+  std::error_code missing;
+  const auto names = builtin_model_names();
+  if (!std::filesystem::exists(file_or_name, missing)) {
+    if (std::find(names.begin(), names.end(), file_or_name) != names.end())
+      return any_geometry(builtin_model(file_or_name).model);
+    throw input_error(file_or_name + ": there is no such file, and no built-in model of that name");
+  }
+  model_options options;
+  options.input = file_or_name;
+  options.unit = unit;
+  report ignored;
+  return geometry_of_file(file_or_name, options, dimension, ignored);
 }
 
 model_source load_model(const model_options& options, int dimension) {

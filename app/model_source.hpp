@@ -58,4 +58,8 @@ struct model_source {
 /// faces of a CAD file need not enclose solids.
 model_source load_model(const model_options& options, int dimension = 3);
 
+/// The geometry alone of a file, or of the built-in model of that name; a file comes first. Throws the
+/// library's errors, and `input_error` when there is neither.
+any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension);
+
 } // namespace dovetail::app

@@ -95,7 +95,9 @@ struct adapt_options {
   std::optional<double> size;
   std::string sizing; ///< JSON file with a sizing field
   adaptation_options how;
-  mesh_options run; ///< its policies and parts alone
+  std::string model; ///< a file or the name of a built-in model; "none"; empty: that of the run, if known
+  std::string unit = "mm"; ///< that a STEP or IGES file of the model is converted to
+  mesh_options run;        ///< its policies and parts alone
   std::string report;
   bool quiet = false;
 };

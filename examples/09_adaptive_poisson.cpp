@@ -169,7 +169,7 @@ int main(int argc, char** argv) try {
       break;
     const auto sizes =
         new_sizes(mesh.mesh, estimate(mesh.mesh, u), 1.7 * static_cast<double>(mesh.mesh.elements.size()));
-    mesh = whole_mesh(adapt<3>(mesh, sizes, policies));
+    mesh = whole_mesh(adapt<3>(model, mesh, sizes, policies));
   }
   // end
   std::puts("the uniform meshes have won");

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Adaptation: a mesh file made anew in other sizes; groups and materials stay; wrong sizes are refused.
+# Adaptation: a mesh file made anew in other sizes, on its model or its boundary; groups and materials stay; wrong
+# sizes are refused.
 #   check_adapt.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
@@ -68,6 +69,32 @@ done
 cmp "$inputs/by_1.vtu" "$inputs/by_2.vtu" || fault "another mesh by two workers"
 grep -qa 'Name="region_names"' "$inputs/by_1.vtu" || fault "the names of the materials are lost"
 expect_success check "$inputs/by_1.vtu"
+
+# On the model: of --model, or of the run that made the mesh, as long as its file is what it was.
+write_cube >"$inputs/cube.off"
+expect_success mesh "$inputs/cube.off" --workers 1 --size 0.3 --subdomains 2
+cp -r "$sandbox/work/out" "$inputs"
+again() { # what is said, options...
+  local said=$1
+  shift
+  expect_success adapt "$inputs/out/mesh.pvtu" --size 0.25 -o next.vtu --subdomains 2 "$@"
+  grep -q "^Meshed again $said" "$sandbox/stdout" || fault "it does not say '$said'"
+  grep -q "^Volume before 1, after 1$" "$sandbox/stdout" || fault "another volume"
+}
+again "on the model $inputs/cube.off, which the run that made"
+again "on the model $inputs/cube.off$" --model "$inputs/cube.off"
+again "on the boundary of the mesh$" --model none
+sed 's/^1 1 1$/1 1 2/' "$inputs/cube.off" >"$inputs/other.off"
+expect_error "pvtu: the mesh is not one of the model: .*--model none" \
+  adapt "$inputs/out/mesh.pvtu" --size 0.25 -o next.vtu --model "$inputs/other.off"
+expect_error "no_such.step: there is no such file, and no built-in model" \
+  adapt "$inputs/out/mesh.pvtu" --size 0.25 -o next.vtu --model no_such.step
+mv "$inputs/other.off" "$inputs/cube.off"
+again "on the boundary of the mesh; --model FILE"
+grep -q "cube.off.* is not there or has changed since" "$sandbox/stderr" || fault "no warning of a changed model"
+write_cube >"$inputs/cube.off"
+sed -i 's/^input .*/input ..\/cube.off/' "$inputs/out/finished_run.txt"
+again "on the model $inputs/cube.off, which the run that made"
 
 # Wrong sizes, and meshes that are none.
 expect_error "mesh.msh: there are no values 'size' at points in this mesh; there are 'h'$" \

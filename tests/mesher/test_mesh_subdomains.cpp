@@ -8,15 +8,19 @@
 #include "dovetail/parallel/threads.hpp"
 #include "io/scratch_folder.hpp"
 #include "mesher/shapes.hpp"
+#include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -400,4 +404,32 @@ TEST_CASE("What a store has is not made again, under whatever number") {
   refined_sizing refined(unit_size);
   refined.refine(std::vector<size_ball>{{{4.5, 0.5, 0.5}, 0.1, 0.9}}); // reaches over less than its cube
   CHECK(run(cube_number, refined).summary.get("reused") == piece_count - 1);
+}
+
+TEST_CASE("Of a boundary that nothing can fill the boundary is said to be at fault, and no mesher") {
+  const auto told = [](const auto& change) {
+    const auto source = [&](local_id) {
+      auto input = cube_number(0);
+      change(input.boundary.boundary);
+      return input;
+    };
+    const auto result = mesh_subdomains(1, source, any_mesher<3>(fan_mesher{}, "mine"), any_improver<3>{},
+                                        unit_size, parallel::serial{});
+    REQUIRE(result.failures.size() == 1);
+    return result.failures[0].reasons.front();
+  };
+  using testing::has;
+  CHECK(has(told([](auto& b) { b.points[3].y = std::nan(""); }), "boundary point 3 is at ("));
+  CHECK(has(told([](auto& b) { b.elements[5][1] = 9999; }), "boundary triangle 5 refers to point 9999"));
+  CHECK(has(told([](auto& b) { b.elements[5][1] = b.elements[5][0]; }), "boundary triangle 5 (points"));
+  CHECK(has(told([](auto& b) { std::swap(b.elements[5][1], b.elements[5][0]); }),
+            "there twice or turned over"));
+  CHECK(has(told([](auto& b) { b.elements.pop_back(); }), "a triangle is missing"));
+  CHECK(has(told([](auto& b) { b.elements.push_back(b.elements[5]); }), "there twice"));
+  const std::string inwards = told([](auto& b) {
+    for (auto& t : b.elements)
+      std::swap(t[1], t[2]);
+  });
+  CHECK(has(inwards, "orient its outer shells outwards"));
+  CHECK(inwards.find("mine") == std::string::npos);
 }

@@ -16,7 +16,7 @@ namespace detail {
 inline interface_angles angles_of_interfaces(const fine_skeleton& fine, const any_sizing& size,
                                              const any_simplification_rule& rule) {
   const wanted_angles wanted = wanted_angles_of<3>(rule);
-  auto angles = measure_skeleton_angles(fine, wanted);
+  auto angles = measure_skeleton_angles(fine, wanted, {}, {}, mesh_state::valid);
   find_forced(angles, fine.sides, cad_of(fine), size, wanted);
   return angles;
 }

@@ -19,6 +19,7 @@
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
@@ -55,13 +56,15 @@ struct decomposition {
 /// may cross CAD curves. Every subdomain is non-empty and connected through sides; its boundary is
 /// manifold but at `defective_points`. Parts are kept under `imbalance` times the average of their component
 /// where that is possible. Deterministic for a deterministic partitioner. Throws `partition_error` when the
-/// mesh is empty or the partitioner fails, `cancelled` when `on_progress` asks to stop; a partitioner is not
-/// interrupted.
+/// mesh is empty or the partitioner fails, `mesh_error` when `require_valid` refuses the mesh, unless it is
+/// known to be valid, `usage_error` when super-elements and materials are not one per element, and
+/// `cancelled` when `on_progress` asks to stop; a partitioner is not interrupted.
 template <int D>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
                         std::span<const local_id> material, const any_partitioner& partitioner, int parts,
-                        double imbalance = 1.05, const progress& on_progress = {});
+                        double imbalance = 1.05, const progress& on_progress = {},
+                        mesh_state mesh_is = mesh_state::unknown);
 
 } // namespace dovetail
 

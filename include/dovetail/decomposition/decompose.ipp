@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -124,10 +125,17 @@ template <int D>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
                         std::span<const local_id> material, const any_partitioner& partitioner, int parts,
-                        double imbalance, const progress& on_progress) {
+                        double imbalance, const progress& on_progress, mesh_state mesh_is) {
   const stopwatch time;
   if (mesh.elements.empty())
     throw partition_error("cannot decompose a mesh without elements");
+  detail::require_valid_unless(mesh_is, mesh, sides, "decompose");
+  detail::require_partitionable(super_graph, 1);
+  detail::require_one_per_element(super_of_element, mesh.elements.size(), super_graph.node_count(),
+                                  "decompose", "super-elements");
+  if (!material.empty())
+    detail::require_one_per_element(material, mesh.elements.size(), std::numeric_limits<local_id>::max(),
+                                    "decompose", "materials");
   std::vector<local_id> material_of_super(super_graph.node_weights.size(), 0);
   if (!material.empty())
     for (std::size_t e = 0; e < super_of_element.size(); ++e)
@@ -196,11 +204,13 @@ decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sid
 template decomposition decompose<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
                                     std::span<const local_id> super_of_element, const csr_graph& super_graph,
                                     std::span<const local_id> material, const any_partitioner& partitioner,
-                                    int parts, double imbalance, const progress& on_progress);
+                                    int parts, double imbalance, const progress& on_progress,
+                                    mesh_state mesh_is);
 template decomposition decompose<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
                                     std::span<const local_id> super_of_element, const csr_graph& super_graph,
                                     std::span<const local_id> material, const any_partitioner& partitioner,
-                                    int parts, double imbalance, const progress& on_progress);
+                                    int parts, double imbalance, const progress& on_progress,
+                                    mesh_state mesh_is);
 #endif
 
 } // namespace dovetail

@@ -4,11 +4,15 @@
 /// `extract_skeleton(surface, pieces)` serves D = 2, where pieces are parts of a surface; with a volume
 /// decomposition the same code runs with the pieces that the subdomains induce on the surface: one
 /// idea for every dimension. The interface faces and the lines inside the domain are added.
+///
+/// All throw `mesh_error` when `require_valid` refuses a mesh, unless it is known to be valid, and
+/// `usage_error` when there is not one subdomain per element.
 #pragma once
 
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 
 #include <array>
 #include <cstddef>
@@ -21,7 +25,8 @@ using triangle_subdomains = std::vector<std::array<local_id, 2>>;
 
 /// The interface faces of a volume decomposition: sides inside one material between two subdomains.
 std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
-                                           const std::vector<local_id>& subdomain_of_element);
+                                           const std::vector<local_id>& subdomain_of_element,
+                                           mesh_state mesh_is = mesh_state::unknown);
 
 /// Per surface triangle: the element behind it and the one in front of it, or no_id.
 using elements_at_triangles = std::vector<std::array<local_id, 2>>;
@@ -40,12 +45,14 @@ triangle_subdomains own_subdomains(const std::vector<local_id>& part_of_triangle
 /// The skeleton of a surface cut into pieces; `faces` are the interface faces that end on it (none for D =
 /// 2). O(n log n). Throws `mesh_error` when the surface mesh contradicts itself.
 coarse_skeleton extract_skeleton(const surface_mesh& surface, const triangle_subdomains& pieces,
-                                 std::vector<skeleton_face> faces = {});
+                                 std::vector<skeleton_face> faces = {},
+                                 mesh_state mesh_is = mesh_state::unknown);
 
 /// The skeleton of a volume decomposition: interface faces first, then the surface step with the induced
 /// pieces.
 coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
-                                 const std::vector<local_id>& subdomain_of_element);
+                                 const std::vector<local_id>& subdomain_of_element,
+                                 mesh_state mesh_is = mesh_state::unknown);
 
 } // namespace dovetail
 

@@ -10,7 +10,10 @@
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 
+#include <cstddef>
+#include <limits>
 #include <string>
+#include <string_view>
 
 namespace dovetail {
 
@@ -146,11 +149,40 @@ inline std::vector<std::array<local_id, 2>> face_edges(const std::vector<skeleto
   return edges;
 }
 
+/// At the entry of the steps on the volume.
+inline void require_volume(const background_mesh& mesh, const side_table<3>& sides,
+                           const std::vector<local_id>& subdomain_of_element, mesh_state mesh_is,
+                           std::string_view who) {
+  if (mesh_is == mesh_state::valid)
+    return;
+  require_valid(mesh.volume, sides, who);
+  require_one_per_element(subdomain_of_element, mesh.volume.elements.size(),
+                          std::numeric_limits<local_id>::max(), who, "subdomains");
+}
+
+/// What the surface step takes for granted of the arrays beside the mesh. The mesh itself is looked at when
+/// its sides are known.
+inline void require_surface(const surface_mesh& surface, const triangle_subdomains& subdomains) {
+  const std::size_t triangles = surface.mesh.elements.size();
+  const auto one_each = [](std::size_t given, const char* what, std::size_t wanted, const char* of) {
+    if (given != wanted)
+      throw usage_error("extract_skeleton: " + std::to_string(given) + " " + what + " for " +
+                        std::to_string(wanted) + " " + of + "; give one each");
+  };
+  one_each(subdomains.size(), "pairs of subdomains", triangles, "triangles");
+  one_each(surface.mesh.tags.size(), "tags", triangles, "triangles");
+  one_each(surface.corner_uv.size(), "corner parameters", triangles, "triangles");
+  one_each(surface.vertex_hosts.size(), "hosts", surface.mesh.points.size(), "points");
+  require_elements(surface.mesh, "extract_skeleton", {});
+}
+
 } // namespace detail
 
-DOVETAIL_INLINE std::vector<skeleton_face>
-interface_faces(const background_mesh& mesh, const side_table<3>& sides,
-                const std::vector<local_id>& subdomain_of_element) {
+DOVETAIL_INLINE std::vector<skeleton_face> interface_faces(const background_mesh& mesh,
+                                                           const side_table<3>& sides,
+                                                           const std::vector<local_id>& subdomain_of_element,
+                                                           mesh_state mesh_is) {
+  detail::require_volume(mesh, sides, subdomain_of_element, mesh_is, "interface_faces");
   std::vector<skeleton_face> faces;
   for (std::size_t side = 0; side < sides.size(); ++side) {
     const auto [first, second] = sides.elements[side];
@@ -211,8 +243,11 @@ DOVETAIL_INLINE triangle_subdomains own_subdomains(const std::vector<local_id>& 
 
 DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
                                                  const triangle_subdomains& subdomains,
-                                                 std::vector<skeleton_face> faces) {
+                                                 std::vector<skeleton_face> faces, mesh_state mesh_is) {
+  if (mesh_is == mesh_state::unknown)
+    detail::require_surface(surface, subdomains);
   const detail::surface_edges edges(surface);
+  detail::require_valid_unless(mesh_is, surface.mesh, edges.sides(), "extract_skeleton");
   const auto edges_of_faces = detail::face_edges(faces);
   coarse_skeleton skeleton;
   std::vector<bool> is_line(edges.sides().size());
@@ -241,10 +276,12 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
 }
 
 DOVETAIL_INLINE coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
-                                                 const std::vector<local_id>& subdomain_of_element) {
+                                                 const std::vector<local_id>& subdomain_of_element,
+                                                 mesh_state mesh_is) {
+  detail::require_volume(mesh, sides, subdomain_of_element, mesh_is, "extract_skeleton");
   return extract_skeleton(mesh.surface,
                           induced_subdomains(elements_beside_surface(mesh, sides), subdomain_of_element),
-                          interface_faces(mesh, sides, subdomain_of_element));
+                          interface_faces(mesh, sides, subdomain_of_element, mesh_state::valid), mesh_is);
 }
 
 } // namespace dovetail

@@ -5,6 +5,7 @@
 
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesh/wanted_angles.hpp"
@@ -37,6 +38,7 @@ struct decomposed_mesh {
   /// Of fine lines (D = 2): the direction in which the line along a side leaves a vertex; empty where
   /// interfaces are as the mesh has them.
   std::function<vec3(local_id side, local_id vertex)> leaves = {};
+  mesh_state mesh_is = mesh_state::unknown; ///< `valid`: `require_valid` has seen it
 };
 
 /// An angle that is too small.
@@ -84,7 +86,8 @@ struct interface_angles {
 /// The interface angles of a mesh of triangles (D = 2) or tetrahedra (D = 3), with or without CAD: at each
 /// ridge those of the elements between two sides that are fixed or interfaces add up to a wedge. One between
 /// fixed sides that themselves include less than is wanted is forced. `sides` in the result are sides of the
-/// mesh. Linear in the mesh.
+/// mesh. Linear in the mesh. Throws `mesh_error` when `require_valid` refuses the mesh, and `usage_error`
+/// when there is not one part per element, or one state per side where there are any.
 ///
 ///     auto angles = measure_interface_angles<2>({mesh, sides, simplified.side_states, part_of_element},
 ///                                               wanted_angles_of<2>(rule));
@@ -95,10 +98,13 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// the boundary are fixed. `refused`: not zero for triangles on a coarse side that the bound refused to
 /// remove; may be empty. `half_edges`: only the wedges at these edges are measured, given as 3 t + k for side
 /// k of triangle t, all of an edge or none; all when it is empty. `sides` in the result are triangles. About
-/// linear.
+/// linear. Throws `mesh_error` for points that do not exist or are not finite, for a triangle that is flat or
+/// there twice, and where the subdomains around an edge contradict each other since a triangle is turned
+/// over; not looked for in a skeleton that is `valid`.
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
-                                         std::span<const std::uint32_t> half_edges = {});
+                                         std::span<const std::uint32_t> half_edges = {},
+                                         mesh_state skeleton_is = mesh_state::unknown);
 
 } // namespace dovetail
 

@@ -2,6 +2,7 @@
 /// What `interface_angles.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
@@ -13,8 +14,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -72,6 +76,13 @@ class mesh_angles {
 public:
   mesh_angles(const decomposed_mesh<D>& given, const wanted_angles& wanted)
       : in_(given), collector_(wanted), is_fixed_(given.sides.size()), is_interface_(given.sides.size()) {
+    constexpr std::string_view who = "measure_interface_angles";
+    require_valid_unless(in_.mesh_is, in_.mesh, in_.sides, who);
+    if (!in_.side_states.empty() && in_.side_states.size() != in_.sides.size())
+      throw usage_error(std::string(who) + ": " + std::to_string(in_.side_states.size()) + " states for " +
+                        std::to_string(in_.sides.size()) + " sides; give one each or none");
+    require_one_per_element(in_.part_of_element, in_.mesh.elements.size(),
+                            std::numeric_limits<local_id>::max(), who, "parts");
     for (std::size_t s = 0; s < is_fixed_.size(); ++s) {
       const auto [a, b] = in_.sides.elements[s];
       const bool is_interior = in_.sides.is_interior(static_cast<local_id>(s));
@@ -202,8 +213,13 @@ private:
 class skeleton_angles {
 public:
   skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
-                  std::span<const std::uint8_t> refused, std::span<const std::uint32_t> half_edges)
-      : fine_(fine), collector_(wanted), refused_(refused), half_edges_(half_edges) {}
+                  std::span<const std::uint8_t> refused, std::span<const std::uint32_t> half_edges,
+                  mesh_state skeleton_is)
+      : fine_(fine), collector_(wanted), refused_(refused), half_edges_(half_edges),
+        is_known_(skeleton_is == mesh_state::valid) {
+    if (!is_known_)
+      require_triangles();
+  }
 
   interface_angles run() {
     for (std::size_t t = 0; t < fine_.sides.size(); ++t)
@@ -240,6 +256,54 @@ private:
     local_id after;  ///< on the counter-clockwise side
   };
 
+  void require_triangles() const {
+    constexpr std::string_view who = "measure_skeleton_angles";
+    require_finite(span_of(fine_.points), who);
+    for (std::size_t t = 0; t < fine_.sides.size(); ++t) {
+      const auto& vertices = fine_.sides[t];
+      const std::string triangle =
+          "triangle " + std::to_string(t) + " (points " + listed_points(vertices) + ")";
+      for (const local_id v : vertices)
+        if (v < 0 || static_cast<std::size_t>(v) >= fine_.points.size())
+          refuse_mesh(who, triangle + " refers to point " + std::to_string(v) + ", but there are " +
+                               std::to_string(fine_.points.size()) + " points");
+      if (collinear(at(vertices[0]), at(vertices[1]), at(vertices[2])))
+        refuse_mesh(who, triangle + " is flat: its area is 0; remove it or move a point of it");
+    }
+    for (const std::uint32_t h : half_edges_)
+      if (h / 3 >= fine_.sides.size())
+        throw usage_error("measure_skeleton_angles: there is no half edge " + std::to_string(h) + " of " +
+                          std::to_string(fine_.sides.size()) + " triangles");
+  }
+
+  /// Of the flaps at an edge those in one direction are not one triangle twice, and none is turned over: on
+  /// both of its sides there would be what its neighbours have there if it were not. Where the triangles are
+  /// only some of a skeleton's, others may be missing on one side.
+  void require_flaps(const std::array<local_id, 2>& edge) const {
+    constexpr double rounding = 1e-9;
+    const std::size_t count = flaps_.size();
+    const auto points = [&](const flap& f) { return fine_.sides[static_cast<std::size_t>(f.triangle)]; };
+    for (std::size_t k = 0; k < count; ++k) {
+      const flap& before = flaps_[(k + count - 1) % count];
+      const flap& here = flaps_[k];
+      const flap& next = flaps_[(k + 1) % count];
+      const auto name = [&] {
+        return "triangle " + std::to_string(here.triangle) + " (points " + listed_points(points(here)) + ")";
+      };
+      if (k + 1 < count && next.direction - here.direction < rounding &&
+          sorted_vertices(points(here)) == sorted_vertices(points(next)))
+        refuse_mesh("measure_skeleton_angles", name() + " has the same points as triangle " +
+                                                   std::to_string(next.triangle) + "; remove one of them");
+      if (here.before != here.after && before.after == here.after && next.before == here.before)
+        refuse_mesh("measure_skeleton_angles",
+                    name() + " or its neighbours are turned over: at the edge (" + listed_points(edge) +
+                        ") subdomain " + std::to_string(here.before) + " is on its one side and " +
+                        std::to_string(here.after) +
+                        " on the other, and they have them the other way round; orient each "
+                        "triangle outwards of its first subdomain");
+    }
+  }
+
   bool is_fixed(local_id t) const {
     const auto [behind, front] = fine_.subdomains[static_cast<std::size_t>(t)];
     return fine_.side_hosts[static_cast<std::size_t>(t)] != no_id || front == no_id || front == behind;
@@ -258,6 +322,8 @@ private:
     if (all_fixed || half_edges.size() < 2)
       return;
     collect_flaps(edge, half_edges);
+    if (!is_known_)
+      require_flaps(edge);
     for (std::size_t k = 0; k < flaps_.size(); ++k) {
       const flap& here = flaps_[k];
       const flap& next = flaps_[(k + 1) % flaps_.size()];
@@ -302,6 +368,7 @@ private:
   angle_collector collector_;
   std::span<const std::uint8_t> refused_;
   std::span<const std::uint32_t> half_edges_;
+  bool is_known_;           ///< to be valid
   std::vector<flap> flaps_; ///< scratch
 };
 
@@ -315,8 +382,9 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 DOVETAIL_INLINE interface_angles measure_skeleton_angles(const fine_skeleton& fine,
                                                          const wanted_angles& wanted,
                                                          std::span<const std::uint8_t> refused,
-                                                         std::span<const std::uint32_t> half_edges) {
-  return detail::skeleton_angles(fine, wanted, refused, half_edges).run();
+                                                         std::span<const std::uint32_t> half_edges,
+                                                         mesh_state skeleton_is) {
+  return detail::skeleton_angles(fine, wanted, refused, half_edges, skeleton_is).run();
 }
 
 #ifdef DOVETAIL_COMPILED

@@ -200,9 +200,9 @@ public:
     tree_ = box_tree(boxes);
   }
 
-  /// The id of the edge nearest to a point, which counts as met; no_id where none is within 1e-6 of its
+  /// The id of the edge nearest to a point, which counts as met; no_id where none is within `nearness` of its
   /// length. O(log edges).
-  local_id at(vec3 p) {
+  local_id at(vec3 p, double nearness = 1e-6) {
     double best = std::numeric_limits<double>::infinity();
     std::size_t found = 0;
     tree_.for_each_near(
@@ -216,7 +216,7 @@ public:
             found = static_cast<std::size_t>(edge);
           }
         });
-    if (ids_.empty() || !(std::sqrt(best) <= 1e-6 * distance(ends_[found][0], ends_[found][1])))
+    if (ids_.empty() || !(std::sqrt(best) <= nearness * distance(ends_[found][0], ends_[found][1])))
       return no_id;
     met_[found] = true;
     return ids_[found];

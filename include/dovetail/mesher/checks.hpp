@@ -13,8 +13,16 @@ namespace dovetail {
 /// about the middle of their box, where rounding is least.
 double enclosed_volume(std::span<const vec3> points, std::span<const simplex<2>> triangles);
 
-/// Throws `mesher_error` for a boundary that is empty or refers to points that do not exist.
+/// Throws `mesher_error` for a boundary that is empty, refers to points that do not exist or has a point that
+/// is not finite.
 void require_meshable(const simplicial_mesh<2>& boundary);
+
+/// The same, and for a boundary that no elements can be inside of, whoever makes them: one with a flat
+/// triangle, with an edge that is not passed as often in one direction as in the other, since a triangle is
+/// missing, there twice or turned over, or one that encloses nothing, since it is oriented inwards. What
+/// `mesh_subdomains` asks of a boundary before any mesher is blamed for it. Linear, about 0.1 us per
+/// triangle.
+void require_enclosing(const simplicial_mesh<2>& boundary);
 
 /// Throws `mesher_error` naming the first element that is flat or inverted.
 void check_elements_positive(const simplicial_mesh<3>& mesh);

@@ -8,6 +8,8 @@
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/chain_sum.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -17,9 +19,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -113,6 +118,53 @@ DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
       if (v < 0 || static_cast<std::size_t>(v) >= boundary.points.size())
         throw mesher_error("boundary triangle " + std::to_string(t) + " refers to point " +
                            std::to_string(v) + ", which does not exist");
+  for (std::size_t v = 0; v < boundary.points.size(); ++v)
+    if (!detail::is_finite(boundary.points[v]))
+      throw mesher_error("boundary point " + std::to_string(v) + " is at " +
+                         detail::place_text(boundary.points[v]) + "; give finite coordinates");
+}
+
+namespace detail {
+
+/// Names an edge that is not passed as often in one direction as in the other.
+[[noreturn]] inline void throw_open_edge(const simplicial_mesh<2>& boundary) {
+  std::map<simplex<1>, std::pair<std::int64_t, std::size_t>> passed; // balance, and the first triangle
+  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+    for (const auto& local : numbering::sides<2>) {
+      const simplex<1> edge = pick(boundary.elements[t], local);
+      auto& [balance, first] = passed.try_emplace(sorted_vertices(edge), 0, t).first->second;
+      balance += edge[0] < edge[1] ? 1 : -1;
+    }
+  for (const auto& [edge, found] : passed)
+    if (found.first != 0)
+      throw mesher_error("at the edge (" + listed_points(edge) + ") of boundary triangle " +
+                         std::to_string(found.second) +
+                         " a triangle is missing, there twice or turned over; give closed shells, oriented "
+                         "outwards");
+  throw mesher_error("the boundary is not closed; give closed shells, oriented outwards");
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE void require_enclosing(const simplicial_mesh<2>& boundary) {
+  require_meshable(boundary);
+  chain_sum edges;
+  for (std::size_t t = 0; t < boundary.elements.size(); ++t) {
+    const auto& triangle = boundary.elements[t];
+    const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(triangle[k])]; };
+    if (detail::collinear(at(0), at(1), at(2)))
+      throw mesher_error("boundary triangle " + std::to_string(t) + " (points " +
+                         detail::listed_points(triangle) +
+                         ") is flat: its area is 0; remove it or move a point of it");
+    for (const auto& local : numbering::sides<2>)
+      edges.add(detail::pick(triangle, local));
+  }
+  if (!(edges == chain_sum{}))
+    detail::throw_open_edge(boundary);
+  if (const double volume = enclosed_volume(span_of(boundary.points), span_of(boundary.elements));
+      !(volume > 0))
+    throw mesher_error("the boundary encloses a volume of " + number_text(volume) +
+                       "; orient its outer shells outwards");
 }
 
 DOVETAIL_INLINE void check_mesher_result(const mesher_input<3>& input, const simplicial_mesh<3>& mesh) {

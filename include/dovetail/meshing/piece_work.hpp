@@ -9,6 +9,7 @@
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
@@ -128,6 +129,23 @@ auto by_policy(const char* role, const std::string& name, const Work& work) {
   }
 }
 
+/// Before a mesher is blamed for it: throws `mesher_error` for a boundary that none can fill.
+inline void require_boundary(const mesher_input<3>& input) {
+  require_enclosing(input.boundary);
+}
+inline void require_boundary(const mesher_input<2>& input) {
+  const auto& [points, edges, tags] = input.boundary;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const local_id v : edges[e])
+      if (v < 0 || static_cast<std::size_t>(v) >= points.size())
+        throw mesher_error("boundary edge " + std::to_string(e) + " refers to point " + std::to_string(v) +
+                           ", which does not exist");
+  for (std::size_t v = 0; v < points.size(); ++v)
+    if (!is_finite(points[v]))
+      throw mesher_error("boundary point " + std::to_string(v) + " is at " + place_text(points[v]) +
+                         "; give finite coordinates");
+}
+
 /// Meshes a piece and checks the result before anything else looks at it: an improver might hide what is
 /// wrong, or be blamed for it.
 template <int D>
@@ -158,12 +176,14 @@ report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, con
 /// From the boundary of a subdomain to its piece. `failed` are the reasons of the attempts before,
 /// and `stopped_by_clock` whether a time limit was among them; the summary keeps both. The piece stays as
 /// meshed when `improve` is null, for the last attempt, or holds nothing. Throws what the mesher, the
-/// improver and the checks throw, as `mesher_error` that names the policy.
+/// improver and the checks throw, as `mesher_error` that names the policy, or the boundary where that is at
+/// fault.
 template <int D>
 finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
                              const any_improver<D>* improve, const any_sizing& size,
                              const std::vector<std::string>& failed, bool stopped_by_clock) {
   const stopwatch clock;
+  require_boundary(input.boundary);
   auto made =
       by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
   piece_summary summary;

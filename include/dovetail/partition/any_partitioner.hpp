@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/graph/require_valid_graph.hpp"
 #include "dovetail/partition/concepts.hpp"
 
 #include <concepts>
@@ -38,9 +39,9 @@ void require_partition(const std::vector<local_id>& part, std::size_t nodes, int
 
 } // namespace detail
 
-/// Holds any graph partitioner by value; a partitioner converts to it. A call costs one indirect call and a
-/// look at the result: a part in [0, parts) for every node, none empty where there are nodes enough. Throws
-/// `partition_error` that names the partitioner otherwise.
+/// Holds any graph partitioner by value; a partitioner converts to it. A call costs one indirect call, a
+/// look at the graph (`require_valid_graph`) and one at the result: a part in [0, parts) for every node, none
+/// empty where there are nodes enough. Throws `partition_error` that names the partitioner otherwise.
 class any_partitioner {
 public:
   template <class P>
@@ -51,6 +52,7 @@ public:
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
+    require_valid_graph(graph); // of one that is none, the partitioner is not to blame
     const auto who = [&] { return named_policy("partitioner", name_); };
     std::vector<local_id> part = call_policy<partition_error>(who, [&] { return call_(graph, parts); });
     detail::require_partition(part, graph.node_weights.size(), parts, who);

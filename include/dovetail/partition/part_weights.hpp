@@ -7,6 +7,7 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/graph/require_valid_graph.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -65,6 +66,7 @@ inline void require_partitionable(local_id nodes, std::span<const double> weight
                             number_text(weights[v]) + "; weights must be finite and not negative");
 }
 inline void require_partitionable(const csr_graph& graph, int parts) {
+  require_valid_graph(graph);
   require_partitionable(graph.node_count(), graph.node_weights, parts);
 }
 

@@ -40,14 +40,15 @@ template <int D, class Rule>
     const auto on_curves = edges_on_curves(mesh.surface);
     const auto& surface = mesh.surface.mesh;
     if constexpr (D == 2) {
-      const mesh_duals<2> duals(surface, sides, {span_of(on_curves), weights});
+      const mesh_duals<2> duals(surface, sides, {span_of(on_curves), weights, mesh_state::valid});
       auto simplified = simplify<2>(surface, duals, rule, bound, {}, on_progress);
       summary = simplified.summary;
       return simplified;
     } else {
       auto coupled =
-          simplify_coupled({surface, {.fixed_sides = span_of(on_curves)}},
-                           {mesh.volume, sides, {.element_weights = weights}}, rule, bound, {}, on_progress);
+          simplify_coupled({surface, {.fixed_sides = span_of(on_curves), .mesh_is = mesh_state::valid}},
+                           {mesh.volume, sides, {.element_weights = weights, .mesh_is = mesh_state::valid}},
+                           rule, bound, {}, on_progress);
       summary = std::move(coupled.summary);
       return std::move(coupled.volume);
     }
@@ -59,8 +60,8 @@ interface_angles coarse_interface_angles(const simplicial_background<D>& mesh, c
                                          std::span<const side_state> side_states,
                                          std::span<const local_id> subdomain_of_element,
                                          const any_sizing& size, const wanted_angles& wanted) {
-  auto angles =
-      measure_interface_angles<D>({mesh.elements(), sides, side_states, subdomain_of_element}, wanted);
+  auto angles = measure_interface_angles<D>(
+      {mesh.elements(), sides, side_states, subdomain_of_element, {}, mesh_state::valid}, wanted);
   if constexpr (D == 3) {
     const auto on_curves = edges_on_curves(mesh.surface);
     std::vector<local_id> curves;

@@ -34,8 +34,8 @@ struct divided_background {
       &divided_background::angles, &divided_background::simplification, &divided_background::partition);
 };
 
-/// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws what the rule, the
-/// partitioner and `decompose` throw.
+/// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws `mesh_error` for a
+/// mesh that `require_valid` refuses, and what the rule, the partitioner and `decompose` throw.
 template <int D>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
                              const any_parameters<D>& given);

@@ -5,6 +5,7 @@
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/divide.hpp"
@@ -42,6 +43,15 @@ std::vector<integral_estimate> integrate_in_tasks(const simplicial_mesh<D>& mesh
   return estimates;
 }
 
+/// Where the mesh comes in: the steps after that do not look again. In D = 2 a coarse triangle on a face of
+/// no width is flat, and turned over against nothing.
+inline void require_background(const simplicial_background<3>& coarse, const side_table<3>& sides) {
+  require_valid(coarse.volume, sides, "the background mesh");
+}
+inline void require_background(const simplicial_background<2>& coarse, const side_table<2>& sides) {
+  require_valid(coarse.surface.mesh, sides, "the background mesh", {.orientation = false});
+}
+
 template <int D>
 divided_background<D> divide_here(const simplicial_background<D>& coarse, const side_table<D>& sides,
                                   const any_sizing& size, std::span<const integral_estimate> estimates,
@@ -50,6 +60,7 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   divided_background<D> result;
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
+  require_background(coarse, sides);
   result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
@@ -59,9 +70,9 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
 
   options.on_progress("partition", 0, 0);
   const stopwatch partition_clock;
-  result.pieces =
-      decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
-                   materials_of(coarse), given.partition_it, subdomains, 1.05, options.on_progress);
+  result.pieces = decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
+                               materials_of(coarse), given.partition_it, subdomains, 1.05,
+                               options.on_progress, mesh_state::valid);
   result.angles =
       coarse_interface_angles(coarse, sides, simplified.side_states, result.pieces.part_of_element, size,
                               wanted_angles_of<D>(given.simplify_by));

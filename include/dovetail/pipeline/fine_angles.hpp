@@ -45,7 +45,8 @@ inline interface_angles fine_interface_angles(const realized<3>& skeleton, const
       const std::size_t patch = skeleton.coarse.regions.size() + f;
       std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1], 1);
     }
-  auto angles = measure_skeleton_angles(fine, wanted, refused, half_edges_that_matter(skeleton));
+  auto angles =
+      measure_skeleton_angles(fine, wanted, refused, half_edges_that_matter(skeleton), mesh_state::valid);
   find_forced(angles, fine.sides, cad_of(fine), size, wanted);
   return angles;
 }
@@ -63,8 +64,9 @@ inline interface_angles fine_interface_angles(const realized<2>& skeleton,
     const auto& points = skeleton.lines.points;
     return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
   };
-  auto angles = measure_interface_angles<2>(
-      {mesh.surface.mesh, divided.sides, divided.side_states, skeleton.subdomain_of_element, leaves}, wanted);
+  auto angles = measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
+                                             skeleton.subdomain_of_element, leaves, mesh_state::valid},
+                                            wanted);
   const auto& fine = skeleton.fine;
   angles.interface_faces = 0;
   for (std::size_t e = 0; e < fine.sides.size(); ++e)

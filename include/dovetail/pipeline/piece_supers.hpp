@@ -79,8 +79,9 @@ simplify_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& s
     fixed[static_cast<std::size_t>(side)] = 1;
   const side_judgement judged = rule(piece.mesh, table);
   const contraction_bound bound{.subdomains = static_cast<double>(most), .fraction = 1.5};
-  simplification simplified = contract_bounded(element_dual<D>(table, {}, span_of(fixed)),
-                                               side_dual<D>(piece.mesh, table), judged, rule, bound);
+  simplification simplified =
+      contract_bounded(element_dual<D>(table, {}, span_of(fixed)),
+                       side_dual<D>(piece.mesh, table, mesh_state::valid), judged, rule, bound);
   std::pair<simplified_piece, elements_of_supers> result;
   auto& [known, supers] = result;
   supers.super_of_element = std::move(simplified.super_of_element);

@@ -40,7 +40,7 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
   const stopwatch clock;
   const std::size_t made_before = made.lines.made();
   realized<D> result;
-  result.coarse = extract_skeleton(surface, pieces, std::move(faces));
+  result.coarse = extract_skeleton(surface, pieces, std::move(faces), mesh_state::valid);
   space_lines(model, surface, coarse_points, size, made, given, result);
   report& summary = result.summary;
   summary.name = "skeleton";
@@ -73,7 +73,7 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
   auto result = realize_lines<3>(
       model, mesh.surface, mesh.points(), induced_subdomains(divided.beside_surface, subdomain_of_element),
-      interface_faces(mesh, divided.sides, subdomain_of_element), size, made, given);
+      interface_faces(mesh, divided.sides, subdomain_of_element, mesh_state::valid), size, made, given);
   const auto fill = [&] {
     return remesh_skeleton(model, mesh.surface, mesh.points(), result.coarse, result.lines, size,
                            given.mesh_surface, material_of_subdomain, given.run_tasks, made.patches,

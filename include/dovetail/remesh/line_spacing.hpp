@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ struct line_spacing {
     std::vector<leaf> leaves;
     const auto sample = [&](double t) {
       const curve_frame f = curve(t);
-      return sampled{t, f.point, f.derivative, norm(f.derivative) / sizing(f.point)};
+      return sampled{t, f.point, f.derivative, norm(f.derivative) / checked_size(sizing, f.point)};
     };
     constexpr int starting_parts = 4;
     sampled from = sample(first);

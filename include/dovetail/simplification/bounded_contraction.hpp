@@ -53,6 +53,7 @@ public:
         bound_(heaviest_allowed(bound)), on_progress_(on_progress) {
     for (std::size_t s = 0; s < fixed_.size(); ++s)
       fixed_[s] = elements.is_fixed(static_cast<local_id>(s)) ? 1 : 0;
+    require_graphs();
     require_judgement();
   }
 
@@ -129,6 +130,17 @@ private:
     return weights;
   }
 
+  /// Before a rule is blamed for what comes of them.
+  void require_graphs() const {
+    for (std::size_t e = 0; e < weights_.size(); ++e)
+      if (!(weights_[e] >= 0) || !std::isfinite(weights_[e]))
+        throw usage_error("contraction: element " + std::to_string(e) + " has the weight " +
+                          number_text(weights_[e]) + "; weights must be finite and not negative");
+    for (dihedral_id d = 0; d < runs_.dihedral_count(); ++d)
+      if (!std::isfinite(runs_.angle(d)))
+        throw usage_error("contraction: the side-dual graph gives dihedral " + std::to_string(d) +
+                          " the angle " + number_text(runs_.angle(d)) + "; angles must be finite");
+  }
   /// The orders of sides and dihedrals are none where something is not a number.
   void require_judgement() const {
     require_one_each(judged_, fixed_.size());
@@ -313,9 +325,9 @@ private:
 ///
 /// Afterwards every dihedral under `judged.wanted_angle_deg`, measured across super-elements, lies between
 /// two fixed sides or touches a refused one. Deterministic: ties break by side and dihedral number.
-/// Complexity: n log n in the number of small dihedrals. Throws `usage_error` for a wrong number of
-/// qualities, and for what a rule or a side's weight says that is not a number or negative, `cancelled` when
-/// `on_progress` asks to stop.
+/// Complexity: n log n in the number of small dihedrals. Throws `usage_error` for weights and angles of the
+/// graphs that are no numbers, for a wrong number of qualities, and for what a rule or a side's weight says
+/// that is not a number or negative, `cancelled` when `on_progress` asks to stop.
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 simplification contract_bounded(const Elements& elements, const Sides& sides, side_judgement judged,
                                 const Rule& rule, const contraction_bound& bound = {},

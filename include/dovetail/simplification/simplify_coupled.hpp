@@ -2,9 +2,12 @@
 /// The simplification of a solid's coarse mesh: first its surface, then, coupled to it, its volume.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
+#include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace dovetail {
@@ -41,10 +44,30 @@ struct coupled_simplification {
   report summary; ///< the two steps' reports are its children
 };
 
+namespace detail {
+
+/// Throws `usage_error` for a point of the surface that is none of the volume.
+inline void require_surface_points(std::span<const local_id> volume_point, const simplicial_mesh<2>& surface,
+                                   const simplicial_mesh<3>& volume) {
+  if (volume_point.empty())
+    return;
+  if (volume_point.size() != surface.points.size())
+    throw usage_error("simplify_coupled: " + std::to_string(volume_point.size()) +
+                      " points of the volume for " + std::to_string(surface.points.size()) +
+                      " points of the surface; give one each or none");
+  for (std::size_t v = 0; v < volume_point.size(); ++v)
+    if (volume_point[v] < 0 || static_cast<std::size_t>(volume_point[v]) >= volume.points.size())
+      throw usage_error("simplify_coupled: point " + std::to_string(v) + " of the surface is point " +
+                        std::to_string(volume_point[v]) + " of the volume, which has " +
+                        std::to_string(volume.points.size()));
+}
+
+} // namespace detail
+
 /// Simplifies the surface, then the volume such that what the rule makes of removed and refused surface edges
 /// is done: the paper's removes all interior faces at a removed edge and penalises those at a refused one.
 /// The surface consists of the boundary and the material faces of the volume; `volume_point` gives the
-/// volume's number of each of its points, empty when they are the same.
+/// volume's number of each of its points, empty when they are the same. Throws what `simplify` throws.
 template <class Rule>
   requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3>
       coupled_simplification simplify_coupled(const mesh_duals<2>& surface, const mesh_duals<3>& volume,
@@ -53,6 +76,7 @@ template <class Rule>
                                               const progress& on_progress = {}) {
     const stopwatch time;
     coupled_simplification out;
+    detail::require_surface_points(volume_point, surface.mesh(), volume.mesh());
     out.surface = simplify<2>(surface.mesh(), surface, rule, bound, {}, on_progress);
     out.surface.summary.name = "surface";
     const auto ridges = coupled_ridges(surface.sides(), out.surface, rule, volume_point);

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/graph/csr_graph.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesh/side_state.hpp"
 #include "dovetail/mesh/simplex.hpp"
 #include "dovetail/simplification/concepts.hpp"

@@ -10,6 +10,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/erased.hpp"
 #include "dovetail/sizing/octree_values.hpp"
 
@@ -130,8 +131,7 @@ private:
   template <sizing_field H>
   static double least_of(const H& field, const box3& box) {
     const double bound = dovetail::smallest_size_in(field, box);
-    const double sample =
-        sizing::checked_size(static_cast<double>(field(box.center())), "a value of the sizing field");
+    const double sample = dovetail::checked_size(field, box.center());
     return bound > 0 ? bound : sample;
   }
 
@@ -179,7 +179,7 @@ private:
     number_corners();
     values_.clear();
     for (const vec3 p : points_)
-      values_.push_back(sizing::checked_size(static_cast<double>(field(p)), "a value of the sizing field"));
+      values_.push_back(dovetail::checked_size(field, p));
     raw_ = values_;
     seed_origins(field);
   }

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
@@ -101,7 +102,7 @@ void integrate(integration_cell<D>& cell, const H& h, double most_unsampled) {
   double least = std::numeric_limits<double>::infinity();
   double greatest = 0;
   const auto density = [&](vec3 p) {
-    const double size = h(p);
+    const double size = dovetail::checked_size(h, p);
     least = std::min(least, size);
     greatest = std::max(greatest, size);
     return density_at<D>(size);
@@ -213,7 +214,8 @@ std::vector<integral_estimate> integrate_elements(const simplicial_mesh<D>& mesh
 /// or 3. `known` are all of `integrate_elements`, or empty. Adaptive: cells are split, worst first, until the
 /// estimated error is below the one asked for; a source smaller than a cell is found by the field's
 /// `smallest_size_in`, or, where the field has none, only if it shows up in samples about 1/48 of the domain
-/// apart. O(cells * cost of h). Deterministic.
+/// apart. O(cells * cost of h). Deterministic. Throws `sizing_error` that names the place of a size that is
+/// no length.
 template <int D, sizing_field H>
 element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
                                     const prediction_options& options = {},

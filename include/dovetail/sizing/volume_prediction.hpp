@@ -62,7 +62,7 @@ void integrate(volume_cell& cell, const inside_surface& inside, const H& h, samp
     const box3 part = octant(cell.box, k);
     const vec3 t = cut ? vec3{random.next(), random.next(), random.next()} : vec3{0.5, 0.5, 0.5};
     const vec3 p = part.lower + 0.5 * vec3{t.x * extent.x, t.y * extent.y, t.z * extent.z};
-    const double size = h(p);
+    const double size = dovetail::checked_size(h, p);
     const double density = density_at<3>(size);
     least = std::min(least, size);
     greatest = std::max(greatest, size);

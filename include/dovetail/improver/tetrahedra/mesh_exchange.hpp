@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -114,6 +115,9 @@ inline tet_complex take_mesh(simplicial_mesh<3>& mesh, const frozen_entities<3>&
     throw mesh_error("the mesh has " + std::to_string(mesh.elements.size()) + " elements but " +
                      std::to_string(mesh.tags.size()) + " tags");
   check_vertices(span_of(mesh.elements), mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (!std::isfinite(norm_squared(mesh.points[v])))
+      throw mesh_error("point " + std::to_string(v) + " has a coordinate that is not finite or too large");
   std::vector<local_id> numbers;
   if (order == layout::along_curve)
     numbers = order_along_curve(mesh);

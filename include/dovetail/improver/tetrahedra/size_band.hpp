@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/tetrahedra/local_change.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ struct size_band {
   bool has_field() const { return field != nullptr && static_cast<bool>(*field); }
   double size_at(const tet_complex& mesh, const simplex<3>& element, vec3 place) const {
     if (has_field())
-      return (*field)(place);
+      return checked_size(*field, place);
     double sum = 0;
     for (const local_id v : element)
       sum += static_cast<double>(mesh.size_at(v));

@@ -9,6 +9,7 @@
 #include "dovetail/improver/point_numbering.hpp"
 #include "dovetail/improver/triangles/surface_complex.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
 #include <array>
@@ -279,7 +280,7 @@ inline surface_complex take_surface(const simplicial_mesh<2>& mesh, const frozen
   detail::surface_taker(mesh, frozen, host, feature_angle).fill(made);
   made.size.assign(made.point.size(), 0);
   for (local_id v = 0; v < static_cast<local_id>(made.point.size()); ++v)
-    made.size[made.at(v)] = size ? size(made.point[made.at(v)]) : 0;
+    made.size[made.at(v)] = size ? checked_size(size, made.point[made.at(v)]) : 0;
   if (!size) {
     std::vector<int> sides(made.point.size(), 0);
     for (local_id c = 0; c < static_cast<local_id>(made.table.vertex.size()); ++c)
