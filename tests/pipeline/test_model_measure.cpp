@@ -4,7 +4,10 @@
 #include "dovetail/sizing/uniform.hpp"
 #include "geometry/discrete_shapes.hpp"
 
+#include <algorithm>
 #include <doctest/doctest.h>
+#include <optional>
+#include <string>
 
 using namespace dovetail;
 
@@ -30,8 +33,10 @@ report summary_with_gap(double gap) {
 
 template <int D>
 generated<D> mesh_of(const discrete_model& model) {
-  const auto policies = parameters<>{}.with_mesher(mesher::tetgen{});
-  return generate<D>(model, uniform_size(0.3), policies);
+  if constexpr (D == 3)
+    return generate<3>(model, uniform_size(0.3), parameters<>{}.with_mesher(mesher::tetgen{}));
+  else
+    return generate<2>(model, uniform_size(0.3), parameters<>{});
 }
 
 std::size_t warnings_of(const report& summary, const std::string& text) {

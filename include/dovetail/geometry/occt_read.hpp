@@ -157,15 +157,15 @@ inline void require_readable(const std::string& source, const any_executor& exec
     return;
   if (outcome.failure == detail::out_of_memory)
     throw std::bad_alloc();
-  if (detail::is_for_want_of_room(outcome.failure))
+  const bool had_its_time = outcome.seconds >= clocks_agree * seconds; // the limit ends it by signal 9 too
+  if (!outcome.timed_out && !had_its_time && detail::is_for_want_of_room(outcome.failure))
     throw error(source + ": Open CASCADE could not read it: " + outcome.failure);
   if (!outcome.crashed && !outcome.timed_out)
     throw input_error(outcome.failure);
-  const std::string what = outcome.timed_out
-                               ? "is not done reading it after " + to_text(outcome.seconds) + " s"
-                           : outcome.seconds >= clocks_agree * seconds
-                               ? "is not done reading it after " + to_text(seconds) + " s of processor time"
-                               : "crashed while reading it (" + outcome.failure + ")";
+  const std::string what =
+      outcome.timed_out ? "is not done reading it after " + to_text(outcome.seconds) + " s"
+      : had_its_time    ? "is not done reading it after " + to_text(seconds) + " s of processor time"
+                        : "crashed while reading it (" + outcome.failure + ")";
   throw input_error(source + ": Open CASCADE " + what +
                     "; the file is damaged, export it again, best as STEP");
 }
