@@ -138,7 +138,7 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
     CHECK(summary.quality.elements == summary.counts.elements);
     CHECK(summary.summary.children.at(1).name == "improver");
     const auto kept =
-        detail::summary_of(options.store->get(result.keys[static_cast<std::size_t>(s)])).summary;
+        options.store->value<finished_piece<3>>(result.keys[static_cast<std::size_t>(s)]).summary.summary;
     CHECK(kept.children.at(1).get("frozen points") == static_cast<double>(input.skeleton_points.size()));
     elements += summary.counts.elements;
   }

@@ -1,4 +1,5 @@
 #include "dovetail/core/encoding.hpp"
+#include "dovetail/core/report.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/spool.hpp"

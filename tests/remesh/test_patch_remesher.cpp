@@ -1,4 +1,5 @@
 #include "analytic_surfaces.hpp"
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 
@@ -227,7 +228,7 @@ TEST_CASE("the result is the same every time and survives encoding") {
              again = remesh::patch_remesher{}(s, b, uniform(0.1));
   CHECK(once.inner_uv == again.inner_uv);
   CHECK(once.triangles == again.triangles);
-  const patch_mesh copy = decode_patch_mesh(encode(once));
+  const patch_mesh copy = decoded<patch_mesh>(encoded(once));
   CHECK(copy.inner_uv == once.inner_uv);
   CHECK(copy.inner_points == once.inner_points);
   CHECK(copy.triangles == once.triangles);
