@@ -204,6 +204,7 @@ int run_adapt(const adapt_options& options) {
   const given_sizes sizes(options.sizing, options.size);
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
+  warn_of_part(loaded, options.input);
   try {
     return is_of_triangles(loaded) ? adapt_run<2>(options, sizes).run(std::move(loaded))
                                    : adapt_run<3>(options, sizes).run(std::move(loaded));

@@ -11,11 +11,15 @@
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace dovetail::app {
 namespace {
@@ -48,46 +52,90 @@ int print_validity(const std::string& faults, const std::string& file, int dimen
 }
 
 int print_quality(const quality_statistics& quality, std::uint64_t points, int dimension,
-                  const stats_options& options) {
-  std::printf("%s: %llu vertices\n%s", options.mesh.c_str(), static_cast<unsigned long long>(points),
+                  const std::string& file, const stats_options& options) {
+  std::printf("%s: %llu vertices\n%s", file.c_str(), static_cast<unsigned long long>(points),
               quality_text(quality, dimension).c_str());
   if (!options.report.empty())
     write_quality_report(quality, dimension, static_cast<std::int64_t>(points), {}, options.report);
   return exit_ok;
 }
 
-/// Of tetrahedra in several files, one in memory at a time.
-std::optional<int> check_streamed(const std::string& file) {
+/// How a mesh in these files is called: by the one that was given, or by the first and last where none stands
+/// for all.
+std::string name_of(const std::filesystem::path& given, const std::vector<std::filesystem::path>& files) {
+  if (files.size() < 2 || files.front().extension() != ".msh")
+    return given.string();
+  return files.front().string() + " to " + files.back().filename().string();
+}
+
+/// The points of a mesh in several files, and whether dovetail has numbered them.
+struct streamed_points {
+  bool by_dovetail = false;
+  global_id highest = -1;
+
+  void add(const io::loaded_mesh& piece) {
+    by_dovetail = by_dovetail || (piece.parts == 0 && !piece.subdomains.empty());
+    highest = std::max(highest, piece.node_ids.back());
+  }
+  std::string elsewhere(std::uint64_t points) const {
+    return by_dovetail ? io::points_elsewhere(points, highest) : std::string();
+  }
+};
+
+/// Of tetrahedra in several files, one in memory at a time. `files` receives these.
+std::optional<int> check_streamed(const std::filesystem::path& file,
+                                  std::vector<std::filesystem::path>& files) {
   io::streamed_validity found;
+  streamed_points all;
   if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
         found.add(piece, path.filename().string());
+        all.add(piece);
+        files.push_back(path);
       }))
     return std::nullopt;
+  const std::string name = name_of(file, files);
   try {
-    const std::string faults = found.faults();
-    return print_validity(faults, file, 3, found.elements(), found.points());
+    std::string faults = found.faults();
+    if (faults.empty())
+      faults = all.elsewhere(found.points());
+    return print_validity(faults, name, 3, found.elements(), found.points());
   } catch (const input_error& problem) {
-    throw input_error(file + ": " + problem.what());
+    throw input_error(name + ": " + problem.what());
   }
 }
 
-std::optional<int> measure_streamed(const stats_options& options) {
+/// What the figures are not of.
+void warn_of_part(const std::string& file, const std::string& elsewhere) {
+  if (!elsewhere.empty())
+    std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), elsewhere.c_str());
+}
+
+std::optional<int> measure_streamed(const std::filesystem::path& file, const stats_options& options) {
   quality_statistics quality;
   io::number_ranges points;
-  if (!io::for_each_piece_file(options.mesh, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto&) {
+  streamed_points all;
+  std::vector<std::filesystem::path> files;
+  if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
         quality.merge(measure_quality(piece.mesh), quality.elements);
         for (const global_id id : piece.node_ids)
           points.add(id);
+        all.add(piece);
+        files.push_back(path);
       }))
     return std::nullopt;
-  return print_quality(quality, points.count(), 3, options);
+  const std::string name = name_of(file, files);
+  warn_of_part(name, all.elsewhere(points.count()));
+  return print_quality(quality, points.count(), 3, name, options);
 }
 
-/// Calls `f` with the mesh in the file: tetrahedra, or triangles where it has none.
+/// Calls `f(mesh, name, elsewhere)` with the mesh that was read: tetrahedra, or triangles where it has none.
+/// `elsewhere`: what says that it is a part of another one.
 template <class F>
-int with_mesh_of(const std::string& file, const F& f) {
-  io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
-  return is_of_triangles(loaded) ? f(take_triangles(std::move(loaded))) : f(loaded.mesh);
+int with_mesh_of(const std::filesystem::path& file, io::loaded_mesh loaded, const F& f) {
+  const std::string name = name_of(file, loaded.files);
+  const std::string elsewhere = part_of_larger(loaded, file);
+  return is_of_triangles(loaded) ? f(take_triangles(std::move(loaded)), name, elsewhere)
+                                 : f(loaded.mesh, name, elsewhere);
 }
 
 /// Whether the files of a run are as it wrote them.
@@ -101,12 +149,41 @@ int check_files(const std::string& report) {
   return exit_ok;
 }
 
-int check_mesh(const check_options& options) {
-  if (const auto result = check_streamed(options.mesh))
+/// `files` receives those that have the mesh.
+int check_file(const std::filesystem::path& file, std::vector<std::filesystem::path>& files) {
+  if (const auto result = check_streamed(file, files))
     return *result;
-  return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {
-    return print_validity(faults_of(mesh), options.mesh, D, mesh.elements.size(), mesh.points.size());
-  });
+  io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
+  files = loaded.files;
+  return with_mesh_of(
+      file, std::move(loaded),
+      [&]<int D>(const simplicial_mesh<D>& mesh, const std::string& name, const std::string& elsewhere) {
+        const std::string faults = faults_of(mesh);
+        return print_validity(faults.empty() ? elsewhere : faults, name, D, mesh.elements.size(),
+                              mesh.points.size());
+      });
+}
+
+/// Of a folder, each mesh in it.
+int check_mesh(const std::filesystem::path& path) {
+  std::error_code failure;
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(path, failure))
+    return check_file(path, files);
+  const auto all = io::mesh_files_in(path);
+  if (all.empty())
+    io::find_mesh_file(path); // says what is there instead
+  int result = exit_ok;
+  std::vector<std::filesystem::path> done;
+  for (const auto& file : all) {
+    if (std::find(done.begin(), done.end(), file) != done.end())
+      continue;
+    files.clear();
+    if (const int of_file = check_file(file, files); of_file != exit_ok)
+      result = of_file;
+    done.insert(done.end(), files.begin(), files.end());
+  }
+  return result;
 }
 
 } // namespace
@@ -115,16 +192,20 @@ int run_check(const check_options& options) {
   if (options.mesh.empty() && options.report.empty())
     throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
   const int files = options.report.empty() ? exit_ok : check_files(options.report);
-  const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options);
+  const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options.mesh);
   return files == exit_ok ? mesh : files;
 }
 
 int run_stats(const stats_options& options) {
-  if (const auto result = measure_streamed(options))
+  const std::filesystem::path file = io::find_mesh_file(options.mesh);
+  if (const auto result = measure_streamed(file, options))
     return *result;
-  return with_mesh_of(options.mesh, [&]<int D>(const simplicial_mesh<D>& mesh) {
-    return print_quality(measure_quality(mesh), mesh.points.size(), D, options);
-  });
+  return with_mesh_of(
+      file, io::read_mesh(file, io::zlib_expand),
+      [&]<int D>(const simplicial_mesh<D>& mesh, const std::string& name, const std::string& elsewhere) {
+        warn_of_part(name, elsewhere);
+        return print_quality(measure_quality(mesh), mesh.points.size(), D, name, options);
+      });
 }
 
 } // namespace dovetail::app

@@ -45,6 +45,7 @@ int run_improve(const improve_options& options) {
   check_can_write(options.out);
   io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
   const std::string lost = left_out(loaded);
+  warn_of_part(loaded, options.input);
   if (is_of_triangles(loaded))
     improve_and_report(make_improver<2>(options.preset, "--preset"), std::move(loaded), options);
   else

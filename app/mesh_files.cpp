@@ -2,8 +2,11 @@
 
 #include "failure.hpp"
 
+#include "dovetail/io/read_mesh.hpp"
+
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -25,6 +28,15 @@ bool is_of_triangles(const io::loaded_mesh& mesh) {
 
 simplicial_mesh<2> take_triangles(io::loaded_mesh mesh) {
   return {std::move(mesh.mesh.points), std::move(mesh.triangles), std::move(mesh.triangle_tags)};
+}
+
+std::string part_of_larger(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
+  return extension_of(file) == ".vtp" ? std::string() : io::points_elsewhere(mesh);
+}
+
+void warn_of_part(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
+  if (const std::string part = part_of_larger(mesh, file); !part.empty())
+    std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), part.c_str());
 }
 
 void check_can_write(const std::filesystem::path& file) {

@@ -16,6 +16,11 @@ bool is_of_triangles(const io::loaded_mesh& mesh);
 /// Its triangles as a mesh of their own, with their tags.
 simplicial_mesh<2> take_triangles(io::loaded_mesh mesh);
 
+/// Warns where a mesh read from this file is a part of another one.
+void warn_of_part(const io::loaded_mesh& mesh, const std::filesystem::path& file);
+/// In words; empty where it is not. The points of a surface are always some of a mesh.
+std::string part_of_larger(const io::loaded_mesh& mesh, const std::filesystem::path& file);
+
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);
 

@@ -44,6 +44,64 @@ expect_success "${small[@]}" --subdomains 8 --ranks 2 --format mfem,pvtu --ghost
 grep -q 'GhostLevel="1"' "$sandbox/work/out/ranks.pvtu" || fault "no ghosts"
 expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2
 
+# Whoever is given a part of such a mesh judges the whole, or says that it is a part.
+formats=pvtu,vtu,msh-ranks,mfem,openfoam
+"$driver" mesh --help | grep -q "xdmf" && formats+=,xdmf,vtkhdf,hdf5
+expect_success "${small[@]}" --subdomains 8 --ranks 4 --ghosts --format "$formats" --report report.json
+elements=$(counter elements)
+set=$inputs/set
+mv "$sandbox/work/out" "$set"
+for file in ranks_1.msh ranks_4.msh; do
+  expect_success check "$set/$file"
+  grep -q "ranks_1.msh to ranks_4.msh: a valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "not the whole mesh"
+  expect_success stats "$set/$file" --report report.json
+  [[ $(counter elements) == "$elements" ]] || fault "not the figures of the whole mesh"
+done
+expect_success check "$set"
+for file in mesh.pvtu ranks.pvtu "ranks_1.msh to ranks_4.msh"; do
+  grep -q "/$file: a valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "not judged: $file"
+done
+(($(wc -l <"$sandbox/stdout") == 3)) || fault "not three meshes"
+for command in check stats "improve -o better.vtu" "adapt -s 0.2 -o next.vtu"; do
+  # shellcheck disable=SC2086
+  set -- $command
+  expect_error "ranks_0001.vtu: this is one of the 4 files of .*ranks.pvtu, not a whole mesh" "$1" "$set/ranks_0001.vtu" "${@:2}"
+  expect_error "mesh_0001.vtu: this is one of the 8 files of .*mesh.pvtu, not a whole mesh" "$1" "$set/mesh_0001.vtu" "${@:2}"
+  expect_error "mesh.000001: this is a file of MFEM, which dovetail writes but does not read" "$1" "$set/mesh.000001" "${@:2}"
+  expect_error "processor1: there is no .pvtu or .msh file.*" "$1" "$set/processor1" "${@:2}"
+  if [[ -e $set/ranks.h5 ]]; then
+    for file in ranks.h5 ranks.vtkhdf mesh_0000.vtkhdf; do
+      expect_error "$file: this is a file of HDF5, which dovetail writes but does not read" "$1" "$set/$file" "${@:2}"
+    done
+    expect_error "ranks.xdmf: this is a file of XDMF" "$1" "$set/ranks.xdmf" "${@:2}"
+  fi
+done
+improved_elements() {
+  sed -n 's/^ *No. of tetrahedra *\([0-9]*\) .*/\1/p' "$sandbox/stdout"
+}
+expect_success improve "$set/ranks_2.msh" -o better.vtu --preset fast
+[[ $(improved_elements) == "$elements" ]] || fault "not the whole mesh is improved"
+mkdir "$inputs/lone"
+cp "$set/mesh_0000.vtu" "$set/ranks_0000.vtu" "$set/ranks_0002.vtu" "$inputs/lone" # nothing beside them says what they are
+for file in mesh_0000 ranks_0000 ranks_0002; do
+  run_driver check "$inputs/lone/$file.vtu"
+  ((status == 1)) || fault "exit code is $status"
+  grep -q "not a valid mesh: .*\(part of a larger mesh\|isolated point\)" "$sandbox/stderr" || fault "it does not say that it is a part"
+done
+expect_success stats "$inputs/lone/mesh_0000.vtu"
+grep -q "^warning: .*mesh_0000.vtu: .*part of a larger mesh" "$sandbox/stderr" || fault "no warning"
+mv "$set/ranks_3.msh" "$set/third.msh"
+for command in check stats "improve -o better.vtu"; do
+  # shellcheck disable=SC2086
+  set -- $command
+  expect_error "ranks_3.msh: there is no such file, and ranks_2.msh is part 2 of a mesh in 4 parts" "$1" "$set/ranks_2.msh" "${@:2}"
+done
+expect_error "third.msh: this is part 3 of a mesh in 4 parts" check "$set/third.msh"
+rm "$set/ranks_0003.vtu" "$set"/*.msh
+run_driver check "$set" # the pieces of the other mesh are all there
+((status == 1)) || fault "exit code is $status"
+grep -q "ranks_0003.vtu: there is no such file" "$sandbox/stderr" || fault "the missing file is not named"
+
 # Elements of second order are those of the same mesh; with ghosts, the same by one worker.
 readers=(vtkmodules.vtkIOXML:pvtu os:mfem)
 formats=pvtu,msh-ranks,mfem

@@ -1,12 +1,15 @@
 #include "dovetail/io/concepts.hpp"
 #include "dovetail/io/mesh_hash.hpp"
 #include "dovetail/io/msh_reader.hpp"
+#include "dovetail/io/rank_files.hpp"
+#include "dovetail/io/rank_msh_format.hpp"
 #include "dovetail/io/read_mesh.hpp"
 #include "dovetail/io/vtu_reader.hpp"
 #include "dovetail/io/vtu_writer.hpp"
 #include "dovetail/io/write_msh.hpp"
 #include "dovetail/io/write_surface.hpp"
 #include "dovetail/io/write_vtu.hpp"
+#include "dovetail/mesh/validity.hpp"
 #include "io/msh_kinds.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
@@ -332,4 +335,97 @@ TEST_CASE("the triangles of a VTP file are read; other polygons and lines are na
   CHECK(read.triangle_tags.front() == 7);
   check_says(refusal(triangle_vtp("2 0 1 3", "4")), "cell 0 has 4 points instead of 3");
   check_says(refusal(triangle_vtp("2 0 1", "3", "2")), "only triangles are read");
+}
+
+namespace {
+
+/// The files of four ranks, with elements of each other or without.
+void write_ranks(const std::filesystem::path& folder, bool ghosts, bool binary = true) {
+  io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}, .ghosts = ghosts}(
+      cubes.distributed(), folder);
+}
+
+} // namespace
+
+TEST_CASE("of MSH files of ranks the whole mesh is read, whichever is named") {
+  for (const bool ghosts : {false, true}) {
+    const testing::scratch_folder folder("ranks_read");
+    write_ranks(folder, ghosts, ghosts);
+    const std::filesystem::path whole = folder;
+    for (const auto& named : {whole, folder / "ranks_1.msh", folder / "ranks_3.msh"}) {
+      const auto read = io::read_mesh(named);
+      CHECK(read.mesh.elements.size() == 6 * 6 * 6 * 6);
+      CHECK(read.mesh.points.size() == 7 * 7 * 7);
+      CHECK(check_validity(read.mesh).valid());
+      CHECK(std::count(read.mesh.tags.begin(), read.mesh.tags.end(), 1) == 3 * 6 * 6 * 6);
+      REQUIRE(read.subdomains.size() == read.mesh.elements.size());
+      for (local_id rank = 0; rank < 4; ++rank)
+        CHECK(std::count(read.subdomains.begin(), read.subdomains.end(), rank) > 0);
+      CHECK(read.material_names.size() == 2);
+      CHECK(read.files.size() == 4);
+      std::size_t pieces = 0, elements = 0;
+      CHECK(io::for_each_piece_file(named, nullptr, [&](const io::loaded_mesh& piece, const auto& file) {
+        CHECK(file == folder / ("ranks_" + std::to_string(++pieces) + ".msh"));
+        elements += piece.mesh.elements.size();
+      }));
+      CHECK(pieces == 4);
+      CHECK(elements == read.mesh.elements.size());
+    }
+  }
+}
+
+TEST_CASE("an MSH file of a rank is refused where the others are not there, or are of another mesh") {
+  const testing::scratch_folder folder("ranks_missing");
+  write_ranks(folder, false);
+  const auto says = [&](const std::string& name) {
+    const auto streamed = testing::refusal_of<input_error>(
+        [&] { io::for_each_piece_file(folder / name, nullptr, [](const auto&, const auto&) {}); });
+    const auto whole = testing::refusal_of<input_error>([&] { return io::read_mesh(folder / name); });
+    CHECK(streamed == whole);
+    return whole;
+  };
+  std::filesystem::rename(folder / "ranks_3.msh", folder / "third.msh");
+  CHECK(says("ranks_2.msh") == (folder / "ranks_3.msh").string() +
+                                   ": there is no such file, and ranks_2.msh is part 2 of a mesh in 4 parts");
+  check_says(says("third.msh"), "this is part 3 of a mesh in 4 parts; the others are not found");
+  std::filesystem::copy_file(folder / "ranks_1.msh", folder / "ranks_3.msh");
+  check_says(says("ranks_2.msh"), "ranks_3.msh: this is not part 3 of a mesh in 4 parts");
+}
+
+TEST_CASE("one VTU file of several is refused, and read by its own reader") {
+  const testing::scratch_folder folder("one_piece");
+  io::vtu_writer{.files = 3}(cubes.distributed(), folder);
+  check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(folder / "mesh_0001.vtu"); }),
+             "mesh_0001.vtu: this is one of the 3 files of " + (folder / "mesh.pvtu").string());
+  CHECK(io::vtu_reader{}(folder / "mesh_0001.vtu").mesh.elements.size() > 0);
+  CHECK(io::points_elsewhere(io::read_mesh(folder)) == "");
+  std::filesystem::rename(folder / "mesh.pvtu", folder / "else"); // by itself it is known by its numbers
+  for (const char* name : {"mesh_0000.vtu", "mesh_0001.vtu"})
+    check_says(io::points_elsewhere(io::read_mesh(folder / name)), "this is a part of a larger mesh");
+  io::vtu_writer{.files = 1}(cubes.distributed(), folder);
+  CHECK(io::points_elsewhere(io::read_mesh(folder / "mesh_0000.vtu")) == "");
+}
+
+TEST_CASE("a folder with several meshes, or with files that are not read") {
+  const testing::scratch_folder folder("several");
+  const std::filesystem::path path = folder;
+  testing::write_content(folder / "b.msh", "");
+  CHECK(io::find_mesh_file(path) == folder / "b.msh");
+  testing::write_content(folder / "a.msh", "");
+  check_says(testing::refusal_of<input_error>([&] { return io::find_mesh_file(path); }),
+             "several meshes in this folder, a.msh and b.msh for example");
+  testing::write_content(folder / "mesh_partitioned.msh", "");
+  CHECK(io::find_mesh_file(path) == folder / "mesh_partitioned.msh");
+  testing::write_content(folder / "z.pvtu", "");
+  CHECK(io::find_mesh_file(path) == folder / "z.pvtu");
+  const testing::scratch_folder other("unread");
+  testing::write_content(other / "ranks.h5", "\x89HDF\r\n");
+  testing::write_content(other / "mesh.000001", "MFEM mesh v1.2");
+  std::filesystem::create_directory(other / "processor0");
+  check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other); }),
+             "it has files of HDF5, MFEM, OpenFOAM, which dovetail writes but does not read");
+  check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other / "ranks.h5"); }),
+             "a file of HDF5, which dovetail writes but does not read");
+  check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other / "mesh.000001"); }),
+             "a file of MFEM");
 }

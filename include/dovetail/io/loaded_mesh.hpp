@@ -5,6 +5,7 @@
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +32,14 @@ struct loaded_mesh {
   std::vector<point_array> point_scalars;                       ///< all one-component point arrays
   std::vector<std::pair<local_id, std::string>> material_names; ///< of the tags of the mesh
   std::vector<std::pair<local_id, std::string>> triangle_names; ///< of the tags of the triangles
-  std::vector<std::string> passed_over; ///< what else is in the file, such as "12 lines"; each once
+  std::vector<std::string> passed_over;       ///< what else is in the file, such as "12 lines"; each once
+  local_id parts = 0;                         ///< into which an MSH file says that the mesh is divided
+  local_id parts_here = 0;                    ///< of these, which have elements in the file
+  local_id first_part = no_id;                ///< the lowest of them, from 0
+  std::vector<std::filesystem::path> files{}; ///< that it was read from, where each has a part
+
+  /// Whether this is one part of a mesh whose others are in other files.
+  bool is_one_part() const { return parts > 1 && parts_here == 1; }
 
   /// Notes what a reader does not take.
   void pass_over(const std::string& what) {

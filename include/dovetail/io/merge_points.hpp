@@ -25,6 +25,44 @@ inline void complete_point_data(loaded_mesh& mesh) {
     array.values.resize(mesh.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Appends one more part of a mesh, with points of its own that may be there already: `complete_point_data`
+/// and `merge_points` make one mesh of it when all parts are there.
+inline void append_part(loaded_mesh& mesh, loaded_mesh part) {
+  const auto first = static_cast<local_id>(mesh.mesh.points.size());
+  if (part.mesh.points.size() >
+      static_cast<std::size_t>(std::numeric_limits<local_id>::max()) - mesh.mesh.points.size())
+    throw input_error("the mesh is too large to be read at once");
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  const auto append_simplices = [&](auto& to, auto& from) {
+    for (auto& vertices : from)
+      for (local_id& v : vertices)
+        v += first;
+    append(to, from);
+  };
+  append_simplices(mesh.mesh.elements, part.mesh.elements);
+  append_simplices(mesh.triangles, part.triangles);
+  append(mesh.mesh.tags, part.mesh.tags);
+  append(mesh.triangle_tags, part.triangle_tags);
+  append(mesh.subdomains, part.subdomains);
+  append(mesh.node_ids, part.node_ids);
+  for (const point_array& theirs : part.point_scalars) {
+    if (mesh.scalars(theirs.name) == nullptr)
+      mesh.point_scalars.push_back({theirs.name, {}});
+    for (point_array& array : mesh.point_scalars)
+      if (array.name == theirs.name) {
+        array.values.resize(static_cast<std::size_t>(first), std::numeric_limits<double>::quiet_NaN());
+        append(array.values, theirs.values);
+      }
+  }
+  append(mesh.mesh.points, part.mesh.points);
+  for (const std::string& what : part.passed_over)
+    mesh.pass_over(what);
+  if (mesh.material_names.empty())
+    mesh.material_names = std::move(part.material_names);
+  if (mesh.triangle_names.empty())
+    mesh.triangle_names = std::move(part.triangle_names);
+}
+
 namespace detail {
 
 /// The first of all points that are the same as each point, and all points in an order in which equal ones

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,7 @@ public:
     if (!has_nodes_ || !has_elements_)
       at_.fail(has_nodes_ ? "there is no section $Elements" : "there is no section $Nodes");
     translate_nodes();
+    note_parts();
     return std::move(mesh_);
   }
 
@@ -125,9 +127,12 @@ private:
 
   void read_entities(bool partitioned) {
     if (partitioned) {
-      in_.count();
-      for (auto ghosts = in_.count_of(8); ghosts > 0; --ghosts)
-        in_.integer(), in_.integer();
+      constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<local_id>::max());
+      mesh_.parts = static_cast<local_id>(std::min(in_.count(), most));
+      for (auto ghosts = in_.count_of(8); ghosts > 0; --ghosts) {
+        ghosts_.insert(in_.integer());
+        in_.integer(); // the partition that has them
+      }
     }
     std::array<std::size_t, 4> counts;
     for (auto& count : counts)
@@ -190,12 +195,16 @@ private:
         refuse(type);
       const auto found = entities_.find({dimension, tag});
       const auto entity = found == entities_.end() ? msh_entity_tags{} : found->second;
+      const bool of_others = found == entities_.end() && ghosts_.contains(tag);
+      if (count > 0 && entity.partition > 0)
+        parts_with_elements_[dimension].insert(entity.partition - 1);
       for (std::size_t i = 0; i < count; ++i) {
         in_.count();
         std::array<std::uint64_t, 4> vertices{};
         for (std::size_t k = 0; k < nodes; ++k)
           vertices[k] = in_.count();
-        add_element(type, vertices, entity.physical != 0 ? entity.physical : tag, entity.partition);
+        if (!of_others)
+          add_element(type, vertices, entity.physical != 0 ? entity.physical : tag, entity.partition);
       }
     }
   }
@@ -338,6 +347,15 @@ private:
     }
   }
 
+  /// Of the elements that the mesh is made of: others may be between parts.
+  void note_parts() {
+    const int dimension = !tetrahedra_.empty() ? 3 : 2;
+    const std::set<local_id>& here = parts_with_elements_[dimension];
+    mesh_.parts_here = static_cast<local_id>(here.size());
+    if (!here.empty())
+      mesh_.first_part = *here.begin();
+  }
+
   struct node_data {
     std::string name;
     std::vector<std::pair<std::uint64_t, double>> values; ///< node number, value
@@ -349,7 +367,9 @@ private:
   bool has_nodes_ = false;
   bool has_elements_ = false;
   std::map<std::pair<int, int>, msh_entity_tags> entities_;
-  std::vector<std::uint64_t> numbers_; ///< of the nodes, in the order of the points
+  std::set<int> ghosts_;                                  ///< entities of elements that other parts have
+  std::map<int, std::set<local_id>> parts_with_elements_; ///< by dimension
+  std::vector<std::uint64_t> numbers_;                    ///< of the nodes, in the order of the points
   std::vector<std::array<std::uint64_t, 4>> tetrahedra_;
   std::vector<std::array<std::uint64_t, 3>> triangles_;
   std::vector<local_id> partitions_; ///< per tetrahedron
@@ -361,7 +381,8 @@ private:
 
 /// Reads MSH 2.2 and 4.1 files: tetrahedra, triangles, and node data of one component. A tag is the first
 /// physical group of an element's entity, or the entity's number where it has none, less one, as MSH counts
-/// from 1; likewise `subdomains` is the partition and `node_ids` the node number, less one.
+/// from 1; likewise `subdomains` is the partition and `node_ids` the node number, less one. Of a file that
+/// has one part of a mesh it reads that part; elements that are ghosts in it are left out.
 struct msh_reader {
   loaded_mesh operator()(const std::filesystem::path& file) const {
     const auto content = read_file(file);
