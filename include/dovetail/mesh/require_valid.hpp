@@ -46,12 +46,6 @@ std::string listed_points(const std::array<local_id, N>& vertices) {
   return text;
 }
 
-inline std::string place_text(vec3 p) {
-  std::string text = "(";
-  text.append(number_text(p.x)).append(", ").append(number_text(p.y)).append(", ").append(number_text(p.z));
-  return text += ")";
-}
-
 inline bool is_finite(vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }

@@ -121,7 +121,7 @@ DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
   for (std::size_t v = 0; v < boundary.points.size(); ++v)
     if (!detail::is_finite(boundary.points[v]))
       throw mesher_error("boundary point " + std::to_string(v) + " is at " +
-                         detail::place_text(boundary.points[v]) + "; give finite coordinates");
+                         place_text(boundary.points[v]) + "; give finite coordinates");
 }
 
 namespace detail {
