@@ -18,7 +18,9 @@ inline std::string number_text(double number, int digits = 6) {
 
 /// A point, in brackets.
 inline std::string place_text(vec3 p) {
-  return "(" + number_text(p.x) + ", " + number_text(p.y) + ", " + number_text(p.z) + ")";
+  std::string text = "("; // g++ 12 warns of sums of short texts (its bug 105651)
+  text.append(number_text(p.x)).append(", ").append(number_text(p.y)).append(", ").append(number_text(p.z));
+  return text += ")";
 }
 
 } // namespace dovetail
