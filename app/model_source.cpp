@@ -244,8 +244,7 @@ any_geometry load_geometry(const std::string& file_or_name, const std::string& u
   model_options options;
   options.input = file_or_name;
   options.unit = unit;
-  report ignored;
-  return geometry_of_file(file_or_name, options, dimension, ignored);
+  return geometry_of_file(file_or_name, options, dimension).geometry;
 }
 
 model_source load_model(const model_options& options, int dimension) {
