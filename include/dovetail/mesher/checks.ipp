@@ -120,8 +120,8 @@ DOVETAIL_INLINE void require_meshable(const simplicial_mesh<2>& boundary) {
                            std::to_string(v) + ", which does not exist");
   for (std::size_t v = 0; v < boundary.points.size(); ++v)
     if (!detail::is_finite(boundary.points[v]))
-      throw mesher_error("boundary point " + std::to_string(v) + " is at " +
-                         place_text(boundary.points[v]) + "; give finite coordinates");
+      throw mesher_error("boundary point " + std::to_string(v) + " is at " + place_text(boundary.points[v]) +
+                         "; give finite coordinates");
 }
 
 namespace detail {
