@@ -3,7 +3,6 @@
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/decomposition/subdomain_boundary.hpp"
 #include "dovetail/geometry/mesh_boundary.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/partition/greedy.hpp"
@@ -13,6 +12,7 @@
 #include "skeleton/coarse_cube.hpp"
 #include "support/jittered_meshes.hpp"
 #include "support/refusal.hpp"
+#include "support/subdomain_boundary.hpp"
 
 #include <doctest/doctest.h>
 
@@ -98,9 +98,6 @@ void simplify_refuses(const simplicial_mesh<D>& valid) {
       part[e] = valid.points[static_cast<std::size_t>(valid.elements[e][0])].x < 0.5 ? 0 : 1;
     return part;
   }();
-  refuses_all<D>("subdomain_boundary", valid, [&](const auto& mesh, const auto& sides) {
-    return subdomain_boundary<D>(mesh, sides, parts);
-  });
   refuses_all<D>("measure_interface_angles", valid, [&](const auto& mesh, const auto& sides) {
     return measure_interface_angles<D>({mesh, sides, {}, parts}, wanted_angles_of<D>(simplifier::paper{}));
   });
@@ -171,7 +168,7 @@ TEST_CASE("interface angles are measured between triangles that are there once a
   std::vector<local_id> part;
   for (const auto& element : mesh.elements)
     part.push_back(mesh.points[static_cast<std::size_t>(element[0])].x < 0.5 ? 0 : 1);
-  const auto whole = subdomain_boundary<3>(mesh, build_sides(mesh), part);
+  const auto whole = dovetail_test::subdomain_boundary<3>(mesh, build_sides(mesh), part);
   std::size_t interface = 0; // a triangle of it
   while (whole.subdomains[interface][1] == no_id)
     ++interface;
@@ -215,8 +212,8 @@ TEST_CASE("numbers per element are looked at") {
   supers.pop_back();
   CHECK_THROWS_WITH_AS(decompose<3>(mesh, sides, supers, known.graph, {}, partition::greedy{}, 2),
                        doctest::Contains("47 super-elements for 48 elements"), usage_error);
-  CHECK_THROWS_WITH_AS(subdomain_boundary<3>(mesh, sides, supers), doctest::Contains("47 parts"),
-                       usage_error);
+  CHECK_THROWS_WITH_AS(measure_interface_angles<3>({mesh, sides, {}, supers}, {30, 30}),
+                       doctest::Contains("47 parts"), usage_error);
   std::vector<double> weights(48, 1.0);
   weights[4] = std::nan("");
   CHECK_THROWS_WITH_AS(

@@ -3,12 +3,10 @@
 #pragma once
 
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/require_valid.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,15 +24,10 @@ struct subdomain_boundary_sides {
 };
 
 /// Collects the sides between different parts and on the boundary of the mesh. A non-manifold side is held
-/// once per element, with no_id on its other side. Linear. Throws `mesh_error` when `require_valid` refuses
-/// the mesh, unless it is known to be valid, and `usage_error` when there is not one part per element.
+/// once per element, with no_id on its other side. Linear.
 template <int D>
 subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
-                                               std::span<const local_id> part_of_element,
-                                               mesh_state mesh_is = mesh_state::unknown) {
-  detail::require_valid_unless(mesh_is, mesh, sides, "subdomain_boundary");
-  detail::require_one_per_element(part_of_element, mesh.elements.size(), std::numeric_limits<local_id>::max(),
-                                  "subdomain_boundary", "parts");
+                                               std::span<const local_id> part_of_element) {
   subdomain_boundary_sides<D> found;
   const auto part = [&](local_id e) { return part_of_element[static_cast<std::size_t>(e)]; };
   const auto add = [&](const simplex<D - 1>& vertices, std::array<local_id, 2> both, local_id side,
