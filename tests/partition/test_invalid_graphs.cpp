@@ -96,5 +96,8 @@ TEST_CASE("valid graphs pass: edges added up in another order, no edges, one nod
   graph.edge_weights[0] *= 1 + 1e-15;
   require_valid_graph(graph);
   require_valid_graph({});
-  require_valid_graph({{0, 0, 0}, {}, {}, {1, 0}});
+  csr_graph apart;
+  apart.offsets = {0, 0, 0};
+  apart.node_weights = {1, 0};
+  require_valid_graph(apart);
 }
