@@ -31,7 +31,7 @@ struct expected_model {
 std::vector<std::filesystem::path> corpus_files() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(shared() / "corpus"))
-    if (entry.path().extension() != ".md")
+    if (entry.is_regular_file() && entry.path().extension() != ".md")
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
