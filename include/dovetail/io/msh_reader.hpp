@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -56,7 +57,7 @@ private:
     const auto kind = at_.number<int>();
     const auto size = at_.number<int>();
     if (version_ != 2.2 && version_ != 4.1)
-      at_.fail("MSH version " + number_text(version_) +
+      at_.fail("MSH version " + number_text(version_) + (version_ == std::floor(version_) ? ".0" : "") +
                " is not supported; save the mesh as version 4.1 or 2.2");
     if ((kind != 0 && kind != 1) || size != 8)
       at_.fail("the format line is damaged");
