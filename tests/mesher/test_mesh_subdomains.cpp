@@ -173,7 +173,7 @@ struct weighing_executor {
     return outcomes;
   }
   int workers() const { return 1; }
-  bool shares_process() const { return true; }
+  bool shares_process() const { return false; } // so that values come as bytes
 };
 
 TEST_CASE("With a spool a piece is a few bytes of its worker's, however large its boundary") {

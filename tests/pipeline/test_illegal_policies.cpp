@@ -350,7 +350,7 @@ TEST_CASE("A rule of simplification that says what is no number is refused") {
   rule.change = [](side_judgement& judged) { judged.quality.pop_back(); };
   CHECK(testing::has(complaint_of_rule(rule), "it must give one quality each"));
   rule.change = [](side_judgement& judged) { judged.wanted_angle_deg = no_number; };
-  CHECK(testing::has(complaint_of_rule(rule), "wedges of nan"));
+  CHECK(testing::has(complaint_of_rule(rule), "dihedrals of nan"));
   for (const double penalty : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
     changed_rule penalised;
     penalised.other_penalty = penalty;
