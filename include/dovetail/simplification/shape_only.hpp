@@ -2,6 +2,7 @@
 /// The paper's rule without the deletion of small dihedrals.
 #pragma once
 
+#include "dovetail/mesh/wanted_angles.hpp"
 #include "dovetail/simplification/rule_parts.hpp"
 #include "dovetail/simplification/side_shape.hpp"
 
