@@ -5,6 +5,7 @@
 
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/graph/distributed_csr_graph.hpp"
 #include "dovetail/parallel/error_codec.hpp"
 
@@ -21,7 +22,6 @@
 #include <exception>
 #include <optional>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 #include <poll.h>
@@ -49,15 +49,15 @@ struct partition_request {
   distributed_csr_graph graph;
   int parts = 1;
 
-  static constexpr auto fields =
-      std::tuple(&partition_request::partitioner, &partition_request::graph, &partition_request::parts);
+  using fields =
+      field_list<&partition_request::partitioner, &partition_request::graph, &partition_request::parts>;
 };
 
 struct partition_answer {
   std::vector<local_id> parts;
   std::optional<byte_buffer> error; ///< in place of them (`encode_error`)
 
-  static constexpr auto fields = std::tuple(&partition_answer::parts, &partition_answer::error);
+  using fields = field_list<&partition_answer::parts, &partition_answer::error>;
 };
 
 /// The parts, or the error, which is that of all ranks.

@@ -11,6 +11,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/mpi.hpp"
 #include "dovetail/parallel/relay.hpp"
 
@@ -162,7 +163,7 @@ struct rank_end {
   bool by_itself = false; ///< and was not killed because another one had ended
   std::string cause;      ///< one line, where it did not end well
 
-  static constexpr auto fields = std::tuple(&rank_end::code, &rank_end::by_itself, &rank_end::cause);
+  using fields = field_list<&rank_end::code, &rank_end::by_itself, &rank_end::cause>;
 };
 
 using relay_network = watched_network<parallel::mpi>;

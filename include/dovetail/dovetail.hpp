@@ -18,8 +18,13 @@
 #include "dovetail/background/coarse_volume.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
-#include "dovetail/partition/all.hpp"
-#include "dovetail/simplification/all.hpp"
+#include "dovetail/partition/greedy.hpp"
+#include "dovetail/simplification/aspect_ratio.hpp"
+#include "dovetail/simplification/dihedrals_only.hpp"
+#include "dovetail/simplification/flow_aligned.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/shape_only.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
 
 // The skeleton, remeshed, without crossings.

@@ -1,4 +1,5 @@
 #include "dovetail/core/encoding.hpp"
+#include "dovetail/core/fields.hpp"
 
 #include <doctest/doctest.h>
 
@@ -26,8 +27,8 @@ struct tree {
   std::int64_t number = 0;
   int not_sent = 7;
 
-  static constexpr auto fields = std::tuple(&tree::name, &tree::branches, &tree::leaves, &tree::places,
-                                            &tree::sides, &tree::note, &tree::last, &tree::number);
+  using fields = field_list<&tree::name, &tree::branches, &tree::leaves, &tree::places, &tree::sides,
+                            &tree::note, &tree::last, &tree::number>;
 };
 
 struct without_fields {
@@ -35,7 +36,7 @@ struct without_fields {
 };
 struct with_a_pointer {
   const int* at = nullptr;
-  static constexpr auto fields = std::tuple(&with_a_pointer::at);
+  using fields = field_list<&with_a_pointer::at>;
 };
 
 static_assert(encodable<tree> && encodable<std::vector<tree>> && encodable<std::optional<tree>>);

@@ -1,3 +1,4 @@
+#include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/processes.hpp"
@@ -17,7 +18,7 @@ namespace {
 struct made {
   std::string text;
   std::vector<double> numbers;
-  static constexpr auto fields = std::tuple(&made::text, &made::numbers);
+  using fields = field_list<&made::text, &made::numbers>;
 };
 
 const std::vector<any_executor> executors{parallel::serial{}, parallel::threads{3}, parallel::processes{3}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/io/distributed_validity.hpp"
 #include "dovetail/io/mesh_hash.hpp"
@@ -22,7 +23,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -58,8 +58,8 @@ struct labelled_piece {
   std::vector<local_id> at_sides;               ///< labels of the elements at its sides of the skeleton
   kept_value kept;                              ///< the labels of all elements
 
-  static constexpr auto fields = std::tuple(&labelled_piece::hash, &labelled_piece::counts,
-                                            &labelled_piece::at_sides, &labelled_piece::kept);
+  using fields = field_list<&labelled_piece::hash, &labelled_piece::counts, &labelled_piece::at_sides,
+                            &labelled_piece::kept>;
 };
 
 /// Gives each element a label, in a task per piece, and puts those of one label together. `label(piece,

@@ -58,9 +58,13 @@ template <class... Fields>
 constexpr bool can_encode_members(std::type_identity<std::tuple<Fields...>>) {
   return (can_be_encoded<Fields>() && ...);
 }
-template <class T, class... Fields>
-constexpr bool can_encode_fields(const std::tuple<Fields T::*...>&) {
-  return ((std::same_as<Fields, std::vector<T>> || can_be_encoded<Fields>()) && ...); // a tree has itself
+template <class T, class Field>
+constexpr bool can_encode_field() {
+  return std::same_as<Field, std::vector<T>> || can_be_encoded<Field>(); // a tree has itself
+}
+template <class T, auto... Members>
+constexpr bool can_encode_fields(field_list<Members...>) {
+  return (can_encode_field<T, std::remove_cvref_t<decltype(std::declval<T&>().*Members)>>() && ...);
 }
 
 template <class T>
@@ -68,7 +72,7 @@ constexpr bool can_be_encoded() {
   if constexpr (encodes_itself<T> || std::same_as<T, std::string> || std::same_as<T, std::filesystem::path>)
     return true;
   else if constexpr (has_fields<T>)
-    return can_encode_fields<T>(T::fields);
+    return can_encode_fields<T>(typename T::fields{});
   else if constexpr (is_vector<T>::value || is_optional<T>::value)
     return can_be_encoded<typename T::value_type>();
   else if constexpr (plain_bytes<T>)

@@ -3,30 +3,45 @@
 #pragma once
 
 #include <concepts>
-#include <tuple>
 #include <type_traits>
 
 namespace dovetail {
+
+/// Pointers to the members of a type, in the order of its bytes.
+template <auto... Members>
+struct field_list {};
+
+namespace detail {
+
+template <class T>
+struct is_field_list : std::false_type {};
+template <auto... Members>
+struct is_field_list<field_list<Members...>> : std::true_type {};
+
+template <class T, class Visit, auto... Members>
+constexpr void visit_fields(T& item, const Visit& visit, field_list<Members...>) {
+  (visit(item.*Members), ...);
+}
+
+} // namespace detail
 
 /// A type that lists its fields:
 ///
 ///     struct reply {
 ///       local_id piece = no_id;
 ///       std::vector<vec3> points;
-///       static constexpr auto fields = std::tuple(&reply::piece, &reply::points);
+///       using fields = field_list<&reply::piece, &reply::points>;
 ///     };
 ///
 /// A field that follows from the others may be left out.
 template <class T>
-concept has_fields = std::default_initializable<T> && requires {
-  std::tuple_size<std::remove_cvref_t<decltype(T::fields)>>::value;
-};
+concept has_fields = std::default_initializable<T> && detail::is_field_list<typename T::fields>::value;
 
 /// Calls `visit(field)` for each field of `item`, in the order of their list.
 template <class T, class Visit>
   requires has_fields<std::remove_const_t<T>>
 constexpr void for_each_field(T& item, const Visit& visit) {
-  std::apply([&](auto... field) { (visit(item.*field), ...); }, std::remove_const_t<T>::fields);
+  detail::visit_fields(item, visit, typename std::remove_const_t<T>::fields{});
 }
 
 } // namespace dovetail

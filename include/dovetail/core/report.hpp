@@ -2,9 +2,10 @@
 /// What a stage says about itself: wall time, counters and warnings, nested like the pipeline.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
+
 #include <chrono>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct report {
   std::vector<report> children;
   std::vector<std::string> files = {}; ///< written by it, by their names in its folder
 
-  static constexpr auto fields = std::tuple(&report::name, &report::seconds, &report::counters,
-                                            &report::warnings, &report::children, &report::files);
+  using fields = field_list<&report::name, &report::seconds, &report::counters, &report::warnings,
+                            &report::children, &report::files>;
 
   /// Sets a counter, replacing an earlier value.
   void set(const std::string& key, double value) {

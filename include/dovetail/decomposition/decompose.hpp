@@ -16,6 +16,7 @@
 ///                                     wanted_angles_of<3>(simplifier::paper{}));
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
@@ -24,7 +25,6 @@
 #include "dovetail/partition/part_weights.hpp"
 
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -43,11 +43,11 @@ struct decomposition {
   int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these
   report summary;
 
-  static constexpr auto fields =
-      std::tuple(&decomposition::part_of_element, &decomposition::parts, &decomposition::material_of_part,
+  using fields =
+      field_list<&decomposition::part_of_element, &decomposition::parts, &decomposition::material_of_part,
                  &decomposition::part_weights, &decomposition::part_of_super,
                  &decomposition::super_of_element, &decomposition::graph, &decomposition::defective_points,
-                 &decomposition::non_manifold_edges, &decomposition::summary);
+                 &decomposition::non_manifold_edges, &decomposition::summary>;
 };
 
 /// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).

@@ -3,6 +3,7 @@
 /// that is cut into parts, or on the fine skeleton between them; what is too small is listed with its cause.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/require_valid.hpp"
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -51,9 +51,9 @@ struct angle_violation {
   vec3 place;                                  ///< the middle of the face or ridge
   std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
-  static constexpr auto fields = std::tuple(
-      &angle_violation::angle_deg, &angle_violation::cause, &angle_violation::sides, &angle_violation::edge,
-      &angle_violation::subdomain, &angle_violation::place, &angle_violation::cad);
+  using fields = field_list<&angle_violation::angle_deg, &angle_violation::cause, &angle_violation::sides,
+                            &angle_violation::edge, &angle_violation::subdomain, &angle_violation::place,
+                            &angle_violation::cad>;
 
   bool is_wedge() const { return edge[0] != no_id; }
 };
@@ -72,9 +72,9 @@ struct interface_angles {
   least_angle surface_wedge;               ///< between an interface face and a fixed side
   std::vector<angle_violation> violations; ///< by growing angle
 
-  static constexpr auto fields = std::tuple(&interface_angles::interface_faces, &interface_angles::face_angle,
-                                            &interface_angles::interface_wedge,
-                                            &interface_angles::surface_wedge, &interface_angles::violations);
+  using fields = field_list<&interface_angles::interface_faces, &interface_angles::face_angle,
+                            &interface_angles::interface_wedge, &interface_angles::surface_wedge,
+                            &interface_angles::violations>;
 
   double min_wedge_deg() const { return std::min(interface_wedge.angle_deg, surface_wedge.angle_deg); }
   std::size_t count(violation_cause cause) const {

@@ -3,6 +3,7 @@
 /// converts to.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,9 +35,8 @@ struct csr_graph {
   std::vector<double> node_weights;     ///< size nodes
   std::vector<vec3> positions = {};     ///< size nodes, for partitioners that go by place; or empty
 
-  static constexpr auto fields =
-      std::tuple(&csr_graph::offsets, &csr_graph::neighbours, &csr_graph::edge_weights,
-                 &csr_graph::node_weights, &csr_graph::positions);
+  using fields = field_list<&csr_graph::offsets, &csr_graph::neighbours, &csr_graph::edge_weights,
+                            &csr_graph::node_weights, &csr_graph::positions>;
   csr_graph() = default;
   /// A copy of any weighted graph: parallel edges are merged (weights added), self loops dropped, rows
   /// sorted. It converts, so that whatever takes a `const csr_graph&`, such as a partitioner, takes every

@@ -2,12 +2,12 @@
 /// A graph whose rows are spread over the ranks of a run.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -18,8 +18,8 @@ struct distributed_csr_graph {
   int rank = 0;
   csr_graph rows; ///< of this rank's nodes; neighbours by their numbers in the whole graph
 
-  static constexpr auto fields = std::tuple(&distributed_csr_graph::first_of_rank,
-                                            &distributed_csr_graph::rank, &distributed_csr_graph::rows);
+  using fields = field_list<&distributed_csr_graph::first_of_rank, &distributed_csr_graph::rank,
+                            &distributed_csr_graph::rows>;
 
   local_id first() const { return first_of_rank[static_cast<std::size_t>(rank)]; }
   local_id end() const { return first_of_rank[static_cast<std::size_t>(rank) + 1]; }

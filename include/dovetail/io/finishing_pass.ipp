@@ -4,6 +4,7 @@
 
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
@@ -20,7 +21,6 @@
 #include <numeric>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace dovetail::io {
@@ -32,7 +32,7 @@ struct finished_pieces {
   mesh_hasher hash;
   quality_statistics quality;
 
-  static constexpr auto fields = std::tuple(&finished_pieces::hash, &finished_pieces::quality);
+  using fields = field_list<&finished_pieces::hash, &finished_pieces::quality>;
 };
 
 /// What a task gives back; that the mesh is none is an error of its own, which the parent throws.
@@ -41,7 +41,7 @@ struct finishing_reply {
   T done = {};
   std::optional<std::string> no_mesh = {};
 
-  static constexpr auto fields = std::tuple(&finishing_reply::done, &finishing_reply::no_mesh);
+  using fields = field_list<&finishing_reply::done, &finishing_reply::no_mesh>;
 };
 
 /// What the files of pieces depend on beside the pieces: the numbers of all points and elements.

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/io/global_numbering.hpp"
@@ -23,7 +24,6 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,8 +54,8 @@ struct msh_piece_table {
   std::uint64_t ghost_bytes = 0;
   std::uint64_t point_bytes = 0;
 
-  static constexpr auto fields = std::tuple(&msh_piece_table::blocks, &msh_piece_table::ghosts,
-                                            &msh_piece_table::ghost_bytes, &msh_piece_table::point_bytes);
+  using fields = field_list<&msh_piece_table::blocks, &msh_piece_table::ghosts, &msh_piece_table::ghost_bytes,
+                            &msh_piece_table::point_bytes>;
 
   std::uint64_t element_bytes() const {
     return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0},

@@ -153,7 +153,8 @@ for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
     const local_id part = known.first_part, parts = known.parts;
     for (std::size_t p = 0; p < files.size(); ++p) {
       const auto number = static_cast<local_id>(p);
-      loaded_mesh piece = number == part ? std::move(known) : detail::read_part(files[p], number, parts);
+      loaded_mesh piece =
+          number == part ? std::exchange(known, {}) : detail::read_part(files[p], number, parts);
       merged(piece, files[p]);
       f(piece, files[p]);
     }

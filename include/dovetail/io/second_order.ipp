@@ -4,6 +4,7 @@
 
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/geometry/edge_middles.hpp"
 #include "dovetail/io/global_numbering.hpp"
@@ -18,7 +19,6 @@
 #include <memory>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace dovetail::io {
@@ -42,8 +42,7 @@ struct kept_middles {
   std::vector<global_id> inner;
   std::vector<std::pair<std::string, double>> counters; ///< of the summary
 
-  static constexpr auto fields =
-      std::tuple(&kept_middles::points, &kept_middles::inner, &kept_middles::counters);
+  using fields = field_list<&kept_middles::points, &kept_middles::inner, &kept_middles::counters>;
 };
 
 template <int D>

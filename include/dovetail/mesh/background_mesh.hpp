@@ -3,9 +3,8 @@
 /// them.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
-
-#include <tuple>
 
 namespace dovetail {
 
@@ -20,7 +19,7 @@ struct simplicial_background<2> {
   const simplicial_mesh<2>& elements() const { return surface.mesh; }
   const std::vector<vec3>& points() const { return surface.mesh.points; }
 
-  static constexpr auto fields = std::tuple(&simplicial_background::surface);
+  using fields = field_list<&simplicial_background::surface>;
 };
 
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
@@ -36,7 +35,7 @@ struct simplicial_background<3> {
     return volume.points.empty() ? surface.mesh.points : volume.points;
   }
 
-  static constexpr auto fields = std::tuple(&simplicial_background::surface, &simplicial_background::volume);
+  using fields = field_list<&simplicial_background::surface, &simplicial_background::volume>;
 };
 
 using background_mesh = simplicial_background<3>;

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/shared_array.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -20,7 +21,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -115,8 +115,7 @@ struct piece_counts {
   global_id inner_points = 0;
   global_id elements = 0;
 
-  static constexpr auto fields =
-      std::tuple(&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements);
+  using fields = field_list<&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements>;
 };
 
 /// What its store keeps in place of a piece that it has given up.
@@ -125,12 +124,12 @@ struct piece_note {
     std::string path; ///< absolute
     std::uint64_t bytes = 0;
 
-    static constexpr auto fields = std::tuple(&file::path, &file::bytes);
+    using fields = field_list<&file::path, &file::bytes>;
   };
   std::vector<file> files; ///< where the piece is now; when one of them is missing, so is the piece
   byte_buffer text;        ///< for whoever gave the piece up
 
-  static constexpr auto fields = std::tuple(&piece_note::files, &piece_note::text);
+  using fields = field_list<&piece_note::files, &piece_note::text>;
 };
 
 template <int D>

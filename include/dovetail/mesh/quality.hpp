@@ -4,6 +4,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
@@ -16,7 +17,6 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -109,10 +109,10 @@ struct quality_statistics {
   angle_histogram min_wedges;      ///< each element's smallest wedge angle
   angle_histogram max_wedges;      ///< each element's largest wedge angle
 
-  static constexpr auto fields = std::tuple(
-      &quality_statistics::elements, &quality_statistics::min_wedge_deg, &quality_statistics::max_wedge_deg,
-      &quality_statistics::min_face_deg, &quality_statistics::sum_of_min_wedge_deg,
-      &quality_statistics::worst_element, &quality_statistics::min_wedges, &quality_statistics::max_wedges);
+  using fields = field_list<&quality_statistics::elements, &quality_statistics::min_wedge_deg,
+                            &quality_statistics::max_wedge_deg, &quality_statistics::min_face_deg,
+                            &quality_statistics::sum_of_min_wedge_deg, &quality_statistics::worst_element,
+                            &quality_statistics::min_wedges, &quality_statistics::max_wedges>;
 
   /// Elements with a wedge angle under 6, 12, 18 and 24 degrees.
   std::array<std::int64_t, 4> under_6_12_18_24() const {

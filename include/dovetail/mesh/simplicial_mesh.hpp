@@ -2,11 +2,11 @@
 /// The mesh that all stages pass to each other: flat arrays, no hidden state.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -29,8 +29,7 @@ struct simplicial_mesh {
   std::vector<local_id>
       tags; ///< per element: material (D = 3), CAD face (D = 2), CAD curve (D = 1); or empty
 
-  static constexpr auto fields =
-      std::tuple(&simplicial_mesh::points, &simplicial_mesh::elements, &simplicial_mesh::tags);
+  using fields = field_list<&simplicial_mesh::points, &simplicial_mesh::elements, &simplicial_mesh::tags>;
 };
 
 /// A triangulation of CAD faces, conforming across their curves. `mesh.tags` are CAD faces.
@@ -49,8 +48,8 @@ struct surface_mesh {
   };
   std::vector<curve_edge> curve_edges;
 
-  static constexpr auto fields = std::tuple(&surface_mesh::mesh, &surface_mesh::corner_uv,
-                                            &surface_mesh::vertex_hosts, &surface_mesh::curve_edges);
+  using fields = field_list<&surface_mesh::mesh, &surface_mesh::corner_uv, &surface_mesh::vertex_hosts,
+                            &surface_mesh::curve_edges>;
 };
 
 } // namespace dovetail

@@ -4,6 +4,7 @@
 /// links it is bound by that.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/call_budget.hpp"
 #include "dovetail/mesher/checks.hpp"
@@ -18,7 +19,6 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -39,8 +39,7 @@ struct gmsh_answer {
   std::vector<simplex<3>> elements;
   std::size_t sizing_calls = 0;
 
-  static constexpr auto fields =
-      std::tuple(&gmsh_answer::points, &gmsh_answer::elements, &gmsh_answer::sizing_calls);
+  using fields = field_list<&gmsh_answer::points, &gmsh_answer::elements, &gmsh_answer::sizing_calls>;
 };
 
 /// One use of Gmsh, in a process that ends right after it.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
@@ -25,7 +26,6 @@
 #include <optional>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -39,7 +39,7 @@ struct released_piece {
   piece_summary summary;
   piece_note note;
 
-  static constexpr auto fields = std::tuple(&released_piece::summary, &released_piece::note);
+  using fields = field_list<&released_piece::summary, &released_piece::note>;
 };
 
 /// Finished pieces by the numbers of the present decomposition.

@@ -3,12 +3,12 @@
 /// since every rank gets that of every piece.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <tuple>
 
 namespace dovetail::detail {
 
@@ -17,8 +17,7 @@ struct piece_receipt {
   piece_summary summary = {}; ///< its report is brief
   bool reused = false;        ///< the store had it
 
-  static constexpr auto fields =
-      std::tuple(&piece_receipt::piece, &piece_receipt::summary, &piece_receipt::reused);
+  using fields = field_list<&piece_receipt::piece, &piece_receipt::summary, &piece_receipt::reused>;
 };
 
 /// Of the report of a piece what is summed up over all pieces. The rest stays with the piece.

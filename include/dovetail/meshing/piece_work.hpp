@@ -5,6 +5,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/failure_reasons.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -21,7 +22,6 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -43,8 +43,7 @@ struct piece_summary {
   quality_statistics quality;
   report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
 
-  static constexpr auto fields =
-      std::tuple(&piece_summary::counts, &piece_summary::quality, &piece_summary::summary);
+  using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
 
 /// A piece as it is kept: without numbers that only the present skeleton gives it.
@@ -53,7 +52,7 @@ struct finished_piece {
   piece_summary summary;
   simplicial_piece<D> piece;
 
-  static constexpr auto fields = std::tuple(&finished_piece::summary, &finished_piece::piece);
+  using fields = field_list<&finished_piece::summary, &finished_piece::piece>;
 };
 
 /// The box in which a piece looks for refined sizes: that of its closed boundary, or of its regions.

@@ -6,6 +6,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/encoding.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
@@ -19,7 +20,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -39,7 +39,7 @@ struct made_batch {
   bool is_new = false; ///< and was not found
   kept_value kept;
 
-  static constexpr auto fields = std::tuple(&made_batch::is_new, &made_batch::kept);
+  using fields = field_list<&made_batch::is_new, &made_batch::kept>;
 };
 
 } // namespace detail

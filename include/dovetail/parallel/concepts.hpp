@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/progress.hpp"
 
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -26,9 +26,9 @@ struct task_outcome {
   double seconds = 0;     ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
 
-  static constexpr auto fields =
-      std::tuple(&task_outcome::ok, &task_outcome::result, &task_outcome::failure, &task_outcome::crashed,
-                 &task_outcome::timed_out, &task_outcome::seconds, &task_outcome::peak_rss_bytes);
+  using fields =
+      field_list<&task_outcome::ok, &task_outcome::result, &task_outcome::failure, &task_outcome::crashed,
+                 &task_outcome::timed_out, &task_outcome::seconds, &task_outcome::peak_rss_bytes>;
 };
 
 /// How a batch of tasks is run.

@@ -6,6 +6,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
@@ -14,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -26,7 +26,7 @@ struct kept_value {
   content_key key = {};
   std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
 
-  static constexpr auto fields = std::tuple(&kept_value::key, &kept_value::bytes);
+  using fields = field_list<&kept_value::key, &kept_value::bytes>;
 };
 
 /// Holds the bytes of finished entities: in a spool, where workers put them themselves and a later run finds

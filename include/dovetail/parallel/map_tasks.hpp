@@ -17,7 +17,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace dovetail {
@@ -32,6 +31,9 @@ struct task_result {
   double seconds = 0;               ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
 };
+
+/// What a task gives that returns nothing.
+struct no_value {};
 
 namespace detail {
 
@@ -126,7 +128,7 @@ std::vector<task_result<T>> map_tasks_by(Values values, const any_executor& run,
 } // namespace detail
 
 /// Runs `task(i)`, which returns a value, for i in [0, count), and gives what became of each, in order; a
-/// task that returns nothing gives a `std::monostate`. The result is on all ranks. A task that throws,
+/// task that returns nothing gives `no_value`. The result is on all ranks. A task that throws,
 /// crashes or takes too long has failed; but where it throws an `io_error`, `sizing_error` or `usage_error`,
 /// which no other attempt would mend, that of the first such task is thrown here. Complexity: the tasks' own;
 /// and where they run in other processes two copies of each value, which must be `encodable`.
@@ -136,7 +138,7 @@ auto map_tasks(const any_executor& run, std::size_t count, const Task& task,
   using returned = std::invoke_result_t<const Task&, std::size_t>;
   if constexpr (std::is_void_v<returned>) {
     return map_tasks(
-        run, count, [&](std::size_t i) { return task(i), std::monostate{}; }, options);
+        run, count, [&](std::size_t i) { return task(i), no_value{}; }, options);
   } else {
     static_assert(encodable<returned>, "what a task returns must be encodable: see core/encoding.hpp");
     return run.shares_process() && !run.has_others()

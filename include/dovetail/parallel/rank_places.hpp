@@ -2,6 +2,7 @@
 /// Where the ranks of a run are, and which of them work at a time. Linux.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/available_processors.hpp"
@@ -12,7 +13,6 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,8 +24,7 @@ struct rank_place {
   std::vector<std::int32_t> processors; ///< that it may use
   std::int32_t workers = 1;
 
-  static constexpr auto fields =
-      std::tuple(&rank_place::machine, &rank_place::processors, &rank_place::workers);
+  using fields = field_list<&rank_place::machine, &rank_place::processors, &rank_place::workers>;
 };
 
 /// That of the calling rank. Ranks that are threads of one process count as machines: they stand for such.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/encoding.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
@@ -13,7 +14,6 @@
 #include <exception>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,7 +26,7 @@ struct sent_blob {
   std::size_t name = 0;
   std::optional<byte_buffer> blob; ///< none where it was damaged
 
-  static constexpr auto fields = std::tuple(&sent_blob::name, &sent_blob::blob);
+  using fields = field_list<&sent_blob::name, &sent_blob::blob>;
 };
 
 } // namespace detail

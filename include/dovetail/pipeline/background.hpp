@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/pipeline/any_parameters.hpp"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 namespace dovetail {
@@ -41,9 +41,8 @@ struct mesh_plan {
   double coarse_scale = 1; ///< factor between coarse and final size
   double size_scale = 1;   ///< factor between final size and that given (`generate_options::enlarged_above`)
 
-  static constexpr auto fields =
-      std::tuple(&mesh_plan::predicted_elements, &mesh_plan::relative_error, &mesh_plan::subdomains,
-                 &mesh_plan::coarse_scale, &mesh_plan::size_scale);
+  using fields = field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error,
+                            &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::size_scale>;
 };
 
 /// The field given as the plan has it.
@@ -91,8 +90,8 @@ struct background_result {
   report summary;
 
   /// All but the field, which is a function.
-  static constexpr auto fields = std::tuple(&background_result::mesh, &background_result::plan,
-                                            &background_result::bounds, &background_result::summary);
+  using fields = field_list<&background_result::mesh, &background_result::plan, &background_result::bounds,
+                            &background_result::summary>;
 };
 
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as

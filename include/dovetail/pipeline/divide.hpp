@@ -2,6 +2,7 @@
 /// From a background mesh to its parts: simplification and partition (paper, sections 3.3 and 3.4).
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
@@ -11,7 +12,6 @@
 #include "dovetail/pipeline/any_parameters.hpp"
 
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -29,9 +29,9 @@ struct divided_background {
   report simplification, partition;
 
   /// All but the sides, which follow from the mesh.
-  static constexpr auto fields = std::tuple(
-      &divided_background::weights, &divided_background::side_states, &divided_background::pieces,
-      &divided_background::angles, &divided_background::simplification, &divided_background::partition);
+  using fields = field_list<&divided_background::weights, &divided_background::side_states,
+                            &divided_background::pieces, &divided_background::angles,
+                            &divided_background::simplification, &divided_background::partition>;
 };
 
 /// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws `mesh_error` for a

@@ -2,6 +2,7 @@
 /// The super-elements of one piece: its fine elements, joined by the rule that coarse sides are judged by.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/multilevel.hpp"
 #include "dovetail/redistribution/super_graph.hpp"
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,8 +23,7 @@ struct elements_of_supers {
   std::vector<local_id> super_of_element;
   std::vector<local_id> refused;
 
-  static constexpr auto fields =
-      std::tuple(&elements_of_supers::super_of_element, &elements_of_supers::refused);
+  using fields = field_list<&elements_of_supers::super_of_element, &elements_of_supers::refused>;
 };
 
 namespace detail {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -15,7 +16,6 @@
 #include <cstdint>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,8 +32,8 @@ struct piece_cut {
   std::vector<std::array<local_id, 2>> subdomains; ///< of the new pieces; oriented outwards of [0]
   std::vector<std::uint8_t> refused;               ///< not zero: the side ought to have been removed
 
-  static constexpr auto fields = std::tuple(&piece_cut::points, &piece_cut::places, &piece_cut::hosts,
-                                            &piece_cut::sides, &piece_cut::subdomains, &piece_cut::refused);
+  using fields = field_list<&piece_cut::points, &piece_cut::places, &piece_cut::hosts, &piece_cut::sides,
+                            &piece_cut::subdomains, &piece_cut::refused>;
 };
 
 /// Cuts a piece between elements that go to different new pieces. `on_skeleton` is what

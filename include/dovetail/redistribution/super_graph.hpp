@@ -4,6 +4,7 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/distributed_csr_graph.hpp"
 #include "dovetail/io/distributed_validity.hpp"
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -83,8 +83,8 @@ struct simplified_piece {
   std::vector<local_id> super_at_side; ///< per side of the skeleton, as in `sides_of_piece`
   std::vector<double> penalty_of_side; ///< of each such side as an interface; 1 for a good one
 
-  static constexpr auto fields = std::tuple(&simplified_piece::graph, &simplified_piece::super_at_side,
-                                            &simplified_piece::penalty_of_side);
+  using fields = field_list<&simplified_piece::graph, &simplified_piece::super_at_side,
+                            &simplified_piece::penalty_of_side>;
 };
 
 /// The super-elements of a whole mesh.

@@ -2,6 +2,7 @@
 /// The input and output of the patch remesher: one part of a surface with a planar parameter domain.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/geometry/concepts.hpp"
@@ -10,7 +11,6 @@
 #include <array>
 #include <concepts>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -64,9 +64,9 @@ struct patch_mesh {
   std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
   report summary;
 
-  static constexpr auto fields = std::tuple(
-      &patch_mesh::inner_uv, &patch_mesh::inner_points, &patch_mesh::triangles, &patch_mesh::crossings,
-      &patch_mesh::misplaced, &patch_mesh::folded, &patch_mesh::repeated_edges, &patch_mesh::summary);
+  using fields = field_list<&patch_mesh::inner_uv, &patch_mesh::inner_points, &patch_mesh::triangles,
+                            &patch_mesh::crossings, &patch_mesh::misplaced, &patch_mesh::folded,
+                            &patch_mesh::repeated_edges, &patch_mesh::summary>;
 
   bool ok() const {
     return crossings.empty() && misplaced.empty() && folded.empty() && repeated_edges.empty();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
 #include "dovetail/parallel/task_model.hpp"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -24,7 +24,7 @@ struct fine_line {
   std::vector<double> t; ///< curve parameters, for a line on a CAD curve
   std::vector<vec2> uv;  ///< face parameters, for a line on a CAD face
 
-  static constexpr auto fields = std::tuple(&fine_line::points, &fine_line::t, &fine_line::uv);
+  using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>;
 };
 
 namespace detail {
