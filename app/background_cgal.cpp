@@ -2,7 +2,7 @@
 
 #include "background_cgal.hpp"
 
-#include "dovetail/mesher/cgal_mesh_3.hpp"
+#include "dovetail/adapters/cgal_mesh_3.hpp"
 
 namespace dovetail::app {
 

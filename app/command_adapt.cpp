@@ -11,10 +11,10 @@
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/zlib.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/pipeline/adapt.hpp"
+#include "dovetail/solver/adapt.hpp"
 
 #include <algorithm>
 #include <cstdio>

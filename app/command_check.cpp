@@ -4,10 +4,10 @@
 #include "mesh_files.hpp"
 #include "run_figures.hpp"
 
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/streamed_validity.hpp"
+#include "dovetail/files/zlib.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/streamed_validity.hpp"
-#include "dovetail/io/zlib.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
 

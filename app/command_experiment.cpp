@@ -8,10 +8,10 @@
 #include "named_policies.hpp"
 #include "output.hpp"
 
+#include "dovetail/adapters/metis.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/version.hpp"
-#include "dovetail/partition/metis.hpp"
 
 #include <algorithm>
 #include <cstdio>

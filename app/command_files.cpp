@@ -5,9 +5,9 @@
 #include "output.hpp"
 
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/sizing/json.hpp"
-#include "dovetail/sizing/json_tree.hpp"
+#include "dovetail/files/json_tree.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/sizing_json.hpp"
 
 #include <algorithm>
 #include <exception>

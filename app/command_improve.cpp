@@ -6,8 +6,8 @@
 #include "quality_change.hpp"
 #include "run_figures.hpp"
 
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/zlib.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/quality.hpp"
 
 #include <cstdio>

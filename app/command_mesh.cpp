@@ -15,14 +15,14 @@
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/bytes.hpp"
-#include "dovetail/io/finishing_pass.hpp"
-#include "dovetail/io/second_order.hpp"
-#include "dovetail/io/write_trace.hpp"
+#include "dovetail/distributed/by_elements.hpp"
+#include "dovetail/files/finishing_pass.hpp"
+#include "dovetail/files/write_trace.hpp"
 #include "dovetail/parallel/available_processors.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
-#include "dovetail/pipeline/by_elements.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
+#include "dovetail/solver/second_order.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 
-#include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
 
 #include <cstdio>
 

@@ -6,9 +6,9 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/number_text.hpp"
-#include "dovetail/io/read_trace.hpp"
-#include "dovetail/simulation/memory.hpp"
-#include "dovetail/simulation/workload.hpp"
+#include "dovetail/experiments/simulation/memory.hpp"
+#include "dovetail/experiments/simulation/workload.hpp"
+#include "dovetail/files/read_trace.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "policies.hpp"
 #include "stage_figures.hpp"
 
-#include "dovetail/io/finishing_pass.hpp"
+#include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/sizing/compose.hpp"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "entire_scheme.hpp"
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/io/read_trace.hpp"
-#include "dovetail/simulation/simulate.hpp"
+#include "dovetail/experiments/simulation/simulate.hpp"
+#include "dovetail/files/read_trace.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/improver/concepts.hpp"
-#include "dovetail/io/loaded_mesh.hpp"
+#include "dovetail/mesh/loaded_mesh.hpp"
 
 #include <array>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "improver_cgal.hpp"
 
-#include "dovetail/improver/cgal.hpp"
+#include "dovetail/adapters/cgal_improver.hpp"
 
 namespace dovetail::app {
 

@@ -2,7 +2,7 @@
 
 #include "failure.hpp"
 
-#include "dovetail/io/read_mesh.hpp"
+#include "dovetail/files/read_mesh.hpp"
 
 #include <algorithm>
 #include <cctype>

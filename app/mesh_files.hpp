@@ -2,9 +2,9 @@
 /// Mesh files that hold one mesh.
 #pragma once
 
-#include "dovetail/io/loaded_mesh.hpp"
-#include "dovetail/io/write_msh.hpp"
-#include "dovetail/io/write_vtu.hpp"
+#include "dovetail/files/write_msh.hpp"
+#include "dovetail/files/write_vtu.hpp"
+#include "dovetail/mesh/loaded_mesh.hpp"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/parallel/any_communicator.hpp"
-#include "dovetail/pipeline/adaptation_options.hpp"
+#include "dovetail/solver/adaptation_options.hpp"
 
 #include <optional>
 #include <string>

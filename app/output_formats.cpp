@@ -5,19 +5,19 @@
 #include "policies.hpp"
 #include "rank_partitioner.hpp"
 
-#include "dovetail/io/mfem_format.hpp"
-#include "dovetail/io/msh_writer.hpp"
-#include "dovetail/io/openfoam_format.hpp"
-#include "dovetail/io/pvtu_format.hpp"
-#include "dovetail/io/rank_files.hpp"
-#include "dovetail/io/rank_msh_format.hpp"
-#include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/partition/metis.hpp"
-#include "dovetail/redistribution/by_pieces.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/distributed/by_pieces.hpp"
+#include "dovetail/files/msh_writer.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/solver/mfem_format.hpp"
+#include "dovetail/solver/openfoam_format.hpp"
+#include "dovetail/solver/pvtu_format.hpp"
+#include "dovetail/solver/rank_files.hpp"
+#include "dovetail/solver/rank_msh_format.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
-#include "dovetail/io/hdf5_format.hpp"
-#include "dovetail/io/hdf5_pieces.hpp"
+#include "dovetail/files/hdf5_pieces.hpp"
+#include "dovetail/solver/hdf5_format.hpp"
 #endif
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 
 #include "options.hpp"
 
-#include "dovetail/io/piecewise_output.hpp"
+#include "dovetail/distributed/any_redistributor.hpp"
+#include "dovetail/files/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
-#include "dovetail/redistribution/any_redistributor.hpp"
 
 #include <filesystem>
 #include <string>

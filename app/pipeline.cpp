@@ -1,7 +1,7 @@
 #include "pipeline.hpp"
 
-#include "dovetail/baselines/generate_bisected.hpp"
-#include "dovetail/baselines/generate_by_fine_partition.hpp"
+#include "dovetail/experiments/baselines/generate_bisected.hpp"
+#include "dovetail/experiments/baselines/generate_by_fine_partition.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 
 #include <cstddef>

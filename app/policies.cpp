@@ -3,18 +3,18 @@
 #include "named_improver.hpp"
 #include "named_policies.hpp"
 
-#include "dovetail/baselines/ito_improvement.hpp"
-#include "dovetail/baselines/loehner_improvement.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/core/number_text.hpp"
-#include "dovetail/geometry/builtin_models.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/distributed/ranks.hpp"
+#include "dovetail/experiments/baselines/ito_improvement.hpp"
+#include "dovetail/experiments/baselines/loehner_improvement.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/all.hpp"
-#include "dovetail/partition/metis.hpp"
 #include "dovetail/simplification/all.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
@@ -22,19 +22,19 @@
 #include "improver_cgal.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-#include "dovetail/improver/gmsh.hpp"
-#include "dovetail/mesher/gmsh_delaunay.hpp"
-#include "dovetail/mesher/gmsh_hxt.hpp"
+#include "dovetail/adapters/gmsh_delaunay.hpp"
+#include "dovetail/adapters/gmsh_hxt.hpp"
+#include "dovetail/adapters/gmsh_improver.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
-#include "dovetail/improver/netgen.hpp"
-#include "dovetail/mesher/netgen.hpp"
+#include "dovetail/adapters/netgen.hpp"
+#include "dovetail/adapters/netgen_improver.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SCOTCH
-#include "dovetail/partition/scotch.hpp"
+#include "dovetail/adapters/scotch.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SPECTRA
-#include "dovetail/partition/spectral.hpp"
+#include "dovetail/adapters/spectral.hpp"
 #endif
 
 #include <algorithm>

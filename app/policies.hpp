@@ -2,13 +2,13 @@
 /// The policies that the driver knows by name. The first name of each list is the default.
 #pragma once
 
+#include "dovetail/distributed/improve_pieces.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
-#include "dovetail/pipeline/improve_pieces.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 

@@ -10,10 +10,10 @@
 #include "dovetail/parallel/error_codec.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_PTSCOTCH
-#include "dovetail/partition/ptscotch.hpp"
+#include "dovetail/adapters/ptscotch.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_PARMETIS
-#include "dovetail/partition/parmetis.hpp"
+#include "dovetail/adapters/parmetis.hpp"
 #endif
 
 #include <chrono>

@@ -3,8 +3,8 @@
 /// ranks speak MPI, which the computing processes do not: they ask their relays.
 #pragma once
 
+#include "dovetail/distributed/socket_frames.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
-#include "dovetail/parallel/socket_frames.hpp"
 #include "dovetail/partition/any_distributed_partitioner.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 

@@ -12,8 +12,8 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/fields.hpp"
-#include "dovetail/parallel/mpi.hpp"
-#include "dovetail/parallel/relay.hpp"
+#include "dovetail/distributed/mpi.hpp"
+#include "dovetail/distributed/relay.hpp"
 
 #include <boost/mpi/environment.hpp>
 

@@ -2,7 +2,7 @@
 /// What `dovetail simulate` is asked for, as plain data.
 #pragma once
 
-#include "dovetail/simulation/simulate.hpp"
+#include "dovetail/experiments/simulation/simulate.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "failure.hpp"
 #include "stop_request.hpp"
 
+#include "dovetail/distributed/stack_overflow.hpp"
 #include "dovetail/parallel/run_task.hpp"
-#include "dovetail/parallel/stack_overflow.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,10 +3,10 @@
 
 #include "dovetail/mesher/by_regions.hpp"
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-#include "dovetail/mesher/cgal_surface.hpp"
+#include "dovetail/adapters/cgal_surface.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-#include "dovetail/mesher/gmsh_surface.hpp"
+#include "dovetail/adapters/gmsh_surface.hpp"
 #endif
 
 namespace dovetail::app {

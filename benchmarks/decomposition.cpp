@@ -2,10 +2,10 @@
 /// repair. The mesh is a jittered lattice in a ball-like box, graded towards its centre, as is the sizing.
 /// Usage: decomposition [elements (default 3000000)] [parts (default 256)] [partitioners (default metis
 /// greedy)]
+#include "dovetail/adapters/metis.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/partition/greedy.hpp"
-#include "dovetail/partition/metis.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"

@@ -4,10 +4,10 @@
 // workers.
 //
 //   failed_piece [elements, default 2000000] [subdomains, default 72] [workers, default 2]
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/compose.hpp"
 

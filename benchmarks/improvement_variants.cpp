@@ -8,11 +8,11 @@
 // as in `redistribution`.
 #include "many_pieces.hpp"
 
-#include "dovetail/baselines/ito_improvement.hpp"
-#include "dovetail/baselines/loehner_improvement.hpp"
+#include "dovetail/distributed/by_elements.hpp"
+#include "dovetail/distributed/improve_pieces.hpp"
+#include "dovetail/experiments/baselines/ito_improvement.hpp"
+#include "dovetail/experiments/baselines/loehner_improvement.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/pipeline/by_elements.hpp"
-#include "dovetail/pipeline/improve_pieces.hpp"
 
 #include <cstdio>
 #include <cstdlib>

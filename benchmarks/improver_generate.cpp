@@ -8,9 +8,9 @@
 ///
 /// The raw file holds three int64 (points, elements, frozen points), the points (3 doubles each) and the
 /// elements (4 int32 each). A benchmark tool, not part of the library.
+#include "dovetail/adapters/tetgen_library.hpp"
+#include "dovetail/files/read_mesh.hpp"
 #include "dovetail/improver/tetrahedra/tet_adjacency.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/mesher/tetgen_library.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 /// @file
 /// Gmsh's own optimiser on raw meshes. Usage: improver_gmsh THRESHOLD[,THRESHOLD...] REPEATS MESH.raw...
 /// Its seconds include handing the mesh over to Gmsh in a child process and back.
-#include "dovetail/improver/gmsh.hpp"
+#include "dovetail/adapters/gmsh_improver.hpp"
 #include "improver_runs.hpp"
 
 #include <sstream>

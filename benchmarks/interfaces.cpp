@@ -7,11 +7,11 @@
 //
 // MODEL is a CAD file or the name of a built-in model; by default all of the latter and what is in the folder
 // `models` of $DOVETAIL_SHARED. Files have a uniform size, built-in models their own, scaled.
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/geometry/occt_read.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
+#include "dovetail/models/occt/read.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/rounds.hpp"

@@ -1,11 +1,11 @@
 /// Writing and reading speed of the file formats: io [cells per axis (default 64)] [folder].
 /// The mesh is a grid cube of 6 cells^3 elements in 64 subdomains, held in memory, so that the figures are
 /// those of the formats. The pieces are loaded by copy, as from a spool file in the page cache.
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/msh_writer.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/files/msh_writer.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
 #include "io/stacked_cubes.hpp"
 
 #include <cstdio>

@@ -2,9 +2,9 @@
 /// A mesh in memory that has many pieces.
 #pragma once
 
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/compose.hpp"
 

@@ -4,10 +4,10 @@
 // The last two lines are wall time, so they want an otherwise idle machine.
 //
 //   mesher [elements per case, default 1000000]
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
-#include "dovetail/parallel/processes.hpp"
 #include "mesher/shapes.hpp"
 
 #include <algorithm>

@@ -3,16 +3,16 @@
 /// Usage: partition [subdomains (default 32)] [background elements (default 75000)] [models...]
 /// Models are names of built-in ones or CAD files; by default the aircraft and, when DOVETAIL_SHARED is set,
 /// models/linkrods.step in that folder.
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/scotch.hpp"
+#include "dovetail/adapters/spectral.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/decomposition/decompose.hpp"
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/inertial.hpp"
-#include "dovetail/partition/metis.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
-#include "dovetail/partition/scotch.hpp"
 #include "dovetail/partition/space_filling_curve.hpp"
-#include "dovetail/partition/spectral.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/paper.hpp"

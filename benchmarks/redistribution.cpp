@@ -6,11 +6,11 @@
 // (500000) elements in SUBDOMAINS (80) pieces, which go to RANKS (4). Seconds are processor time of one core.
 #include "many_pieces.hpp"
 
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/distributed/by_elements.hpp"
+#include "dovetail/distributed/by_pieces.hpp"
+#include "dovetail/distributed/piece_supers.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/partition/metis.hpp"
-#include "dovetail/pipeline/by_elements.hpp"
-#include "dovetail/pipeline/piece_supers.hpp"
-#include "dovetail/redistribution/by_pieces.hpp"
 
 #include <cstdio>
 #include <cstdlib>

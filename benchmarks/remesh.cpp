@@ -3,7 +3,7 @@
 ///
 /// Usage: remesh_benchmark SIZE_FRACTION [FILE...]: edges are the model's diagonal divided by SIZE_FRACTION.
 #include "dovetail/background/coarse_surface.hpp"
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/parallel/serial.hpp"
 
 #include <cstdio>

@@ -3,7 +3,7 @@
 //
 //   tasks [tasks, default 10000] [workers, default 2]
 #include "dovetail/core/report.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/processes.hpp"
 
 #include <chrono>
 #include <cstddef>

@@ -1,8 +1,8 @@
 /// TetGen alone, next to the pipeline: fills the boundary of a mesh that `dovetail mesh` wrote, in one piece
 /// and at the same size, and prints a JSON line. Usage: tetgen_alone MESH (VTU, PVTU or MSH) SIZE
-#include "dovetail/io/read_mesh.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/files/read_mesh.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesher/tetgen.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
 #include <cstdio>

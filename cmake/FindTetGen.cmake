@@ -7,7 +7,7 @@ mark_as_advanced(TetGen_INCLUDE_DIR TetGen_LIBRARY)
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(TetGen REQUIRED_VARS TetGen_LIBRARY TetGen_INCLUDE_DIR)
 
-# A shared library is not linked but loaded by mesher/tetgen_library.hpp, which says why.
+# A shared library is not linked but loaded by adapters/tetgen_library.hpp, which says why.
 if(TetGen_FOUND AND NOT TARGET TetGen::TetGen)
   file(REAL_PATH "${TetGen_LIBRARY}" TetGen_file)
   if(TetGen_file MATCHES "\\.so(\\.[0-9.]+)?$")

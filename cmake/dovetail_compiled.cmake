@@ -1,6 +1,6 @@
 # dovetail::compiled: what no policy touches, compiled once. Every x.ipp of the library defines what x.hpp beside it
-# declares; a folder's are compiled together. Those of an adapter, and only those, stand in files that begin with its
-# name; their library is dovetail::compiled_<adapter>. Whoever links one of these gets the declarations alone.
+# declares; a folder's are compiled together. Those that need Open CASCADE are a library of their own,
+# dovetail::compiled_occt. Whoever links one of these gets the declarations alone.
 option(DOVETAIL_BUILD_COMPILED "Build the compiled library beside the header-only one" ${PROJECT_IS_TOP_LEVEL})
 
 set(dovetail_compiled_targets "")
@@ -14,6 +14,7 @@ function(dovetail_compiled_library name)
   set(sources "")
   foreach(file IN LISTS arg_FILES)
     cmake_path(GET file PARENT_PATH folder)
+    string(REPLACE "/" "_" folder "${folder}")
     string(APPEND includes_of_${folder} "#include \"dovetail/${file}\"\n")
     list(APPEND folders ${folder})
   endforeach()
@@ -31,12 +32,13 @@ function(dovetail_compiled_library name)
   set(dovetail_compiled_targets ${dovetail_compiled_targets} ${name} PARENT_SCOPE)
 endfunction()
 
-file(GLOB definitions CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/dovetail"
-  "${PROJECT_SOURCE_DIR}/include/dovetail/*/*.ipp")
+file(GLOB_RECURSE definitions CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/dovetail"
+  "${PROJECT_SOURCE_DIR}/include/dovetail/*.ipp")
 list(SORT definitions)
 set(of_occt ${definitions})
-list(FILTER of_occt INCLUDE REGEX "/(occt|builtin_models)")
-list(FILTER definitions EXCLUDE REGEX "/(occt|builtin_models)")
+set(uses_occt "^models/occt|^experiments/builtin_models")
+list(FILTER of_occt INCLUDE REGEX "${uses_occt}")
+list(FILTER definitions EXCLUDE REGEX "${uses_occt}")
 
 dovetail_compiled_library(compiled LINKS dovetail DEFINITION DOVETAIL_COMPILED FILES ${definitions})
 if(TARGET dovetail_occt AND of_occt)

@@ -1,9 +1,9 @@
 /// From a CAD file to a conforming tetrahedral mesh.
 /// Usage: 01_mesh_a_cad_file FILE FOLDER [SIZE]    (STEP, IGES or BREP; SIZE is the wanted edge length)
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/models/occt_model.hpp"
 
 #include <cstdio>
 #include <cstdlib>

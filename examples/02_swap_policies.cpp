@@ -1,10 +1,10 @@
 /// The same model with other partitioners, improvers and executors: one token of a row changes, nothing else.
 /// Usage: 02_swap_policies FILE [SUBDOMAINS (default 6)]    (STEP, IGES or BREP)
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/partition/inertial.hpp"
-#include "dovetail/partition/metis.hpp"
 
 #include <cstdio>
 #include <cstdlib>

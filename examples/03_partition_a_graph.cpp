@@ -1,5 +1,5 @@
 /// One policy alone: METIS on a graph of one's own, and the native partitioner in its place.
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // A plane domain with a hole, meshed with triangles in parallel and written for ParaView.
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/geometry/plane_svg_path.hpp"
-#include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/models/plane/svg_path.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

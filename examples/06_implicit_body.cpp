@@ -1,8 +1,8 @@
 /// A body given by a formula, meshed: no file needed.
 /// Usage: 06_implicit_body [SIZE (default 0.08)]
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

@@ -1,9 +1,9 @@
 /// Linear finite elements from a CAD file with Eigen: -laplace(u) = f with u given on the boundary, solved at
 /// two sizes. The error of a method of second order falls to a quarter. Usage: 07_poisson FILE [SIZE]
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/io/gather.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/solver/gather.hpp"
 #include "linear_elements.hpp"
 
 #include <cmath>

@@ -1,10 +1,10 @@
 /// The pipeline stage by stage, for a question: how small an angle may two interfaces include, at which
 /// threshold of the simplification, with the background mesh as it comes from the mesher and improved? Usage:
 /// 08_thresholds FILE [SIZE [SUBDOMAINS]]
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/models/occt_model.hpp"
 
 #include <cstdio>
 #include <cstdlib>

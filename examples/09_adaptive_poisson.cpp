@@ -1,11 +1,11 @@
 /// Solve, estimate, adapt: linear finite elements on a body with an edge that points inwards, where the
 /// solution has unbounded gradients. Meshes adapted to an estimate of the error against uniform ones.
 /// Usage: 09_adaptive_poisson [LOOPS]
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/io/gather.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/pipeline/adapt.hpp"
+#include "dovetail/models/discrete_model.hpp"
+#include "dovetail/solver/adapt.hpp"
+#include "dovetail/solver/gather.hpp"
 #include "linear_elements.hpp"
 
 #include <cmath>

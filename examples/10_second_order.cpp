@@ -1,11 +1,11 @@
 /// Second-order elements: nodes in the middle of edges, on the model, and what they are worth.
 /// Usage: 10_second_order
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
-#include "dovetail/io/second_order.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/second_order.hpp"
 
 #include <array>
 #include <cmath>

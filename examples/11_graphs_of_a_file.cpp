@@ -1,11 +1,11 @@
 /// The dual graph of a mesh that was read from a file, for the algorithms of Boost.Graph.
 /// Usage: 11_graphs_of_a_file [MESH (VTU, PVTU or MSH; default: two balls, written to two_balls.msh)]
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
-#include "dovetail/graph/boost_graph.hpp"
-#include "dovetail/io/msh_writer.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/boost_graph.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/files/msh_writer.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/mesh_duals.hpp"
 #include "dovetail/sizing/uniform.hpp"

@@ -2,12 +2,12 @@
 /// own elements, and what ranks share is added up along the lists of neighbours. Here all ranks are in one
 /// process; with MPI `exchange` sends and receives. Compared with the serial solution. Usage:
 /// 12_distributed_poisson [RANKS [SIZE]]
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/by_pieces.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
-#include "dovetail/io/gather.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/redistribution/by_pieces.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
+#include "dovetail/solver/gather.hpp"
 #include "linear_elements.hpp"
 
 #include <Eigen/Sparse>

@@ -1,5 +1,5 @@
 /// A network of Boost.Graph, partitioned as it is, and again with its main streets in one piece each.
-#include "dovetail/graph/boost_graph.hpp"
+#include "dovetail/adapters/boost_graph.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/partition/part_weights.hpp"
 #include "dovetail/simplification/simplify.hpp"

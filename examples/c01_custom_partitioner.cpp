@@ -1,8 +1,8 @@
 /// A partitioner of one's own, used by the whole pipeline.
 /// Usage: c01_custom_partitioner FILE [SUBDOMAINS (default 8)]
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/graph/breadth_first.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

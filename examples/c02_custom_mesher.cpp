@@ -1,7 +1,7 @@
 /// A mesher of one's own, used by the whole pipeline.
 /// Usage: c02_custom_mesher FILE
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

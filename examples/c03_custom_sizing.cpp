@@ -1,7 +1,7 @@
 /// Sizing fields of one's own: a struct, a lambda, and what the library makes of them.
 /// Usage: c03_custom_sizing FILE
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/compose.hpp"
 

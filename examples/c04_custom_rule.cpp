@@ -1,7 +1,7 @@
 /// A simplification rule of one's own, used by the whole pipeline.
 /// Usage: c04_custom_rule FILE
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

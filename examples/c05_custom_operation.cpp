@@ -1,8 +1,8 @@
 /// An operation of one's own in the native improver, used by the whole pipeline.
 /// Usage: c05_custom_operation FILE
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/improver/native_by.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

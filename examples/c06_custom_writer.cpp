@@ -1,10 +1,10 @@
 /// A writer of one's own: a mesh for the flow solver SU2, one piece in memory at a time.
 /// Usage: c06_custom_writer FILE FOLDER
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/io/concepts.hpp"
-#include "dovetail/io/face_groups.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/files/concepts.hpp"
+#include "dovetail/files/face_groups.hpp"
+#include "dovetail/models/occt_model.hpp"
 
 #include <cstdio>
 

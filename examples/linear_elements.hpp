@@ -2,8 +2,8 @@
 /// Linear finite elements for -laplace(u) = f on tetrahedra, u given on the boundary; of examples 07 and 09.
 #pragma once
 
+#include "dovetail/adapters/eigen.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/eigen.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/IterativeLinearSolvers>

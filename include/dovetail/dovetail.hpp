@@ -33,12 +33,12 @@
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 // The subdomains, meshed and improved in parallel.
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/distributed/ranks.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/subdomain_surface.hpp"
 #include "dovetail/parallel/in_process.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/self.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -47,7 +47,7 @@
 #include "dovetail/pipeline/generate.hpp"
 
 // Files.
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/finishing_pass.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/files/finishing_pass.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"

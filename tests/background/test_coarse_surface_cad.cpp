@@ -1,5 +1,5 @@
 #include "dovetail/background/coarse_surface.hpp"
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "surface_checks.hpp"
 

@@ -1,11 +1,11 @@
 // A fine mesh of the whole, cut into parts that are improved with their interfaces fixed.
-#include "dovetail/baselines/generate_by_fine_partition.hpp"
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/experiments/baselines/generate_by_fine_partition.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "pipeline/solid_meshes.hpp"
 

@@ -4,12 +4,13 @@
 /// do a real model's job, so that the whole pipeline can run with archetypes alone.
 #pragma once
 
+#include "dovetail/distributed/concepts.hpp"
+#include "dovetail/files/concepts.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/operation.hpp"
 #include "dovetail/improver/shape_measure.hpp"
-#include "dovetail/io/concepts.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/mesher/preferences.hpp"
@@ -18,9 +19,9 @@
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/distributed_concepts.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
-#include "dovetail/redistribution/concepts.hpp"
 #include "dovetail/remesh/concepts.hpp"
 #include "dovetail/sizing/bounds.hpp"
+#include "dovetail/solver/concepts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "run_figures.hpp"
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/io/write_trace.hpp"
+#include "dovetail/files/write_trace.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <doctest/doctest.h>

@@ -1,9 +1,9 @@
 #include "improvable_mesh.hpp"
 
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/write_msh.hpp"
+#include "dovetail/files/write_vtu.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/write_msh.hpp"
-#include "dovetail/io/write_vtu.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "io/scratch_folder.hpp"

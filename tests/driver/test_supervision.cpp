@@ -2,7 +2,7 @@
 #include "stop_request.hpp"
 #include "supervision.hpp"
 
-#include "dovetail/parallel/stack_overflow.hpp"
+#include "dovetail/distributed/stack_overflow.hpp"
 
 #include <doctest/doctest.h>
 

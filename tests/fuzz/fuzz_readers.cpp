@@ -1,10 +1,10 @@
 // Bytes that a fuzzer makes up, as files for one of the library's own readers: each is read or refused with a
 // typed error, in bounded time and memory. `--reader=KIND` chooses the reader.
-#include "dovetail/geometry/discrete_read.hpp"
-#include "dovetail/geometry/plane_read.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/zlib.hpp"
-#include "dovetail/sizing/json.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/sizing_json.hpp"
+#include "dovetail/files/zlib.hpp"
+#include "dovetail/models/discrete/read.hpp"
+#include "dovetail/models/plane/read.hpp"
 
 #include <cstddef>
 #include <cstdint>

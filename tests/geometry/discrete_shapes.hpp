@@ -2,7 +2,7 @@
 /// Triangulated shapes for tests, and writers of the formats that the library reads.
 #pragma once
 
-#include "dovetail/geometry/discrete_soup.hpp"
+#include "dovetail/models/discrete/soup.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/geometry/occt_shape.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
+#include "dovetail/models/occt/shape.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"
 

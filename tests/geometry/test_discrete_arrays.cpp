@@ -1,10 +1,10 @@
 /// Surfaces from arrays of one's own: what does not fit together is refused, ids come back.
 #include "discrete_shapes.hpp"
 
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/io/gather.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/gather.hpp"
 
 #include <doctest/doctest.h>
 

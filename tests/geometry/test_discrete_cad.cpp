@@ -1,9 +1,9 @@
 // CAD parts tessellated by their kernel, written as STL and read back: needles, caps and rounding as in
 // practice.
 #include "discrete_shapes.hpp"
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
+#include "dovetail/models/discrete_model.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "model_checks.hpp"
 
 #include <cstdlib>

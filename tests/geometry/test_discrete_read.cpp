@@ -1,5 +1,5 @@
 #include "discrete_shapes.hpp"
-#include "dovetail/geometry/discrete_read.hpp"
+#include "dovetail/models/discrete/read.hpp"
 #include "support/refusal.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 #include "discrete_shapes.hpp"
-#include "dovetail/geometry/discrete_repair.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "support/refusal.hpp"
 
 #include <doctest/doctest.h>

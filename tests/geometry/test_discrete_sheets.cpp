@@ -1,5 +1,5 @@
 #include "discrete_shapes.hpp"
-#include "dovetail/geometry/discrete_model.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "model_checks.hpp"
 #include "support/refusal.hpp"
 

@@ -1,5 +1,5 @@
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
 #include "geometry/model_checks.hpp"
 #include "support/refusal.hpp"
 

@@ -1,7 +1,7 @@
-#include "dovetail/geometry/implicit_model.hpp"
-#include "dovetail/geometry/implicit_shapes.hpp"
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/models/implicit/shapes.hpp"
+#include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

@@ -1,5 +1,5 @@
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"
 

@@ -1,8 +1,8 @@
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_read.hpp"
-#include "dovetail/geometry/occt_repair.hpp"
-#include "dovetail/geometry/occt_xcaf.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/models/occt/read.hpp"
+#include "dovetail/models/occt/repair.hpp"
+#include "dovetail/models/occt/xcaf.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>

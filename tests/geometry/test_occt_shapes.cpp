@@ -1,6 +1,6 @@
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_repair.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
+#include "dovetail/models/occt/repair.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "geometry/model_checks.hpp"
 #include "geometry/triangulation_checks.hpp"
 

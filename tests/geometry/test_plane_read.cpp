@@ -1,4 +1,4 @@
-#include "dovetail/geometry/plane_read.hpp"
+#include "dovetail/models/plane/read.hpp"
 #include "io/scratch_folder.hpp"
 #include "support/refusal.hpp"
 

@@ -1,4 +1,4 @@
-#include "dovetail/graph/boost_graph.hpp"
+#include "dovetail/adapters/boost_graph.hpp"
 #include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/any_partitioner.hpp"

@@ -1,6 +1,6 @@
 /// @file
 /// The improver from cgal: the contract of all improvers.
-#include "dovetail/improver/cgal.hpp"
+#include "dovetail/adapters/cgal_improver.hpp"
 #include "improver_contract.hpp"
 
 using namespace improver_contract;

@@ -1,6 +1,6 @@
 /// @file
 /// The improver from gmsh: the contract of all improvers.
-#include "dovetail/improver/gmsh.hpp"
+#include "dovetail/adapters/gmsh_improver.hpp"
 #include "improver_contract.hpp"
 
 using namespace improver_contract;

@@ -1,6 +1,6 @@
 /// @file
 /// The improver from netgen: the contract of all improvers.
-#include "dovetail/improver/netgen.hpp"
+#include "dovetail/adapters/netgen_improver.hpp"
 #include "improver_contract.hpp"
 
 using namespace improver_contract;

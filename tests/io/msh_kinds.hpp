@@ -2,7 +2,7 @@
 /// Either kind of MSH file.
 #pragma once
 
-#include "dovetail/io/msh_writer.hpp"
+#include "dovetail/files/msh_writer.hpp"
 
 namespace dovetail::testing {
 

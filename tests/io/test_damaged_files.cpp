@@ -1,8 +1,8 @@
 // Truncated and mutated files: every one is either read to a mesh that can be indexed, or an input_error that
 // names the file. Run under the address and undefined-behaviour sanitizers this shows that no reader crashes.
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/io/zlib.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/files/zlib.hpp"
 #include "io/msh_kinds.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"

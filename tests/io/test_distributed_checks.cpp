@@ -1,5 +1,5 @@
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
 #include "io/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>

@@ -1,13 +1,13 @@
 /// A distributed mesh as one in memory: the whole mesh again, its sides on CAD entities, rows of neighbours.
 #include "io/stacked_cubes.hpp"
 
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/geometry/plane_svg_path.hpp"
-#include "dovetail/io/gather.hpp"
 #include "dovetail/mesh/point_neighbours.hpp"
 #include "dovetail/mesh/validity.hpp"
+#include "dovetail/models/plane/svg_path.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/gather.hpp"
 
 #include <doctest/doctest.h>
 

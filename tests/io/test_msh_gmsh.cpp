@@ -1,7 +1,7 @@
 // Gmsh itself rereads what the MSH writer writes, and the MSH reader reads what Gmsh writes.
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/read_mesh.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
 #include "io/msh_kinds.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"

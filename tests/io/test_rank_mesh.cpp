@@ -2,13 +2,13 @@
 #include "io/bent_edges.hpp"
 #include "io/stacked_cubes.hpp"
 
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/geometry/plane_svg_path.hpp"
-#include "dovetail/io/check_rank_meshes.hpp"
-#include "dovetail/io/gather.hpp"
-#include "dovetail/io/make_rank_mesh.hpp"
+#include "dovetail/models/plane/svg_path.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/check_rank_meshes.hpp"
+#include "dovetail/solver/gather.hpp"
+#include "dovetail/solver/make_rank_mesh.hpp"
 
 #include <doctest/doctest.h>
 

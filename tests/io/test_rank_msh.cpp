@@ -1,7 +1,7 @@
 // Gmsh itself reads the MSH file of each rank, and all of them as one mesh.
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/rank_files.hpp"
-#include "dovetail/io/rank_msh_format.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/solver/rank_files.hpp"
+#include "dovetail/solver/rank_msh_format.hpp"
 #include "io/bent_edges.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"

@@ -1,6 +1,6 @@
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/streamed_validity.hpp"
-#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/streamed_validity.hpp"
+#include "dovetail/files/vtu_writer.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 

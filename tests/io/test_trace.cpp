@@ -1,5 +1,5 @@
-#include "dovetail/io/read_trace.hpp"
-#include "dovetail/io/write_trace.hpp"
+#include "dovetail/files/read_trace.hpp"
+#include "dovetail/files/write_trace.hpp"
 #include "io/scratch_folder.hpp"
 #include "support/refusal.hpp"
 

@@ -1,10 +1,10 @@
 // VTK itself reads what the VTU writer writes (scripts/check_mesh.py says what it found), and the VTU reader
 // reads what VTK writes.
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/io/write_vtu.hpp"
-#include "dovetail/io/zlib.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/files/write_vtu.hpp"
+#include "dovetail/files/zlib.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/stacked_cubes.hpp"
 

@@ -1,7 +1,7 @@
 /// Eigen's views of meshes.
 #include "io/stacked_cubes.hpp"
 
-#include "dovetail/mesh/eigen.hpp"
+#include "dovetail/adapters/eigen.hpp"
 
 #include <doctest/doctest.h>
 

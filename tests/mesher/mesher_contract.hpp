@@ -2,12 +2,12 @@
 /// What every boundary-keeping volume mesher must do; each model's test includes this and calls it.
 #pragma once
 
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
-#include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "mesher/shapes.hpp"

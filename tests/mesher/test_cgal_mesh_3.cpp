@@ -1,4 +1,4 @@
-#include "dovetail/mesher/cgal_mesh_3.hpp"
+#include "dovetail/adapters/cgal_mesh_3.hpp"
 #include "mesher/mesher_contract.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "dovetail/mesher/gmsh_delaunay.hpp"
+#include "dovetail/adapters/gmsh_delaunay.hpp"
 #include "mesher/mesher_contract.hpp"
 
 #include <doctest/doctest.h>

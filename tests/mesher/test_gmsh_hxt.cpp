@@ -1,5 +1,5 @@
+#include "dovetail/adapters/gmsh_hxt.hpp"
 #include "dovetail/improver/native.hpp"
-#include "dovetail/mesher/gmsh_hxt.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "mesher/mesher_contract.hpp"

@@ -1,5 +1,5 @@
-#include "dovetail/mesher/gmsh_hxt.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/gmsh_hxt.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "mesher/shapes.hpp"
 
 #include <doctest/doctest.h>

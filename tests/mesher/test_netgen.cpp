@@ -1,4 +1,4 @@
-#include "dovetail/mesher/netgen.hpp"
+#include "dovetail/adapters/netgen.hpp"
 #include "mesher/mesher_contract.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-#include "dovetail/mesher/cgal_surface.hpp"
-#include "dovetail/mesher/gmsh_surface.hpp"
+#include "dovetail/adapters/cgal_surface.hpp"
+#include "dovetail/adapters/gmsh_surface.hpp"
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "mesher/surface_mesher_contract.hpp"

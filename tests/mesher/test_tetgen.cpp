@@ -1,5 +1,5 @@
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
-#include "dovetail/mesher/tetgen.hpp"
 #include "mesher/mesher_contract.hpp"
 
 #include <doctest/doctest.h>

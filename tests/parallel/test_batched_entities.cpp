@@ -1,6 +1,6 @@
 #include "dovetail/core/error.hpp"
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
-#include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "io/scratch_folder.hpp"

@@ -1,5 +1,5 @@
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/parallel/available_processors.hpp"
-#include "dovetail/parallel/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "parallel/executor_contract.hpp"

@@ -1,8 +1,8 @@
 #include "dovetail/core/fields.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/distributed/ranks.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 

@@ -2,8 +2,8 @@
 /// Runs on all ranks of an mpirun.
 #include "support/mpi_main.hpp"
 
-#include "dovetail/parallel/mpi.hpp"
-#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/distributed/mpi.hpp"
+#include "dovetail/distributed/ranks.hpp"
 #include "parallel/communicator_contract.hpp"
 #include "parallel/executor_contract.hpp"
 

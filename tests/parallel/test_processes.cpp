@@ -1,7 +1,7 @@
-#include "dovetail/parallel/fresh_memory.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/fresh_memory.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/distributed/task_board.hpp"
 #include "dovetail/parallel/serial.hpp"
-#include "dovetail/parallel/task_board.hpp"
 #include "parallel/executor_contract.hpp"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
+#include "dovetail/distributed/rank_tasks.hpp"
+#include "dovetail/distributed/ranks.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/in_process.hpp"
-#include "dovetail/parallel/rank_tasks.hpp"
-#include "dovetail/parallel/ranks.hpp"
 #include "dovetail/parallel/self.hpp"
 #include "parallel/executor_contract.hpp"
 

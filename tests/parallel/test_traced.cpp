@@ -1,4 +1,4 @@
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/parallel/traced.hpp"

@@ -1,4 +1,4 @@
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
 #include "partition/partitioner_contract.hpp"
 
 #include <csignal>

@@ -2,7 +2,7 @@
 /// Runs on all ranks of an mpirun.
 #include "support/mpi_main.hpp"
 
-#include "dovetail/partition/parmetis.hpp"
+#include "dovetail/adapters/parmetis.hpp"
 #include "partition/distributed_contract.hpp"
 
 #include <cstdlib>

@@ -2,7 +2,7 @@
 /// Runs on all ranks of an mpirun.
 #include "support/mpi_main.hpp"
 
-#include "dovetail/partition/ptscotch.hpp"
+#include "dovetail/adapters/ptscotch.hpp"
 #include "partition/distributed_contract.hpp"
 
 TEST_CASE("PT-Scotch satisfies the partitioner contract on graphs that are spread over ranks") {

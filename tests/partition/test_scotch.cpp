@@ -1,4 +1,4 @@
-#include "dovetail/partition/scotch.hpp"
+#include "dovetail/adapters/scotch.hpp"
 #include "partition/partitioner_contract.hpp"
 
 #include <cstdio>

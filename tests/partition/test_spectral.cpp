@@ -1,4 +1,4 @@
-#include "dovetail/partition/spectral.hpp"
+#include "dovetail/adapters/spectral.hpp"
 #include "partition/partitioner_contract.hpp"
 
 #include <numbers>

@@ -2,9 +2,9 @@
 /// Runs of the pipeline for D = 2 and what every result of it must satisfy.
 #pragma once
 
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/mesh_hash.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 

@@ -2,9 +2,9 @@
 /// The pipeline on several ranks, and the mesh that it must make on any number of them.
 #pragma once
 
-#include "dovetail/io/finishing_pass.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/io/vtu_writer.hpp"
+#include "dovetail/files/finishing_pass.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "io/scratch_folder.hpp"

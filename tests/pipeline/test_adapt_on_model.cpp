@@ -1,13 +1,13 @@
 /// Meshes made anew on the model that they are meshes of: nothing drifts, ids and materials are found again.
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/geometry/plane_svg_path.hpp"
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/gather.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/pipeline/adapt.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/models/plane/svg_path.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/adapt.hpp"
+#include "dovetail/solver/gather.hpp"
 #include "support/refusal.hpp"
 
 #include <BRepPrimAPI_MakeCylinder.hxx>

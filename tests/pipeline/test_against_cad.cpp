@@ -1,8 +1,8 @@
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/geometry/occt_brep.hpp"
-#include "dovetail/geometry/occt_triangulation.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
+#include "dovetail/models/occt/brep.hpp"
+#include "dovetail/models/occt/triangulation.hpp"
 #include "plane_meshes.hpp"
 #include "solid_meshes.hpp"
 

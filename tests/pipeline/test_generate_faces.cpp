@@ -1,7 +1,7 @@
 #include "plane_meshes.hpp"
 
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/geometry/occt_shape.hpp"
+#include "dovetail/models/occt/shape.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "io/scratch_folder.hpp"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>

@@ -2,12 +2,12 @@
 /// Runs on all ranks of an mpirun, in a program that initialises MPI itself.
 #include "support/mpi_main.hpp"
 
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/geometry/discrete_repair.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/parallel/mpi.hpp"
-#include "dovetail/parallel/processes.hpp"
-#include "dovetail/parallel/ranks.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/distributed/mpi.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/distributed/ranks.hpp"
+#include "dovetail/models/discrete/repair.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "geometry/discrete_shapes.hpp"
 #include "ranked_meshes.hpp"

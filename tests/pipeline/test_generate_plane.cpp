@@ -1,8 +1,8 @@
 #include "plane_meshes.hpp"
 
-#include "dovetail/geometry/plane_read.hpp"
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/mesher/native_surface.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/models/plane/read.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "io/scratch_folder.hpp"
 

@@ -1,7 +1,7 @@
 #include "plane_meshes.hpp"
 
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "geometry/discrete_shapes.hpp"
 

@@ -1,12 +1,12 @@
 #include "plane_meshes.hpp"
 
-#include "dovetail/geometry/builtin_models.hpp"
-#include "dovetail/geometry/occt_model.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/experiments/builtin_models.hpp"
+#include "dovetail/files/msh_writer.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
-#include "dovetail/io/msh_writer.hpp"
-#include "dovetail/io/read_mesh.hpp"
-#include "dovetail/io/vtu_writer.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/models/occt_model.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "io/scratch_folder.hpp"
 

@@ -1,5 +1,5 @@
-#include "dovetail/geometry/discrete_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "geometry/discrete_shapes.hpp"

@@ -2,11 +2,11 @@
 /// What every redistributor keeps, whoever wrote it.
 #pragma once
 
-#include "dovetail/io/check_rank_meshes.hpp"
-#include "dovetail/io/distributed_validity.hpp"
-#include "dovetail/io/make_rank_mesh.hpp"
-#include "dovetail/io/mesh_hash.hpp"
-#include "dovetail/redistribution/any_redistributor.hpp"
+#include "dovetail/distributed/any_redistributor.hpp"
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/solver/check_rank_meshes.hpp"
+#include "dovetail/solver/make_rank_mesh.hpp"
 
 #include <doctest/doctest.h>
 

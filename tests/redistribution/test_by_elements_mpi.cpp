@@ -2,9 +2,9 @@
 /// Runs on all ranks of an mpirun: elements to ranks by a partitioner whose result depends on their number.
 #include "support/mpi_main.hpp"
 
-#include "dovetail/parallel/ranks.hpp"
-#include "dovetail/partition/ptscotch.hpp"
-#include "dovetail/pipeline/by_elements.hpp"
+#include "dovetail/adapters/ptscotch.hpp"
+#include "dovetail/distributed/by_elements.hpp"
+#include "dovetail/distributed/ranks.hpp"
 #include "lumps.hpp"
 #include "redistributor_contract.hpp"
 

@@ -2,9 +2,9 @@
 #include "io/stacked_cubes.hpp"
 #include "lumps.hpp"
 
+#include "dovetail/distributed/any_redistributor.hpp"
+#include "dovetail/distributed/by_pieces.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
-#include "dovetail/redistribution/any_redistributor.hpp"
-#include "dovetail/redistribution/by_pieces.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "dovetail/core/error.hpp"
-#include "dovetail/geometry/plane_domain.hpp"
-#include "dovetail/parallel/processes.hpp"
+#include "dovetail/distributed/processes.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/remesh/chords.hpp"

@@ -1,4 +1,4 @@
-#include "dovetail/simulation/memory.hpp"
+#include "dovetail/experiments/simulation/memory.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "dovetail/core/error.hpp"
-#include "dovetail/simulation/simulate.hpp"
+#include "dovetail/experiments/simulation/simulate.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 #include "dovetail/core/error.hpp"
-#include "dovetail/simulation/workload.hpp"
+#include "dovetail/experiments/simulation/workload.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "dovetail/sizing/json.hpp"
+#include "dovetail/files/sizing_json.hpp"
 #include "support/refusal.hpp"
 
 #include <doctest/doctest.h>

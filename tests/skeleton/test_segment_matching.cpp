@@ -1,5 +1,5 @@
-#include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
 

@@ -5,8 +5,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
+#include "dovetail/distributed/mpi.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
-#include "dovetail/parallel/mpi.hpp"
 
 #include <boost/mpi/environment.hpp>
 

@@ -3,7 +3,7 @@
 /// "Partitioning of unstructured problems for parallel processing" (1991).
 #pragma once
 
-#include "dovetail/geometry/discrete_frame.hpp"
+#include "dovetail/geometry/frame.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/node_positions.hpp"
 

@@ -11,8 +11,8 @@
 #include "dovetail/pipeline/generate.hpp"
 // near miss 6: a mesher of tetrahedra for a background mesh of triangles
 // error 6: needs a mesher of elements of dimension D
-#include "dovetail/geometry/plane_domain.hpp"
 #include "dovetail/mesher/by_regions.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
 struct my_mesher {

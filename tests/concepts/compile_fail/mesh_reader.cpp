@@ -4,7 +4,7 @@
 // error 2: r\(file\).*invalid|no matching function for call to object of type 'const my_reader
 // near miss 3: it reads a stream, so that its errors cannot name the file
 // error 3: r\(file\).*invalid|no matching function for call to object of type 'const my_reader
-#include "dovetail/io/concepts.hpp"
+#include "dovetail/files/concepts.hpp"
 
 #include <istream>
 

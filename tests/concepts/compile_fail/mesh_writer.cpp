@@ -4,7 +4,7 @@
 // error 2: w\(mesh, folder\).*return-type|constraint 'std::same_as<void
 // near miss 3: the call operator is not const
 // error 3: w\(mesh, folder\).*invalid|no matching function for call to object of type 'const my_writer
-#include "dovetail/io/concepts.hpp"
+#include "dovetail/files/concepts.hpp"
 
 using folder = std::filesystem::path;
 

@@ -4,7 +4,7 @@
 // error 2: w\.begin\(mesh, unfinished\).*return-type|constraint 'std::same_as<void|type constraint.*void
 // near miss 3: begin is not const
 // error 3: w\.begin\(mesh, unfinished\).*invalid|'this' argument to member function 'begin' has type 'const my_writer
-#include "dovetail/io/concepts.hpp"
+#include "dovetail/files/concepts.hpp"
 
 using folder = std::filesystem::path;
 using output = dovetail::io::piecewise_output<3>;

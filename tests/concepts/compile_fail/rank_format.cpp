@@ -4,7 +4,7 @@
 // error 2: f\.files_of_rank\(q\).*return-type|constraint 'std::same_as<std::.*basic_string|type constraint.*string
 // near miss 3: it writes the mesh of a rank without what all have
 // error 3: f\.write\(source, mesh, paths\).*invalid|no matching member function for call to 'write'|too many arguments to function call
-#include "dovetail/io/concepts.hpp"
+#include "dovetail/solver/concepts.hpp"
 
 using names = std::vector<std::string>;
 using paths = std::vector<std::filesystem::path>;

@@ -4,7 +4,7 @@
 // error 2: r\(mesh, ranks\).*invalid|no matching function for call to object of type 'const my_redistributor
 // near miss 3: its call is not const
 // error 3: r\(mesh, ranks\).*invalid|no matching function for call to object of type 'const my_redistributor
-#include "dovetail/redistribution/concepts.hpp"
+#include "dovetail/distributed/concepts.hpp"
 
 struct my_redistributor {
 #if NEAR_MISS == 1

@@ -4,7 +4,7 @@
 // error 2: f\.lay_out\(source, counts, paths\).*invalid|no matching member function for call to 'lay_out'|too many arguments to function call
 // near miss 3: it writes all ranks at once
 // error 3: f\.write\(source, mesh, paths\).*invalid|no matching member function for call to 'write'|too many arguments to function call
-#include "dovetail/io/concepts.hpp"
+#include "dovetail/solver/concepts.hpp"
 
 using paths = std::vector<std::filesystem::path>;
 using source = dovetail::io::rank_source<3>;

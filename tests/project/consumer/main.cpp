@@ -2,10 +2,10 @@
 // include the same headers, so that a function that is not inline would fail to link.
 #include "solve.hpp"
 
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/core/version.hpp"
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/models/occt_model.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
 

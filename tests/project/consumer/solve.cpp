@@ -1,8 +1,8 @@
 #include "solve.hpp"
 
-#include "dovetail/geometry/occt_model.hpp"
-#include "dovetail/mesher/tetgen.hpp"
-#include "dovetail/partition/metis.hpp"
+#include "dovetail/adapters/metis.hpp"
+#include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/occt_model.hpp"
 
 dovetail::simplicial_mesh<3> mesh_of_a_tetrahedron() {
   dovetail::mesher_input<3> input;

@@ -1,0 +1,99 @@
+/// @file
+/// CGAL's tetrahedral isotropic remeshing, its boundary kept, as an improver.
+#pragma once
+
+#include "dovetail/adapters/library_pieces.hpp"
+#include "dovetail/distributed/run_in_child.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mesh_3/tet_soup_to_c3t3.h>
+#include <CGAL/Tetrahedral_remeshing/Remeshing_triangulation_3.h>
+#include <CGAL/tetrahedral_remeshing.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace dovetail {
+
+namespace improvement {
+
+/// CGAL's remesher: splits, collapses, flips and smoothing towards edges of the target length. Models
+/// `improver<cgal, 3>`. Without a sizing field the target is the mean edge length of each material: a
+/// strongly graded mesh then loses its grading. Inner frozen sides are not known to it: a result that lost
+/// one is not used (see `improve_by_library`). Where CGAL's assertions are on (without NDEBUG) it refuses
+/// meshes whose boundary is not a sphere; they are then left as they were. Runs in a forked child, for it may
+/// crash: the calling process must have one thread only (`usage_error` otherwise).
+struct cgal {
+  static constexpr improver_traits traits{.thread_safe = false};
+
+  int iterations = 3;
+  double limit_seconds = 3600; ///< the child's wall clock; the last resort
+
+  report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},
+                    const any_sizing& size = {}) const;
+};
+
+namespace detail {
+
+inline simplicial_mesh<3> remesh_with_cgal(const cgal& parameters, const library_piece& piece,
+                                           const any_sizing& size) {
+  using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using triangulation = CGAL::Tetrahedral_remeshing::Remeshing_triangulation_3<kernel>;
+  using point = triangulation::Point;
+
+  std::vector<point> points;
+  for (const vec3& p : piece.mesh.points)
+    points.emplace_back(p.x, p.y, p.z);
+  std::vector<std::array<int, 5>> cells;
+  const int inside = 1;
+  for (const auto& [a, b, c, d] : piece.mesh.elements)
+    cells.push_back({a, b, c, d, inside});
+  triangulation mesh;
+  std::vector<triangulation::Vertex_handle> vertices;
+  const std::map<std::array<int, 3>, triangulation::Cell::Surface_patch_index> no_patches;
+  // Whether the result is valid in the sense of CGAL is not asked: with one infinite vertex it is not when
+  // the boundary has handles, and yet the remesher works.
+  constexpr bool unchecked = true;
+  if (!CGAL::build_triangulation<triangulation, unchecked>(mesh, points, cells, no_patches, vertices))
+    throw mesher_error("CGAL does not take the mesh");
+
+  const double mean = mean_edge_length(piece.mesh);
+  const auto target = [&](const point& p) { return size ? size({p.x(), p.y(), p.z()}) : mean; };
+  CGAL::tetrahedral_isotropic_remeshing(
+      mesh, target,
+      CGAL::parameters::number_of_iterations(static_cast<std::size_t>(parameters.iterations))
+          .remesh_boundaries(false));
+
+  simplicial_mesh<3> made;
+  std::map<triangulation::Vertex_handle, local_id> number;
+  for (const auto v : mesh.finite_vertex_handles()) {
+    number.emplace(v, static_cast<local_id>(made.points.size()));
+    made.points.push_back({v->point().x(), v->point().y(), v->point().z()});
+  }
+  for (const auto cell : mesh.finite_cell_handles()) {
+    if (cell->subdomain_index() != inside)
+      continue;
+    simplex<3> element;
+    for (int k = 0; k < 4; ++k)
+      element[static_cast<std::size_t>(k)] = number.at(cell->vertex(k));
+    made.elements.push_back(element);
+  }
+  return made;
+}
+
+} // namespace detail
+
+inline report cgal::operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
+                               const any_sizing& size) const {
+  return improve_by_library("CGAL", mesh, frozen, [&](const library_piece& piece) {
+    return run_in_child("its process", limit_seconds,
+                        [&] { return detail::remesh_with_cgal(*this, piece, size); });
+  });
+}
+
+} // namespace improvement
+
+static_assert(improver<improvement::cgal, 3>);
+
+} // namespace dovetail

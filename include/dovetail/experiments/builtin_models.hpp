@@ -1,0 +1,36 @@
+/// @file
+/// Models that need no file.
+#pragma once
+
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/sizing/sources.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace dovetail {
+
+/// A model with the sizing that shows it: an ambient size and grid sources (possibly none), in its units.
+struct builtin_model_result {
+  occt_model model;
+  double size;
+  std::vector<grid_source> sources;
+  dovetail::report report;
+};
+
+struct builtin_model_info {
+  std::string_view name;
+  std::string_view description;
+};
+
+/// What `builtin_model` accepts.
+std::vector<builtin_model_info> builtin_models();
+
+/// Makes a built-in model. Throws `input_error` for an unknown name.
+builtin_model_result builtin_model(std::string_view name);
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED_OCCT
+#include "dovetail/experiments/builtin_models.ipp"
+#endif

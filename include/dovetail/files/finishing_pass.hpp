@@ -1,0 +1,51 @@
+/// @file
+/// The last pass over a mesh: each piece is loaded once, checked against the skeleton, hashed, written, and
+/// its storage given up.
+#pragma once
+
+#include "dovetail/core/progress.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/files/piecewise_output.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace dovetail::io {
+
+struct finishing_options {
+  /// Give up each piece as soon as its files are complete. If the pass does not come to its end, these stay
+  /// in the folder "unfinished" for a resumed run.
+  bool release = false;
+  double limit_seconds = 600; ///< wall clock per piece; the last resort
+  progress on_progress = {};
+};
+
+struct finished_mesh {
+  std::uint64_t hash = 0;     ///< as `mesh_hash`
+  quality_statistics quality; ///< `worst_element` is a global number
+  report summary;             ///< "tasks", "taken_over", "peak_rss_bytes"; a child per writer
+};
+
+/// One task per file, or per piece without writers: loads its pieces one after the other, checks each as
+/// `check_piece` does, measures it unless its quality is known, and hands it to the writers. Files are
+/// complete under temporary names before any gets its final one. The result and the files do not depend on
+/// the executor.
+///
+/// A piece that does not fit throws `mesh_error` naming the subdomain and the place; further `io_error`
+/// naming the path, `usage_error` when pieces were given up to files that are not among these, and
+/// `cancelled`. Memory: the skeleton, one work array of its size, and one piece per worker.
+template <int D>
+finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
+                          const std::vector<any_piecewise_writer<D>>& writers,
+                          const std::filesystem::path& folder, const any_executor& run_tasks,
+                          const finishing_options& options = {});
+
+} // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/files/finishing_pass.ipp"
+#endif

@@ -1,0 +1,208 @@
+/// @file
+/// Output that is made piece by piece: some workers write files of whole pieces under temporary names, and
+/// when all are complete they get their final ones.
+#pragma once
+
+#include "dovetail/core/bytes.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/global_numbering.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace dovetail::io {
+
+/// A file that takes pieces. It is complete after `close`; without it, nothing is left.
+template <int D>
+struct piece_file {
+  std::function<void(const simplicial_piece<D>&)> add; ///< the next piece
+  std::function<std::uint64_t()> close;                ///< returns the bytes of the file
+};
+
+/// What is done for files beside taking pieces.
+template <class Result>
+struct output_task {
+  std::string name; ///< who an error tells of where the task cannot: "ranks_0001.vtu of rank 1"
+  std::function<Result()> run;
+};
+
+/// The files of one format in the making, in a folder for unfinished files. What `counts`, `open` and
+/// `others` hold may be called in any worker, in any order.
+template <int D>
+struct piecewise_output {
+  std::vector<local_id>
+      bounds; ///< file f takes pieces bounds[f] .. bounds[f + 1] - 1: from 0 to their number; or no files
+  std::vector<std::string> names;                    ///< of these files
+  std::vector<output_task<byte_buffer>> counts = {}; ///< run first: how much the others will write
+  /// Where there are counts, called once with what all of them returned, before all that follows: makes the
+  /// files that several of the others write to.
+  std::function<void(const std::vector<byte_buffer>& counted)> prepare = [](const auto&) {};
+  std::function<piece_file<D>(std::size_t)> open; ///< file f
+  std::vector<output_task<void>> others = {};     ///< each writes files that take no pieces
+  /// The most pieces that one of the others loads by itself; unless it is 0, pieces are not given up.
+  local_id most_loaded = 0;
+  /// Called when all these are there: writes what names them, or is made of them, still in the same folder.
+  std::function<void()> complete = [] {};
+  /// Called when all is complete, also that of other writers: moves the files to their own folder.
+  std::function<report(const std::filesystem::path& folder)> finish;
+};
+
+/// Any writer of files of whole pieces behind one type: what has a `begin(mesh, unfinished)`, as the concept
+/// `piecewise_mesh_writer` says. May hold nothing. Throws `usage_error` when the files do not take each piece
+/// once, and `io_error` in place of what a writer throws that is no error of ours.
+template <int D>
+class any_piecewise_writer {
+public:
+  any_piecewise_writer() = default;
+  template <class W>
+    requires requires(const W& writer, const distributed_simplicial_mesh<D>& mesh,
+                      const std::filesystem::path& unfinished) {
+      { writer.begin(mesh, unfinished) } -> std::same_as<piecewise_output<D>>;
+    }
+  any_piecewise_writer(W writer) // NOLINT: converts, as std::function does
+      : begin_([held = std::move(writer)](const distributed_simplicial_mesh<D>& mesh,
+                                          const std::filesystem::path& unfinished) {
+          return held.begin(mesh, unfinished);
+        }) {}
+
+  explicit operator bool() const { return static_cast<bool>(begin_); }
+  piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
+                            const std::filesystem::path& unfinished) const {
+    auto output = guarded([&] { return begin_(mesh, unfinished); });
+    check(output, static_cast<local_id>(mesh.counts.size()));
+    output.prepare = [prepare = std::move(output.prepare)](const std::vector<byte_buffer>& counted) {
+      guarded([&] { prepare(counted); });
+    };
+    output.finish = [finish = std::move(output.finish)](const std::filesystem::path& folder) {
+      return guarded([&] { return finish(folder); });
+    };
+    return output;
+  }
+
+private:
+  template <class F>
+  static auto guarded(const F& f) {
+    return call_policy<io_error>([] { return std::string("the writer"); }, f);
+  }
+  static void check(const piecewise_output<D>& output, local_id pieces) {
+    const auto& bounds = output.bounds;
+    if (bounds.empty() && output.names.empty() && output.finish)
+      return;
+    if (bounds.empty() || bounds.front() != 0 || bounds.back() != pieces ||
+        !std::is_sorted(bounds.begin(), bounds.end()))
+      throw usage_error("the writer's files do not take pieces 0 to " + std::to_string(pieces - 1) +
+                        " one after the other");
+    if (output.names.size() + 1 != bounds.size())
+      throw usage_error("the writer has " + std::to_string(output.names.size()) + " names for " +
+                        std::to_string(bounds.size() - 1) + " files");
+    if (!output.open || !output.finish)
+      throw usage_error("the writer does not say how a file is opened or how all are finished");
+  }
+
+  std::function<piecewise_output<D>(const distributed_simplicial_mesh<D>&, const std::filesystem::path&)>
+      begin_;
+};
+
+/// Where files are until all of a mesh are complete: the folder "unfinished" in theirs. It goes with its
+/// content at the end, unless it is kept, or is another rank's to remove. Of a folder that was there before
+/// only files of meshes go.
+class unfinished_folder {
+public:
+  explicit unfinished_folder(const std::filesystem::path& folder, bool own = true)
+      : path_(std::filesystem::absolute(folder) / "unfinished"), was_there_(std::filesystem::exists(path_)),
+        own_(own) {
+    make_folder(path_);
+  }
+  unfinished_folder(const unfinished_folder&) = delete;
+  unfinished_folder& operator=(const unfinished_folder&) = delete;
+  ~unfinished_folder() {
+    std::error_code ignored;
+    if (kept_ || !own_)
+      return;
+    if (was_there_)
+      remove(path_.parent_path());
+    else
+      std::filesystem::remove_all(path_, ignored);
+  }
+
+  /// Writers have a folder each, since some of their files may have the same names.
+  std::filesystem::path of_writer(std::size_t number) const { return path_ / std::to_string(number); }
+  void keep(bool kept) { kept_ = kept; }
+
+  /// Removes what a killed run has left in a folder: files of meshes, complete or not, in the numbered
+  /// folders of the formats. What is not ours stays, and the folder with it.
+  static void remove(const std::filesystem::path& folder) {
+    for (const auto& of_format : entries_of(folder / "unfinished")) {
+      const std::string name = of_format.filename().string();
+      std::error_code ignored;
+      if (name.find_first_not_of("0123456789") != std::string::npos ||
+          !std::filesystem::is_directory(std::filesystem::symlink_status(of_format, ignored)))
+        continue;
+      for (const auto& file : entries_of(of_format))
+        if (const auto ending = file.extension();
+            ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu" ||
+            ending == ".msh_piece" || ending == ".vtkhdf" || ending == ".xdmf" || ending == ".rank_file")
+          std::filesystem::remove(file, ignored);
+      remove_empty_folder(of_format);
+    }
+    remove_empty_folder(folder / "unfinished");
+  }
+
+private:
+  std::filesystem::path path_;
+  bool was_there_;
+  bool own_;
+  bool kept_ = false;
+};
+
+/// Gives a complete file its final place, on the same disk. Returns its bytes.
+inline std::uint64_t move_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code failure;
+  const auto bytes = std::filesystem::file_size(from, failure);
+  if (!failure)
+    std::filesystem::rename(from, to, failure);
+  if (failure)
+    throw io_error("cannot rename the finished file to " + to.string() + ": " + failure.message());
+  return bytes;
+}
+
+/// Writes all files one after the other, here.
+template <int D>
+report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_piecewise_writer<D>& writer,
+                       const std::filesystem::path& folder) {
+  const stopwatch clock;
+  const unfinished_folder unfinished(folder);
+  make_folder(unfinished.of_writer(0));
+  const piecewise_output<D> output = writer.begin(mesh, unfinished.of_writer(0));
+  if (!output.counts.empty()) {
+    std::vector<byte_buffer> counted;
+    for (const auto& count : output.counts)
+      counted.push_back(count.run());
+    output.prepare(counted);
+  }
+  for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
+    const piece_file<D> file = output.open(f);
+    for (local_id p = output.bounds[f]; p < output.bounds[f + 1]; ++p)
+      file.add(load_checked(mesh, p));
+    file.close();
+  }
+  for (const auto& other : output.others)
+    other.run();
+  output.complete();
+  report summary = output.finish(folder);
+  summary.seconds = clock.seconds();
+  return summary;
+}
+
+} // namespace dovetail::io
