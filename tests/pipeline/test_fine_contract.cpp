@@ -35,8 +35,8 @@ struct realized_model {
                   .with_options({.subdomains = subdomains})),
         background(make_background<3>(model, erased_sizing(size), given)),
         divided(divide<3>(background.mesh, background.size, background.plan.subdomains, given)),
-        rounds(model, background.mesh, divided, background.size, given), made(rounds.realize_boundaries()),
-        angles(rounds.take_fine_angles()) {}
+        rounds(model, background.mesh, divided, background.size, given),
+        made(rounds.realize_boundaries().value()), angles(rounds.take_fine_angles()) {}
 
   any_parameters<3> given;
   background_result<3> background;

@@ -48,11 +48,6 @@ inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::v
   sizes = std::move(merged_sizes);
 }
 
-/// More subdomains would have to be merged than may be: whoever can makes fewer.
-class too_many_merges : public intersection_error {
-  using intersection_error::intersection_error;
-};
-
 /// What has been merged of a decomposition, in all rounds and after failures of pieces, and how much may be.
 class merge_account {
 public:
@@ -68,20 +63,22 @@ public:
   /// How many original subdomains the largest one is made of.
   local_id largest() const { return *std::max_element(sizes_.begin(), sizes_.end()); }
 
-  /// `merge_subdomains`, unless that would be more than is allowed: then nothing is done and the answer is
-  /// what to say.
-  std::string merge(std::vector<local_id>& subdomain_of_element,
-                    const std::vector<std::array<local_id, 2>>& merges) {
-    auto of_element = subdomain_of_element;
+  /// What to say where these merges would be more than is allowed; empty where they would not.
+  std::string refusal_of(const std::vector<std::array<local_id, 2>>& merges) const {
+    std::vector<local_id> of_element;
     auto sizes = sizes_;
     merge_subdomains(of_element, sizes, merges);
-    if (const auto merged = started_with_ - static_cast<local_id>(sizes.size()); merged > allowed_)
-      return std::to_string(merged) + " of " + std::to_string(started_with_) +
-             " subdomains would have to be merged, " + std::to_string(static_cast<local_id>(allowed_)) +
-             " may be";
-    subdomain_of_element = std::move(of_element);
-    sizes_ = std::move(sizes);
-    return {};
+    const auto merged = started_with_ - static_cast<local_id>(sizes.size());
+    if (merged <= allowed_)
+      return {};
+    return std::to_string(merged) + " of " + std::to_string(started_with_) +
+           " subdomains would have to be merged, " + std::to_string(static_cast<local_id>(allowed_)) +
+           " may be";
+  }
+  /// `merge_subdomains`, counted.
+  void merge(std::vector<local_id>& subdomain_of_element,
+             const std::vector<std::array<local_id, 2>>& merges) {
+    merge_subdomains(subdomain_of_element, sizes_, merges);
   }
 
 private:

@@ -2,6 +2,7 @@
 /// What `generate_bisected.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/experiments/baselines/generate_bisected.hpp"
 #include "dovetail/experiments/baselines/interface_angles_of_skeleton.hpp"
@@ -27,7 +28,10 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   auto background = make_background<3>(model, size, undivided);
   const auto solids = leave_undivided(background.mesh.surface, model.topology());
   decomposition_rounds<3> rounds(model, background.mesh, solids, background.size, undivided);
-  realized<3> made = rounds.realize_boundaries();
+  auto boundaries = rounds.realize_boundaries();
+  if (!boundaries)
+    throw intersection_error(rounds.too_many_merges());
+  realized<3>& made = *boundaries;
   recursive_bisection with_progress = bisect;
   with_progress.on_progress = given.options.on_progress;
   bisected_surface divided =

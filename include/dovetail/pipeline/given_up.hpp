@@ -1,0 +1,49 @@
+/// @file
+/// Decompositions that were given up, since too many of their subdomains would have had to be merged: a run
+/// that goes on does not begin with one, for its pieces are no more.
+#pragma once
+
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/pipeline/any_parameters.hpp"
+#include "dovetail/pipeline/background.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace dovetail {
+
+/// Keeps the accounts of decompositions of a background mesh where the run keeps what it makes.
+template <int D>
+class given_up_decompositions {
+public:
+  explicit given_up_decompositions(const any_parameters<D>& given) : run_tasks_(given.run_tasks) {
+    if (given.options.store)
+      kept_.emplace(given.options.store, "given_up");
+  }
+
+  /// The account of the one into as many subdomains as are planned, if it was given up.
+  std::optional<report> find(const background_result<D>& background) const {
+    if (!kept_)
+      return {};
+    return run_tasks_.once([&] { return kept_->find_value<report>(key_of(background)); });
+  }
+  void keep(const background_result<D>& background, const report& account) const {
+    if (kept_ && run_tasks_.leads())
+      kept_->keep_value(key_of(background), account);
+  }
+
+private:
+  /// The rest is in the store's identity.
+  static content_key key_of(const background_result<D>& background) {
+    key_maker make;
+    make(std::int64_t{D})(std::int64_t{background.plan.subdomains});
+    return make(static_cast<std::int64_t>(background.mesh.elements().elements.size())).key();
+  }
+
+  const any_executor& run_tasks_;
+  std::optional<entity_store> kept_;
+};
+
+} // namespace dovetail
