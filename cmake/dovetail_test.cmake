@@ -1,10 +1,12 @@
-# dovetail_test(NAME <name> SOURCES <files> [LIBRARIES <targets>] [NEEDS_SHARED] [TIMEOUT <seconds>] [RANKS <n ...>])
+# dovetail_test(NAME <name> SOURCES <files> [LIBRARIES <targets>] [NEEDS_SHARED] [SHARED_CASES <pattern>] [TIMEOUT <seconds>]
+#   [RANKS <n ...>])
 #
 # A doctest executable and its ctest entry. dovetail::dovetail and doctest's main are linked in. When a target of
 # LIBRARIES does not exist, nothing is built and the test is reported as skipped. A test that evaluates no assertion
 # (all cases skipped, or returned early for want of data) is reported as skipped too.
 # RANKS: the executable has its own main, which takes the number of ranks, and is run by mpirun with each of them.
 # NEEDS_SHARED: the test reads the models in the directory named by the environment variable DOVETAIL_SHARED.
+# SHARED_CASES: its cases of these names do, and are an entry of their own, <name>_shared.
 
 if(DEFINED ENV{DOVETAIL_SHARED})
   set(shared_directory "$ENV{DOVETAIL_SHARED}")
@@ -35,7 +37,7 @@ function(dovetail_skipped_test name reason)
 endfunction()
 
 function(dovetail_test)
-  cmake_parse_arguments(arg "NEEDS_SHARED" "NAME;TIMEOUT" "SOURCES;LIBRARIES;RANKS" ${ARGN})
+  cmake_parse_arguments(arg "NEEDS_SHARED" "NAME;TIMEOUT;SHARED_CASES" "SOURCES;LIBRARIES;RANKS" ${ARGN})
   if(NOT arg_NAME OR NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dovetail_test: NAME and SOURCES are needed, and not ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -63,18 +65,28 @@ function(dovetail_test)
     return()
   endif()
   target_link_libraries(${executable} PRIVATE dovetail_test_main)
-  add_test(NAME ${arg_NAME} COMMAND ${executable})
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 120)
+  if(arg_SHARED_CASES)
+    dovetail_doctest_entry(${arg_NAME} "${arg_TIMEOUT}" "${arg_NEEDS_SHARED}" --test-case-exclude=${arg_SHARED_CASES})
+    dovetail_doctest_entry(${arg_NAME}_shared "${arg_TIMEOUT}" TRUE --test-case=${arg_SHARED_CASES})
+  else()
+    dovetail_doctest_entry(${arg_NAME} "${arg_TIMEOUT}" "${arg_NEEDS_SHARED}")
+  endif()
+endfunction()
+
+# The ctest entry <name> of the executable of dovetail_test, with arguments for it.
+function(dovetail_doctest_entry name timeout needs_shared)
+  add_test(NAME ${name} COMMAND ${executable} ${ARGN})
+  if(NOT timeout)
+    set(timeout 120)
   endif()
   if(DOVETAIL_SANITIZE)
-    math(EXPR arg_TIMEOUT "10 * ${arg_TIMEOUT}")
+    math(EXPR timeout "10 * ${timeout}")
   endif()
-  set_tests_properties(${arg_NAME} PROPERTIES TIMEOUT ${arg_TIMEOUT})
-  if(arg_NEEDS_SHARED OR NOT DOVETAIL_REQUIRE_ALL_TESTS)
-    set_tests_properties(${arg_NAME} PROPERTIES SKIP_RETURN_CODE 77)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout})
+  if(needs_shared OR NOT DOVETAIL_REQUIRE_ALL_TESTS)
+    set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
   endif()
   if(DOVETAIL_SHARED_DIRECTORY)
-    set_property(TEST ${arg_NAME} APPEND PROPERTY ENVIRONMENT "DOVETAIL_SHARED=${DOVETAIL_SHARED_DIRECTORY}")
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "DOVETAIL_SHARED=${DOVETAIL_SHARED_DIRECTORY}")
   endif()
 endfunction()
