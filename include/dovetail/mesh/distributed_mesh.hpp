@@ -17,10 +17,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace dovetail {
@@ -128,6 +130,14 @@ struct piece_note {
   };
   std::vector<file> files; ///< where the piece is now; when one of them is missing, so is the piece
   byte_buffer text;        ///< for whoever gave the piece up
+
+  /// Whether all files are there, as long as they were.
+  bool is_whole() const {
+    return std::all_of(files.begin(), files.end(), [](const file& each) {
+      std::error_code missing;
+      return std::filesystem::file_size(each.path, missing) == each.bytes && !missing;
+    });
+  }
 
   using fields = field_list<&piece_note::files, &piece_note::text>;
 };

@@ -3,29 +3,25 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/fields.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
+#include "dovetail/meshing/brief_summary.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
-#include "dovetail/meshing/piece_receipt.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/parallel/kept_results.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,65 +30,8 @@ namespace dovetail {
 
 namespace detail {
 
-/// What is kept in place of a piece that was given up.
-struct released_piece {
-  piece_summary summary;
-  piece_note note;
-
-  using fields = field_list<&released_piece::summary, &released_piece::note>;
-};
-
-/// Finished pieces by the numbers of the present decomposition.
 template <int D>
-class piece_shelf {
-public:
-  piece_shelf(std::size_t count, std::shared_ptr<entity_store> store,
-              std::function<std::vector<local_id>(local_id)> skeleton_points)
-      : store_(std::move(store)), keys_(count), skeleton_points_(std::move(skeleton_points)) {}
-
-  entity_store& store() const { return *store_; }
-  const std::vector<content_key>& keys() const { return keys_; }
-  void place(local_id subdomain, content_key key) { keys_[static_cast<std::size_t>(subdomain)] = key; }
-  simplicial_piece<D> load(local_id subdomain) const {
-    auto piece =
-        store_->template value<finished_piece<D>>(keys_.at(static_cast<std::size_t>(subdomain))).piece;
-    piece.subdomain = subdomain;
-    piece.skeleton_points = skeleton_points_(subdomain);
-    return piece;
-  }
-
-  /// Gives up a piece, in a worker. In D = 2 finished pieces are compared with each other, so that a resumed
-  /// run needs them all and no note is kept.
-  void release(local_id subdomain, const piece_note& note) const {
-    const content_key key = keys_.at(static_cast<std::size_t>(subdomain));
-    if (D == 3 && !note.files.empty())
-      store_->keep_value(key_of_note(key),
-                         released_piece{store_->template value<finished_piece<D>>(key).summary, note});
-    store_->release(key);
-  }
-  std::optional<piece_note> released(local_id subdomain) const {
-    auto found = find_released(keys_.at(static_cast<std::size_t>(subdomain)));
-    return found ? std::optional(std::move(found->note)) : std::nullopt;
-  }
-  /// A piece that was given up and is in the files of the note.
-  std::optional<released_piece> find_released(content_key key) const {
-    auto found = store_->template find_value<released_piece>(key_of_note(key));
-    const auto is_there = [](const piece_note::file& file) {
-      std::error_code missing;
-      return std::filesystem::file_size(file.path, missing) == file.bytes && !missing;
-    };
-    if (found && !std::all_of(found->note.files.begin(), found->note.files.end(), is_there))
-      found.reset();
-    return found;
-  }
-
-private:
-  static content_key key_of_note(content_key key) { return key_maker(key)(std::int64_t{1}).key(); }
-
-  std::shared_ptr<entity_store> store_;
-  std::vector<content_key> keys_;
-  std::function<std::vector<local_id>(local_id)> skeleton_points_;
-};
+using kept_pieces = kept_results<finished_piece<D>, piece_note>;
 
 /// The rounds of `mesh_subdomains`.
 template <int D>
@@ -103,10 +42,11 @@ public:
                    const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
         ladder_(ladder_of(mesh_it)),
-        shelf_(std::make_shared<piece_shelf<D>>(
-            count, options.store ? options.store : std::make_shared<entity_store>(),
-            options.skeleton_points ? options.skeleton_points
-                                    : [source](local_id s) { return source(s).skeleton_points; })) {
+        skeleton_points_(options.skeleton_points
+                             ? options.skeleton_points
+                             : [source](local_id s) { return source(s).skeleton_points; }),
+        pieces_(std::make_shared<kept_pieces<D>>(count, options.store ? options.store
+                                                                      : std::make_shared<entity_store>())) {
     result_.pieces.resize(count);
     pending_.resize(count);
     for (std::size_t s = 0; s < count; ++s)
@@ -119,18 +59,34 @@ public:
       run_round(rung);
     report_failures();
     summarize();
-    result_.keys = shelf_->keys();
-    shelf_->store().exchange(run_tasks_.network(), result_.keys);
+    result_.keys = pieces_->keys();
+    pieces_->exchange(run_tasks_.network());
     result_.summary.seconds = clock.seconds();
-    result_.load = [shelf = shelf_](local_id subdomain) { return shelf->load(subdomain); };
-    if (shelf_->store().is_common()) {
-      result_.release = [shelf = shelf_](local_id s, const piece_note& note) { shelf->release(s, note); };
-      result_.released = [shelf = shelf_](local_id s) { return shelf->released(s); };
-    }
+    serve_pieces();
     return std::move(result_);
   }
 
 private:
+  /// Finished pieces by the numbers of the present decomposition, as long as the result lasts. In D = 2
+  /// finished pieces are compared with each other, so that a resumed run needs them all and no note is kept.
+  void serve_pieces() {
+    result_.load = [pieces = pieces_, points = skeleton_points_](local_id s) {
+      auto piece = pieces->load(static_cast<std::size_t>(s)).piece;
+      piece.subdomain = s;
+      piece.skeleton_points = points(s);
+      return piece;
+    };
+    if (!pieces_->can_release())
+      return;
+    result_.release = [pieces = pieces_](local_id s, const piece_note& note) {
+      const bool leaves_note = D == 3 && !note.files.empty();
+      pieces->release(static_cast<std::size_t>(s), leaves_note ? std::optional(note) : std::nullopt);
+    };
+    result_.released = [pieces = pieces_](local_id s) {
+      return pieces->released(static_cast<std::size_t>(s));
+    };
+  }
+
   /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
   std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
   box3 place(const piece_input<D>& input) const { return size_.is_refined() ? place_of(input) : box3{}; }
@@ -147,8 +103,12 @@ private:
     round.order = largest_first();
     round.on_progress = options_.on_progress;
     round.stage = rung == 0 ? "meshing" : "meshing again";
-    auto results = map_tasks(
-        run_tasks_, pending_.size(), [&](std::size_t k) { return receipt_of(pending_[k], rung); }, round);
+    auto results = pieces_->make(
+        pending_.size(), run_tasks_, [&](std::size_t k) { return pending_[k].subdomain; },
+        [&](std::size_t k) { return source_(pending_[k].subdomain); },
+        [&](const piece_input<D>& input) { return key_of(input, size_.key_near(place(input))); },
+        [&](std::size_t k, const piece_input<D>& input) { return attempt(pending_[k], input, rung); },
+        brief_summary, round);
     std::vector<piece_failure> failed;
     for (std::size_t k = 0; k < results.size(); ++k)
       if (!accept(pending_[k], results[k]))
@@ -170,34 +130,8 @@ private:
     return order;
   }
 
-  /// Runs in the worker: makes the piece, unless the store has it.
-  piece_receipt receipt_of(const piece_failure& piece, std::size_t rung) const {
-    const piece_input<D> input = source_(piece.subdomain);
-    const content_key key = key_of(input, size_.key_near(place(input)));
-    piece_receipt receipt{.piece = {key, {}}};
-    if (auto summary = find_summary(key)) {
-      receipt.reused = true;
-      receipt.summary = *std::move(summary);
-    } else {
-      auto finished = attempt(piece, input, rung);
-      receipt.piece = shelf_->store().keep_in_task(key, encoded(finished));
-      receipt.summary = std::move(finished.summary);
-    }
-    receipt.summary.summary = brief(receipt.summary.summary);
-    return receipt;
-  }
-
-  /// That of a piece which the store has, or had until it was given up.
-  std::optional<piece_summary> find_summary(content_key key) const {
-    if (auto kept = shelf_->store().template find_value<finished_piece<D>>(key))
-      return std::move(kept->summary);
-    if (auto released = shelf_->store().is_common() ? shelf_->find_released(key) : std::nullopt)
-      return std::move(released->summary);
-    return std::nullopt;
-  }
-
   /// Takes one result; false when the subdomain failed.
-  bool accept(piece_failure& piece, task_result<piece_receipt>& result) {
+  bool accept(piece_failure& piece, task_result<typename kept_pieces<D>::receipt>& result) {
     report& summary = result_.summary;
     summary.set("peak_rss_bytes",
                 std::max(summary.get("peak_rss_bytes"), static_cast<double>(result.peak_rss_bytes)));
@@ -206,11 +140,10 @@ private:
       piece.timed_out = piece.timed_out || result.timed_out;
       return false;
     }
-    piece_receipt receipt = *std::move(result.value);
-    summary.add("reused", receipt.reused ? 1 : 0);
-    receipt.summary.summary.name = piece_name(piece.subdomain);
-    shelf_->place(piece.subdomain, shelf_->store().take(std::move(receipt.piece)));
-    result_.pieces[static_cast<std::size_t>(piece.subdomain)] = std::move(receipt.summary);
+    summary.add("reused", result.value->is_reused ? 1 : 0);
+    piece_summary& made = result_.pieces[static_cast<std::size_t>(piece.subdomain)];
+    made = std::move(result.value->summary);
+    made.summary.name = piece_name(piece.subdomain);
     return true;
   }
 
@@ -259,7 +192,8 @@ private:
   const any_executor& run_tasks_;
   const meshing_options& options_;
   std::vector<any_mesher<D>> ladder_;
-  std::shared_ptr<piece_shelf<D>> shelf_;
+  std::function<std::vector<local_id>(local_id)> skeleton_points_;
+  std::shared_ptr<kept_pieces<D>> pieces_;
   std::vector<piece_failure> pending_;
   meshed_pieces<D> result_;
 };

@@ -1,24 +1,14 @@
 /// @file
-/// What a worker says of a piece: where it is, and what all need of it without loading it, in few bytes,
-/// since every rank gets that of every piece.
+/// What is said of a piece to all, in few bytes, since every rank gets that of every piece.
 #pragma once
 
-#include "dovetail/core/fields.hpp"
 #include "dovetail/meshing/piece_work.hpp"
-#include "dovetail/parallel/entity_store.hpp"
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace dovetail::detail {
-
-struct piece_receipt {
-  kept_value piece = {};
-  piece_summary summary = {}; ///< its report is brief
-  bool reused = false;        ///< the store had it
-
-  using fields = field_list<&piece_receipt::piece, &piece_receipt::summary, &piece_receipt::reused>;
-};
 
 /// Of the report of a piece what is summed up over all pieces. The rest stays with the piece.
 inline report brief(const report& piece) {
@@ -37,6 +27,10 @@ inline report brief(const report& piece) {
                  [](const report& of_part) { return of_part.name == "deviation"; });
   }
   return kept;
+}
+inline piece_summary brief_summary(piece_summary piece) {
+  piece.summary = brief(piece.summary);
+  return piece;
 }
 
 } // namespace dovetail::detail

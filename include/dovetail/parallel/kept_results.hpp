@@ -1,0 +1,126 @@
+/// @file
+/// Large results of tasks, each made once: a worker keeps what it has made where it can be found again, under
+/// the key of what it is a function of, and gives back a summary. Whoever asks for them names no key.
+#pragma once
+
+#include "dovetail/core/content_key.hpp"
+#include "dovetail/core/encoding.hpp"
+#include "dovetail/core/fields.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+/// The results 0 .. count-1 of a batch of tasks, made in one or several calls; each has a member `summary`,
+/// which is what is known of it without loading it. A result that was kept by a
+/// run before, or under another number, is not made again. It may be given up, and a `Note` left in its
+/// place, which `is_whole()` as long as the result is where it says.
+template <encodable Result, encodable Note>
+class kept_results {
+public:
+  using summary_type = std::remove_cvref_t<decltype(std::declval<Result&>().summary)>;
+
+  /// What a task says of the result that it has made.
+  struct receipt {
+    kept_value kept = {};
+    summary_type summary = {};
+    bool is_reused = false; ///< it was there
+
+    using fields = field_list<&receipt::kept, &receipt::summary, &receipt::is_reused>;
+  };
+
+  kept_results(std::size_t count, std::shared_ptr<entity_store> store)
+      : store_(std::move(store)), keys_(count) {}
+
+  /// Makes result `number(k)` for each k below `count` in a task of `run`, unless it is there: `input(k)` is
+  /// what it is a function of, `key(in)` tells that from others, `make(k, in)` makes it. The receipts are
+  /// those of `map_tasks`, with `brief(summary)` for a summary; those that are there are taken down.
+  template <class Number, class Input, class Key, class Make, class Brief>
+  std::vector<task_result<receipt>> make(std::size_t count, const any_executor& run, const Number& number,
+                                         const Input& input, const Key& key, const Make& make_result,
+                                         const Brief& brief, const run_options& options) {
+    auto receipts = map_tasks(
+        run, count,
+        [&](std::size_t k) {
+          const auto in = input(k);
+          receipt made = make_once(key(in), [&] { return make_result(k, in); });
+          made.summary = brief(made.summary);
+          return made;
+        },
+        options);
+    for (std::size_t k = 0; k < count; ++k)
+      if (auto& made = receipts[k].value)
+        keys_[static_cast<std::size_t>(number(k))] = store_->take(std::exchange(made->kept, {}));
+    return receipts;
+  }
+
+  /// Throws `io_error` when it is missing or damaged.
+  Result load(std::size_t i) const { return store_->template value<Result>(keys_.at(i)); }
+  /// What it is kept under; 0 where it could not be made.
+  const std::vector<content_key>& keys() const { return keys_; }
+  /// Gives each rank what others have kept, where their stores are not the same. Collective.
+  void exchange(const any_communicator& network) const { store_->exchange(network, keys_); }
+
+  /// Whether results can be given up: all ranks have what one has kept.
+  bool can_release() const { return store_->is_common(); }
+  /// Gives up a result, in a worker; with `note` in its place unless there is none.
+  void release(std::size_t i, const std::optional<Note>& note) const {
+    const content_key key = keys_.at(i);
+    if (note)
+      store_->keep_value(key_of_note(key), released_result{load(i).summary, *note});
+    store_->release(key);
+  }
+  /// The note of a result that was given up.
+  std::optional<Note> released(std::size_t i) const {
+    auto found = find_released(keys_.at(i));
+    return found ? std::optional(std::move(found->note)) : std::nullopt;
+  }
+
+private:
+  struct released_result {
+    summary_type summary = {};
+    Note note = {};
+
+    using fields = field_list<&released_result::summary, &released_result::note>;
+  };
+
+  /// In a task.
+  template <class Make>
+  receipt make_once(content_key key, const Make& make_result) const {
+    if (auto summary = find_summary(key))
+      return {{key, {}}, *std::move(summary), true};
+    Result made = make_result();
+    auto kept = store_->keep_in_task(key, encoded(made));
+    return {std::move(kept), std::move(made.summary), false};
+  }
+
+  /// That of a result which is there, or was until it was given up.
+  std::optional<summary_type> find_summary(content_key key) const {
+    if (auto kept = store_->template find_value<Result>(key))
+      return std::move(kept->summary);
+    if (auto released = can_release() ? find_released(key) : std::nullopt)
+      return std::move(released->summary);
+    return std::nullopt;
+  }
+  std::optional<released_result> find_released(content_key key) const {
+    auto found = store_->template find_value<released_result>(key_of_note(key));
+    if (found && !found->note.is_whole())
+      found.reset();
+    return found;
+  }
+  static content_key key_of_note(content_key key) { return key_maker(key)(std::int64_t{1}).key(); }
+
+  std::shared_ptr<entity_store> store_;
+  std::vector<content_key> keys_;
+};
+
+} // namespace dovetail
