@@ -120,7 +120,7 @@ private:
     compared_.model = source.name;
     compared_.workers = policies_.front().executor.workers();
     compared_.dimension = D;
-    compared_.angle_threshold = wanted_angles_of<D>(policies_.front().simplifier).wedge_deg;
+    compared_.angle_threshold = wanted_angles_of<D>(policies_.front().simplifier).dihedral_deg;
     background_store<D> backgrounds;
     for (std::size_t k = 0; k < combinations_.size(); ++k) {
       const combination& each = combinations_[k];

@@ -94,7 +94,7 @@ void add_policy_options(CLI::App& command, mesh_options& options) {
   command.add_option("--simplifier", options.simplifier,
                      "Rule for sides that may not become interfaces: " + joined(simplifier_names()));
   command.add_option(
-      "--wedge-angle", options.wedge_angle,
+      "--dihedral-angle", options.dihedral_angle,
       "Least angle that the simplifier lets interfaces include, where it has one, in degrees (default: 30; "
       "with --dimension 2 between lines, 50)");
   command.add_option("--improver", options.improver, "Mesh improver: " + joined(improver_names()));

@@ -82,7 +82,7 @@ interface_figures figures_of(const interface_angles& angles, const geometry_topo
   interface_figures figures;
   if (angles.interface_faces > 0) {
     figures.min_face_angle_deg = angles.face_angle.angle_deg;
-    figures.min_wedge_deg = angles.min_wedge_deg();
+    figures.min_dihedral_deg = angles.min_dihedral_deg();
   }
   const auto count = [&](violation_cause cause) { return static_cast<std::int64_t>(angles.count(cause)); };
   figures.faces = static_cast<std::int64_t>(angles.interface_faces);
@@ -92,7 +92,7 @@ interface_figures figures_of(const interface_angles& angles, const geometry_topo
   constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
   for (const angle_violation& v : angles.violations) {
     figures.below.push_back(
-        {v.angle_deg, v.is_wedge(), causes[static_cast<std::size_t>(v.cause)], v.place, {}});
+        {v.angle_deg, v.is_dihedral(), causes[static_cast<std::size_t>(v.cause)], v.place, {}});
     for (const host& entity : v.cad)
       figures.below.back().cad.push_back(name_of(entity, topology));
   }

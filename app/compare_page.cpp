@@ -37,7 +37,7 @@ constexpr std::pair<const char*, double stage_seconds::*> stages[] = {
 /// Angles that there are not become null, as all NaN do.
 json json_of(const interface_row& row) {
   return {{"face", row.min_face_angle},
-          {"wedge", row.min_wedge},
+          {"dihedral", row.min_dihedral},
           {"faces", row.faces},
           {"under", row.under_threshold}};
 }
@@ -46,7 +46,7 @@ json json_of(const comparison_row& row, const element_words& words) {
   json seconds = json::array();
   for (const auto& [name, member] : stages)
     seconds.push_back(row.seconds.*member);
-  const auto& bins = row.quality.min_wedges.bins;
+  const auto& bins = row.quality.min_dihedrals.bins;
   return {{"partitioner", row.policies.partitioner},
           {"mesher", row.policies.mesher},
           {"improver", row.policies.improver},

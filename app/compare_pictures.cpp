@@ -124,7 +124,7 @@ std::vector<ranked_element<D>> worst_elements(const distributed_simplicial_mesh<
     const auto piece = mesh.load(static_cast<local_id>(p));
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(std::span(piece.mesh.points), piece.mesh.elements[e]);
-      const auto angles = wedge_angles(at);
+      const auto angles = dihedral_angles(at);
       const ranked_element<D> here{*std::min_element(angles.begin(), angles.end()), static_cast<local_id>(p),
                                    static_cast<local_id>(e), at};
       if (worst.size() == worst_elements_shown) {
@@ -224,7 +224,7 @@ raster_image picture_of_interfaces(const generated<3>& result) {
                before_all));
   };
   for (const angle_violation& violation : angles.violations) {
-    if (violation.is_wedge()) {
+    if (violation.is_dihedral()) {
       mark(violation.edge[0], violation.edge[1]);
       continue;
     }

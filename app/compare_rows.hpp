@@ -29,9 +29,9 @@ struct combination {
 /// Angles at the interfaces between subdomains, in degrees; NaN where there are none.
 struct interface_row {
   double min_face_angle = std::numeric_limits<double>::quiet_NaN();
-  double min_wedge = std::numeric_limits<double>::quiet_NaN();
+  double min_dihedral = std::numeric_limits<double>::quiet_NaN();
   std::int64_t faces = 0;           ///< or edges, of dimension 2, which have no angles of their own
-  std::int64_t under_threshold = 0; ///< faces and wedges
+  std::int64_t under_threshold = 0; ///< faces and dihedrals
 };
 
 struct comparison_row {

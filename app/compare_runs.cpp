@@ -63,8 +63,8 @@ interface_row row_of(const interface_angles& angles) {
   constexpr double nothing_measured = 360;
   if (row.faces > 0 && angles.face_angle.angle_deg < nothing_measured)
     row.min_face_angle = angles.face_angle.angle_deg;
-  if (row.faces > 0 && angles.min_wedge_deg() < nothing_measured)
-    row.min_wedge = angles.min_wedge_deg();
+  if (row.faces > 0 && angles.min_dihedral_deg() < nothing_measured)
+    row.min_dihedral = angles.min_dihedral_deg();
   return row;
 }
 

@@ -38,7 +38,7 @@ struct mesh_options {
   std::string mesher;
   std::string partitioner;
   std::string simplifier;
-  std::optional<double> wedge_angle; ///< of the simplifier, degrees; none: its own
+  std::optional<double> dihedral_angle; ///< of the simplifier, degrees; none: its own
   std::string improver;
   std::string executor;
   std::string background_mesher;

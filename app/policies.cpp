@@ -206,18 +206,18 @@ any_partitioner make_partitioner(const std::string& name) {
     throw command_line_error("--partitioner: after the colon of '" + name + "' there is no seed");
   return chosen(seeded_partitioners(seed), name, "--partitioner");
 }
-any_simplification_rule make_simplifier(const std::string& name, std::optional<double> wedge_angle,
+any_simplification_rule make_simplifier(const std::string& name, std::optional<double> dihedral_angle,
                                         int dimension) {
   const any_simplification_rule known = chosen(simplifiers(), name, "--simplifier");
-  if (!wedge_angle)
+  if (!dihedral_angle)
     return known;
-  const double angle = *wedge_angle;
+  const double angle = *dihedral_angle;
   if (!(angle >= 0 && angle <= 90))
-    throw command_line_error("--wedge-angle: " + number_text(angle) + " is not between 0 and 90 degrees");
+    throw command_line_error("--dihedral-angle: " + number_text(angle) + " is not between 0 and 90 degrees");
   for (const any_simplification_rule& rule : simplifiers_at(angle, dimension))
     if (rule.name() == known.name() + at_degrees(angle))
       return rule;
-  throw command_line_error("--wedge-angle: the simplifier " + known.name() +
+  throw command_line_error("--dihedral-angle: the simplifier " + known.name() +
                            " has no angle between interfaces; take paper");
 }
 template <>

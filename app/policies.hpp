@@ -41,7 +41,7 @@ std::vector<std::string> builtin_model_names();
 any_partitioner make_partitioner(const std::string& name);
 /// Another angle than the rule's own: the least between interfaces, for D = 2 between lines. Also thrown
 /// where the rule has none.
-any_simplification_rule make_simplifier(const std::string& name, std::optional<double> wedge_angle = {},
+any_simplification_rule make_simplifier(const std::string& name, std::optional<double> dihedral_angle = {},
                                         int dimension = 3);
 /// These two are named alike in both dimensions; also thrown for an improver that does not take elements of
 /// D.

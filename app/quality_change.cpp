@@ -37,8 +37,8 @@ void print_change(int dimension, const quality_statistics& before, const quality
   };
   std::printf("  %-32s %14s %14s\n", "", "before", "after");
   row(name.count, "%lld", static_cast<long long>(before.elements), static_cast<long long>(after.elements));
-  row(name.least, "%.3f", before.min_wedge_deg, after.min_wedge_deg);
-  row(name.most, "%.3f", before.max_wedge_deg, after.max_wedge_deg);
+  row(name.least, "%.3f", before.min_dihedral_deg, after.min_dihedral_deg);
+  row(name.most, "%.3f", before.max_dihedral_deg, after.max_dihedral_deg);
   per_million("Bad", limits_of(dimension).bad);
   per_million("Low", limits_of(dimension).low);
   std::printf("  %-32s %14.2f\n", "Seconds", seconds);

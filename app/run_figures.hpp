@@ -39,8 +39,8 @@ struct stage_seconds {
 /// An interface angle below the threshold.
 struct small_angle {
   double angle_deg = 0;
-  bool wedge = false; ///< beside an interface, not of one of its faces
-  std::string cause;  ///< "forced", "refused" or "remeshing"
+  bool dihedral = false; ///< beside an interface, not of one of its faces
+  std::string cause;     ///< "forced", "refused" or "remeshing"
   vec3 place;
   std::vector<std::string> cad; ///< the entities that force it, or else the faces that it touches
 };
@@ -48,7 +48,7 @@ struct small_angle {
 /// The interface angles on one skeleton. Angles in degrees; 180 where there is no interface.
 struct interface_figures {
   double min_face_angle_deg = 180;
-  double min_wedge_deg = 180;
+  double min_dihedral_deg = 180;
   std::int64_t faces = 0;
   std::int64_t forced = 0;        ///< below the threshold because of the CAD
   std::int64_t refused = 0;       ///< below the threshold because of the bound on super-elements

@@ -67,8 +67,8 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
                         options.background_improver.empty() ? "default" : options.background_improver);
   identity.emplace_back("surface mesher", make_surface_mesher(options.surface_mesher).name());
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
-  identity.emplace_back("simplifier",
-                        make_simplifier(options.simplifier, options.wedge_angle, options.dimension).name());
+  identity.emplace_back(
+      "simplifier", make_simplifier(options.simplifier, options.dihedral_angle, options.dimension).name());
   identity.emplace_back("improver", make_improver<3>(options.improver).name());
   return identity;
 }

@@ -38,24 +38,24 @@ json seconds_json(const stage_seconds& seconds) {
 
 json quality_json(const quality_statistics& quality, int dimension) {
   const quality_limits under = limits_of(dimension);
-  return {{"min_dihedral_deg", quality.min_wedge_deg},
-          {"max_dihedral_deg", quality.max_wedge_deg},
-          {"mean_min_dihedral_deg", quality.mean_min_wedge_deg()},
+  return {{"min_dihedral_deg", quality.min_dihedral_deg},
+          {"max_dihedral_deg", quality.max_dihedral_deg},
+          {"mean_min_dihedral_deg", quality.mean_min_dihedral_deg()},
           {"bad_per_million", quality.per_million_under(under.bad)},
           {"low_per_million", quality.per_million_under(under.low)},
           {"worst_element", quality.worst_element},
           {"min_face_angle_deg", quality.min_face_deg},
           {"histogram",
            {{"bin_width_deg", 1},
-            {"min_dihedral", quality.min_wedges.bins},
-            {"max_dihedral", quality.max_wedges.bins}}}};
+            {"min_dihedral", quality.min_dihedrals.bins},
+            {"max_dihedral", quality.max_dihedrals.bins}}}};
 }
 
 json small_angles_json(const std::vector<small_angle>& angles) {
   json listed = json::array();
   for (const small_angle& each : angles)
     listed.push_back({{"angle_deg", each.angle_deg},
-                      {"of", each.wedge ? "wedge" : "face"},
+                      {"of", each.dihedral ? "dihedral" : "face"},
                       {"cause", each.cause},
                       {"at", {each.place.x, each.place.y, each.place.z}},
                       {"cad", each.cad}});
@@ -64,7 +64,7 @@ json small_angles_json(const std::vector<small_angle>& angles) {
 
 json interfaces_json(const interface_figures& interfaces) {
   return {{"min_face_angle_deg", interfaces.min_face_angle_deg},
-          {"min_wedge_deg", interfaces.min_wedge_deg},
+          {"min_dihedral_deg", interfaces.min_dihedral_deg},
           {"faces", interfaces.faces},
           {"forced", interfaces.forced},
           {"refused", interfaces.refused},

@@ -31,7 +31,7 @@ void check_decomposition(const mesh_options& options, int dimension) {
         std::pair("--background-mesher", !options.background_mesher.empty()),
         std::pair("--background-improver", !options.background_improver.empty()),
         std::pair("--simplifier", !options.simplifier.empty() && !parts_later),
-        std::pair("--wedge-angle", options.wedge_angle.has_value() && !parts_later),
+        std::pair("--dihedral-angle", options.dihedral_angle.has_value() && !parts_later),
         std::pair("--partitioner",
                   !options.partitioner.empty() && !parts_later && name != by_fine_partition)})
     if (is_given)
@@ -61,7 +61,7 @@ policies_of<D> make_policies_of(const mesh_options& options) {
           make_improver<D>(options.improver),
           std::move(executor),
           std::move(background_mesher),
-          make_simplifier(options.simplifier, options.wedge_angle, D),
+          make_simplifier(options.simplifier, options.dihedral_angle, D),
           std::move(surface_mesher),
           make_background_improver(options.background_improver)};
 }

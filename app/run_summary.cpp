@@ -98,8 +98,8 @@ void add_interfaces(table& rows, const run_figures& figures) {
        static_cast<long long>(fine.faces));
   if (solid) // edges have no angles of their own
     pair("Minimum face angle (degrees)", "%14.1f", coarse.min_face_angle_deg, fine.min_face_angle_deg);
-  pair(solid ? "Minimum wedge (degrees)" : "Minimum angle (degrees)", "%14.1f", coarse.min_wedge_deg,
-       fine.min_wedge_deg);
+  pair(solid ? "Minimum dihedral (degrees)" : "Minimum angle (degrees)", "%14.1f", coarse.min_dihedral_deg,
+       fine.min_dihedral_deg);
   pair("Below the threshold, forced by the CAD", "%14lld", static_cast<long long>(coarse.forced),
        static_cast<long long>(fine.forced));
   pair("Below the threshold, refused by the bound", "%14lld", static_cast<long long>(coarse.refused),
@@ -116,17 +116,17 @@ void add_interfaces(table& rows, const run_figures& figures) {
 void add_triangle_quality(table& rows, const quality_statistics& quality) {
   rows.heading("Quality: minimum angle a of the triangles (degrees)");
   rows.whole("No. of triangles", quality.elements);
-  rows.row("Minimum angle", "%.2f", quality.min_wedge_deg);
-  rows.row("Mean of the minimum angles", "%.2f", quality.mean_min_wedge_deg());
-  rows.row("Maximum angle", "%.2f", quality.max_wedge_deg);
+  rows.row("Minimum angle", "%.2f", quality.min_dihedral_deg);
+  rows.row("Mean of the minimum angles", "%.2f", quality.mean_min_dihedral_deg());
+  rows.row("Maximum angle", "%.2f", quality.max_dihedral_deg);
 }
 
 void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.heading("Volume mesh quality: minimum dihedral angle a (degrees)");
   const auto under = quality.under_6_12_18_24();
   rows.whole("No. of tetrahedra", quality.elements);
-  rows.row("Minimum dihedral angle", "%.2f", quality.min_wedge_deg);
-  rows.row("Maximum dihedral angle", "%.2f", quality.max_wedge_deg);
+  rows.row("Minimum dihedral angle", "%.2f", quality.min_dihedral_deg);
+  rows.row("Maximum dihedral angle", "%.2f", quality.max_dihedral_deg);
   rows.whole("No. of tets with  0 < a <  6", under[0]);
   rows.whole("No. of tets with  6 <= a < 12", under[1] - under[0]);
   rows.whole("No. of tets with 12 <= a < 18", under[2] - under[1]);

@@ -1,7 +1,7 @@
 // What one failed piece costs: the built-in aircraft as it is; with a mesher that fails at its first attempt
-// on one piece, so that the next rung meshes it; and with one that fails on all rungs, so that the piece is
-// merged with its neighbour. Wall time, which wants an otherwise idle machine, and processor time of all
-// workers.
+// on one piece, so that the next attempt meshes it; and with one that fails on all attempts, so that the
+// piece is merged with its neighbour. Wall time, which wants an otherwise idle machine, and processor time of
+// all workers.
 //
 //   failed_piece [elements, default 2000000] [subdomains, default 72] [workers, default 2]
 #include "dovetail/adapters/metis.hpp"

@@ -24,7 +24,7 @@ namespace {
 
 void print_row(const char* name, double improved, double seconds, const quality_statistics& quality) {
   std::printf("| %s | %.0f | %.1f | %.1f | %.1f | %.2f |\n", name, improved, seconds,
-              quality.per_million_under(24), quality.per_million_under(12), quality.min_wedge_deg);
+              quality.per_million_under(24), quality.per_million_under(12), quality.min_dihedral_deg);
   std::fflush(stdout);
 }
 

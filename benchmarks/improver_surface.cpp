@@ -44,8 +44,8 @@ std::vector<test_input> make_inputs(int n) {
 
 void print_row(const char* preset, const quality_statistics& quality, double seconds) {
   std::printf("  %-8s %9lld %8.3f %10.1f %9.1f %7.2f", preset, static_cast<long long>(quality.elements),
-              quality.min_wedge_deg, quality.per_million_under(30), quality.per_million_under(15),
-              quality.mean_min_wedge_deg());
+              quality.min_dihedral_deg, quality.per_million_under(30), quality.per_million_under(15),
+              quality.mean_min_dihedral_deg());
   if (seconds > 0)
     std::printf(" %8.3f %12.0f", seconds, static_cast<double>(quality.elements) / seconds);
   std::printf("\n");

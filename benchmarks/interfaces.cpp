@@ -1,6 +1,6 @@
 // The fine interface angles of models, of all that comes before pieces are meshed: at 0.2 and 1 million
 // elements (TetGen makes the background mesh, METIS the parts) how many angles of interface faces and of the
-// wedges beside them are under 30 degrees and not forced by the CAD, and what it took. Each of them is
+// dihedrals beside them are under 30 degrees and not forced by the CAD, and what it took. Each of them is
 // listed. Ends with status 1 when there is one.
 //
 //   interfaces [MODEL...]
@@ -83,15 +83,15 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
   std::array<std::size_t, 2> small{};
   for (const angle_violation& v : angles.violations)
     if (v.cause != violation_cause::forced)
-      ++small[v.is_wedge() ? 1 : 0];
+      ++small[v.is_dihedral() ? 1 : 0];
   std::printf("| %s | %.3g | %d | %zu | %zu, %.1f | %zu, %.1f | %zu | %.0f | %.0f | %.2f |\n", name.c_str(),
               elements, rounds.merges().subdomains(), angles.interface_faces, small[0],
-              angles.face_angle.angle_deg, small[1], angles.min_wedge_deg(),
-              angles.count(violation_cause::forced), skeleton.get("detour_rounds"), skeleton.get("detours"),
-              seconds);
+              angles.face_angle.angle_deg, small[1], angles.min_dihedral_deg(),
+              angles.count(violation_cause::forced), skeleton.get("repartition_rounds"),
+              skeleton.get("repartitioned"), seconds);
   for (const angle_violation& v : angles.violations)
     if (v.cause != violation_cause::forced)
-      std::printf("    %s of %.2f degrees at %.6g %.6g %.6g\n", v.is_wedge() ? "wedge" : "face angle",
+      std::printf("    %s of %.2f degrees at %.6g %.6g %.6g\n", v.is_dihedral() ? "dihedral" : "face angle",
                   v.angle_deg, v.place.x, v.place.y, v.place.z);
   std::fflush(stdout);
   return small[0] + small[1];
@@ -102,9 +102,10 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
 int main(int argc, char** argv) {
   std::vector<std::string> names(argv + 1, argv + argc);
   std::size_t small = 0;
-  std::printf("| model | elements | subdomains | interface triangles | face angles under 30, least | wedges "
-              "under 30, least | forced | rounds of detours | super-elements moved | seconds |\n"
-              "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+  std::printf(
+      "| model | elements | subdomains | interface triangles | face angles under 30, least | dihedrals "
+      "under 30, least | forced | rounds of local repartition | super-elements moved | seconds |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const std::string& name : names.empty() ? all_models() : names)
     for (const double elements : {2e5, 1e6}) {
       const std::string shown = std::filesystem::path(name).filename().string();

@@ -60,7 +60,7 @@ public:
     std::printf("%zu tetrahedra, %d super-elements after simplification, %d subdomains\n\n",
                 coarse_.mesh.volume.elements.size(), simplified_[0].super_count, subdomains_);
     std::printf("| partitioner | simplified | cut | interface faces | imbalance | least face angle | "
-                "least wedge | time, s |\n|---|---|---|---|---|---|---|---|\n");
+                "least dihedral | time, s |\n|---|---|---|---|---|---|---|---|\n");
   }
 
   template <graph_partitioner P>
@@ -76,7 +76,7 @@ public:
           wanted_angles_of<3>(simplifier::paper{}));
       std::printf("| %s | %s | %.0f | %zu | %.3f | %.1f | %.1f | %.2f |\n", name, simplify ? "yes" : "no",
                   pieces.summary.get("cut_of_partitioner"), angles.interface_faces,
-                  pieces.summary.get("imbalance"), angles.face_angle.angle_deg, angles.min_wedge_deg(),
+                  pieces.summary.get("imbalance"), angles.face_angle.angle_deg, angles.min_dihedral_deg(),
                   seconds);
       std::fflush(stdout);
     }

@@ -45,8 +45,8 @@ void print_steps(const distributed_mesh& mesh, const redistribution_by::elements
 void print_row(const char* name, const report& summary, double seconds) {
   std::printf("| %s | %.3f | %.0f | %.0f | %.0f | %.1f | %.1f | %.0f | %.2f |\n", name,
               summary.get("imbalance"), summary.get("sides_between_ranks"), summary.get("disconnected_ranks"),
-              summary.get("most_neighbours"), summary.get("min_face_angle_deg"), summary.get("min_wedge_deg"),
-              summary.get("avoidable_angles"), seconds);
+              summary.get("most_neighbours"), summary.get("min_face_angle_deg"),
+              summary.get("min_dihedral_deg"), summary.get("avoidable_angles"), seconds);
 }
 
 } // namespace
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   print_steps(mesh, by_elements);
   std::printf(
       "| | imbalance | sides between ranks | disconnected ranks | most neighbours | least face angle | "
-      "least wedge | avoidable small angles | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+      "least dihedral | avoidable small angles | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   double start = processor_seconds();
   const auto whole = redistribution_by::pieces{.partitioner = partition::metis{}}(mesh, ranks);
   print_row("by pieces", whole.summary, processor_seconds() - start);

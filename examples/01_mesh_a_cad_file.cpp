@@ -28,7 +28,7 @@ void mesh_file(const char* file, const char* folder, double edge_length) {
   // end
   std::printf("%lld tetrahedra in %zu subdomains, smallest dihedral angle %.1f degrees\n",
               static_cast<long long>(result.quality.elements), result.mesh.counts.size(),
-              result.quality.min_wedge_deg);
+              result.quality.min_dihedral_deg);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ int main(int argc, char** argv) try {
     const stopwatch clock;
     const auto result = generate<3>(model, size, policies);
     std::printf("%-24s%10lld%11.1f°%11.1f°%10.1f\n", changed, static_cast<long long>(result.quality.elements),
-                result.coarse_angles.min_wedge_deg(), result.quality.min_wedge_deg, clock.seconds());
+                result.coarse_angles.min_dihedral_deg(), result.quality.min_dihedral_deg, clock.seconds());
   };
   row("greedy, native, serial", defaults);
   row("metis", defaults.with_partitioner(partition::metis{}));

@@ -57,11 +57,11 @@ int main() {
   for (const auto& [x, y, z] : mine.points)
     mesh.points.push_back({x, y, z});
   mesh.elements.assign(mine.tetrahedra.begin(), mine.tetrahedra.end());
-  const auto before = dovetail::measure_quality(mesh).min_wedge_deg;
+  const auto before = dovetail::measure_quality(mesh).min_dihedral_deg;
   const auto report = dovetail::improvement::native::fine()(mesh); // the boundary stays as it is
   // end
 
-  const auto after = dovetail::measure_quality(mesh).min_wedge_deg;
+  const auto after = dovetail::measure_quality(mesh).min_dihedral_deg;
   std::printf("%zu tetrahedra in %.2f s: smallest dihedral angle %.1f degrees, before %.1f\n",
               mesh.elements.size(), report.seconds, after, before);
   return after > before ? 0 : 1;

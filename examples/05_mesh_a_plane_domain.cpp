@@ -16,5 +16,5 @@ int main() {
       generate<2>(domain, uniform_size(0.2), parameters<>{}.with_executor(parallel::processes{}));
   io::vtu_writer{}(result.mesh, "plane");
   std::printf("%lld triangles, smallest angle %.1f degrees\n",
-              static_cast<long long>(result.quality.elements), result.quality.min_wedge_deg);
+              static_cast<long long>(result.quality.elements), result.quality.min_dihedral_deg);
 }

@@ -23,7 +23,7 @@ int main(int argc, char** argv) try {
       generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}).with_options(options));
   std::printf("%zu faces, %zu subdomains, %lld tetrahedra, smallest dihedral angle %.1f degrees\n",
               model.topology().faces.size(), result.mesh.counts.size(),
-              static_cast<long long>(result.quality.elements), result.quality.min_wedge_deg);
+              static_cast<long long>(result.quality.elements), result.quality.min_dihedral_deg);
   return result.failures.empty() ? 0 : 1;
 } catch (const dovetail::error& problem) {
   std::fprintf(stderr, "%s\n", problem.what());

@@ -14,8 +14,8 @@ namespace {
 using namespace dovetail;
 
 struct found_angles {
-  double wedge_deg;     ///< the smallest between two interfaces, or an interface and the surface
-  std::size_t under_30; ///< angles of interfaces, and wedges beside them, under 30 degrees
+  double dihedral_deg;  ///< the smallest between two interfaces, or an interface and the surface
+  std::size_t under_30; ///< angles of interfaces, and dihedrals beside them, under 30 degrees
   double refused_sides; ///< that should have gone, but for the weight of their super-element
 };
 
@@ -37,8 +37,8 @@ found_angles decompose_at(double threshold_deg, const background_result<3>& back
                                    partition::metis{}, subdomains);
 
   const auto angles = measure_interface_angles<3>({volume, sides, kept.side_states, pieces.part_of_element},
-                                                  {.face_deg = 30, .wedge_deg = 30});
-  return {angles.min_wedge_deg(), angles.violations.size(), kept.summary.get("refused_sides")};
+                                                  {.face_deg = 30, .dihedral_deg = 30});
+  return {angles.min_dihedral_deg(), angles.violations.size(), kept.summary.get("refused_sides")};
 }
 // end
 
@@ -55,13 +55,13 @@ int main(int argc, char** argv) try {
   const int subdomains = argc > 3 ? std::atoi(argv[3]) : 16;
   const auto improved = make_background<3>(model, size, policies);
   const auto raw = make_background<3>(model, size, policies.with_background_improver(improvement::none{}));
-  std::puts("smallest wedge, angles under 30 degrees, sides refused");
+  std::puts("smallest dihedral, angles under 30 degrees, sides refused");
   std::puts("threshold      background as it comes      improved");
   for (const double threshold : {0.0, 10.0, 20.0, 30.0, 40.0}) {
     std::printf("%9.0f", threshold);
     for (const auto* background : {&raw, &improved}) {
       const auto found = decompose_at(threshold, *background, subdomains);
-      std::printf("     %6.1f %6zu %6.0f", found.wedge_deg, found.under_30, found.refused_sides);
+      std::printf("     %6.1f %6zu %6.0f", found.dihedral_deg, found.under_30, found.refused_sides);
     }
     std::puts("");
   }

@@ -55,7 +55,7 @@ int main(int argc, char** argv) try {
   const auto given =
       parameters<>{}.with_mesher(mesher::tetgen{}).with_improver(native_by<my_operations>{native::fine()});
   const auto result = generate<3>(model, uniform_size(model.bounds().diagonal() / 25), given);
-  std::printf("smallest dihedral angle: %.1f degrees\n", result.quality.min_wedge_deg);
+  std::printf("smallest dihedral angle: %.1f degrees\n", result.quality.min_dihedral_deg);
   return result.failures.empty() ? 0 : 1;
 } catch (const dovetail::error& problem) {
   std::fprintf(stderr, "%s\n", problem.what());

@@ -24,7 +24,7 @@ inline std::vector<experiment_run> threshold_runs() {
     };
     add("no rule", {"--simplifier", "none"});
     for (const char* angle : {"0", "10", "20", "30", "40", "50"})
-      add(angle, {"--wedge-angle", angle});
+      add(angle, {"--dihedral-angle", angle});
   }
   return on_models_and_seeds(runs);
 }

@@ -132,8 +132,8 @@ TEST_CASE("The improver works inside the boundary and the material faces") {
   const auto improved = background::coarse_volume(m.surface, m.topology, quarter, mesher::tetgen{},
                                                   native_improver{}, parallel::processes{2});
   check_core(m, improved);
-  CHECK(improved.quality.min_wedge_deg >= raw.quality.min_wedge_deg);
-  CHECK(improved.quality.min_wedges.below(24) < raw.quality.min_wedges.below(24));
+  CHECK(improved.quality.min_dihedral_deg >= raw.quality.min_dihedral_deg);
+  CHECK(improved.quality.min_dihedrals.below(24) < raw.quality.min_dihedrals.below(24));
 }
 
 TEST_CASE("Solids that cannot be meshed together are meshed one by one, crashes survived") {

@@ -49,7 +49,7 @@ void check_mesh(const generated<3>& made, double volume, std::size_t parts) {
     elements += piece.elements;
   CHECK(made.quality.elements == elements);
   CHECK(made.background.elements().elements.empty());
-  CHECK(made.fine_angles.min_wedge_deg() == doctest::Approx(account(made).get("min_wedge_deg")));
+  CHECK(made.fine_angles.min_dihedral_deg() == doctest::Approx(account(made).get("min_dihedral_deg")));
   CHECK(made.fine_angles.interface_faces > 0);
 }
 
@@ -72,14 +72,14 @@ TEST_CASE("the elements of a mesh of the whole are in parts, and their interface
                                      .with_options({.subdomains = 1}));
   CHECK(whole.mesh.counts.size() == 1);
   CHECK(whole.quality.elements == unimproved.quality.elements);
-  CHECK(whole.quality.min_wedge_deg == doctest::Approx(unimproved.quality.min_wedge_deg));
+  CHECK(whole.quality.min_dihedral_deg == doctest::Approx(unimproved.quality.min_dihedral_deg));
 
   const auto improved = made_in_parts(box, 0.1, 12, improvement::native{});
   check_mesh(improved, 1, 12);
-  CHECK(improved.quality.min_wedges.below(24) < unimproved.quality.min_wedges.below(24));
+  CHECK(improved.quality.min_dihedrals.below(24) < unimproved.quality.min_dihedrals.below(24));
   CHECK(improved.mesh.skeleton.sides == unimproved.mesh.skeleton.sides);
   CHECK(improved.mesh.skeleton.points == unimproved.mesh.skeleton.points);
-  CHECK(improved.fine_angles.min_wedge_deg() == unimproved.fine_angles.min_wedge_deg());
+  CHECK(improved.fine_angles.min_dihedral_deg() == unimproved.fine_angles.min_dihedral_deg());
 }
 
 TEST_CASE("parts follow from the elements where no number is given") {

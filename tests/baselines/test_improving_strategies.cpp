@@ -94,10 +94,10 @@ TEST_CASE("every strategy keeps the mesh, its boundary and its materials, and ma
       for (const auto& [material, volume] : volumes_of_materials(mesh))
         CHECK(volumes_of_materials(made.mesh)[material] == doctest::Approx(volume).epsilon(1e-12));
       const auto after = measured(made.mesh);
-      CHECK(after.min_wedges.below(24) <= before.min_wedges.below(24));
-      CHECK(after.min_wedge_deg >= before.min_wedge_deg);
+      CHECK(after.min_dihedrals.below(24) <= before.min_dihedrals.below(24));
+      CHECK(after.min_dihedral_deg >= before.min_dihedral_deg);
       CHECK(made.quality.elements == after.elements);
-      CHECK(made.quality.min_wedges.below(24) == after.min_wedges.below(24));
+      CHECK(made.quality.min_dihedrals.below(24) == after.min_dihedrals.below(24));
       CHECK(made.quality.worst_element == after.worst_element);
       CHECK(made.mesh.material_names == mesh.material_names);
     }
@@ -109,7 +109,7 @@ TEST_CASE("the baselines improve what interfaces had kept from it") {
   std::vector<std::int64_t> low;
   for (const auto& [name, strategy] : strategies)
     low.push_back(
-        strategy(mesh, improvement::native{}, {}, parallel::serial{}, {}).quality.min_wedges.below(24));
+        strategy(mesh, improvement::native{}, {}, parallel::serial{}, {}).quality.min_dihedrals.below(24));
   CHECK(low[1] < low[0]);
   CHECK(low[2] < low[0]);
 }

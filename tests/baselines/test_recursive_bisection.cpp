@@ -60,8 +60,8 @@ void check_mesh(const generated<3>& made, double volume, std::size_t most_faces,
   const report& cuts = account(made);
   CHECK(cuts.get("most_faces") <= static_cast<double>(most_faces));
   CHECK(cuts.get("subdomains") == static_cast<double>(made.mesh.counts.size()));
-  CHECK(cuts.get("least_wedge_deg") >= 8);
-  CHECK(cuts.get("least_wedge_deg") >= made.fine_angles.min_wedge_deg() - 1e-9);
+  CHECK(cuts.get("least_dihedral_deg") >= 8);
+  CHECK(cuts.get("least_dihedral_deg") >= made.fine_angles.min_dihedral_deg() - 1e-9);
 }
 
 } // namespace
@@ -123,7 +123,7 @@ TEST_CASE("the built-in aircraft, and what follows meshing") {
   const auto even = redistribution_by::elements{}(divided.mesh, 3);
   const auto improved = improve_pieces(*even.mesh, improvement::native{}, {}, parallel::serial{});
   CHECK(io::check_distributed(improved.mesh).text() == "");
-  CHECK(improved.quality.min_wedges.below(24) <= divided.quality.min_wedges.below(24));
+  CHECK(improved.quality.min_dihedrals.below(24) <= divided.quality.min_dihedrals.below(24));
 }
 
 TEST_CASE("the same mesh by every executor") {
@@ -163,7 +163,7 @@ TEST_CASE("where no plane makes a cut the subdomain stays whole, and the reason 
     CHECK(made.fine.sides == surface.sides);
   };
   CHECK(divided({.most_faces = 1000}).summary.get("subdomains") > 1);
-  check_whole({.most_faces = 1000, .least_wedge_deg = 100}, "too_sharp");
+  check_whole({.most_faces = 1000, .least_dihedral_deg = 100}, "too_sharp");
   check_whole({.most_faces = 1000, .least_share = 0.6}, "uneven");
   check_whole(
       {.most_faces = 1000, .mesh_interface = spoiling_mesher{[](patch_mesh& made) { made.misplaced = {0}; }}},
@@ -237,7 +237,7 @@ TEST_CASE("loops are closed, come to a point once, and have what is below on the
     baselines::spanning_surface spanning{{apex}, {}};
     for (const auto& [a, b] : cut.loops)
       spanning.triangles.push_back({a, b, static_cast<local_id>(surface.points.size())});
-    return baselines::least_wedge_at_loops(surface, cut, spanning);
+    return baselines::least_dihedral_at_loops(surface, cut, spanning);
   };
   CHECK(fan({0, 0, 0.1}) > 45);
   CHECK(fan({0, 0, 0.1}) < 90);

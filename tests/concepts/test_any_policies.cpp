@@ -63,27 +63,27 @@ TEST_CASE("a held surface mesher passes on its input, and whether it may run in 
   CHECK(any_mesher<2>(pieces{}).actual_traits().thread_safe);
 }
 
-TEST_CASE("the ladder of a held mesher is the held one's, and then the fallbacks added") {
+TEST_CASE("the fallbacks of a held mesher are the held one's, and then those added") {
   struct climbing : archetype::mesher {
-    explicit climbing(int at) : archetype::mesher(0), rung(at) {}
+    explicit climbing(int at) : archetype::mesher(0), attempt(at) {}
     climbing(const climbing&) = default;
     std::vector<climbing> fallbacks() const { return {climbing(1), climbing(2)}; }
     mesher_result<3> operator()(const mesher_input<3>&, const any_sizing&) const {
       mesher_result<3> result;
-      result.mesh.tags = {rung};
+      result.mesh.tags = {attempt};
       return result;
     }
-    int rung;
+    int attempt;
   };
   const auto held = any_mesher<3>(climbing(0), "climbing").with_fallback({archetype::mesher(0), "archetype"});
-  const auto ladder = ladder_of(held);
-  REQUIRE(ladder.size() == 4);
-  for (int rung = 0; rung < 3; ++rung)
-    CHECK(ladder[static_cast<std::size_t>(rung)]({}, {}).mesh.tags == std::vector<local_id>{rung});
-  CHECK(ladder[3].name() == "archetype");
+  const auto meshers = with_fallbacks(held);
+  REQUIRE(meshers.size() == 4);
+  for (int attempt = 0; attempt < 3; ++attempt)
+    CHECK(meshers[static_cast<std::size_t>(attempt)]({}, {}).mesh.tags == std::vector<local_id>{attempt});
+  CHECK(meshers[3].name() == "archetype");
 }
 
-TEST_CASE("below a held mesher's form for the background is the ladder of the mesher itself") {
+TEST_CASE("after a held mesher's form for the background come the mesher itself and its fallbacks") {
   struct two_forms : archetype::mesher {
     explicit two_forms(int number) : archetype::mesher(0), mark(number) {}
     two_forms(const two_forms&) = default;
@@ -98,8 +98,8 @@ TEST_CASE("below a held mesher's form for the background is the ladder of the me
   };
   const auto marks = [](const any_mesher<3>& mesher) {
     std::vector<local_id> found;
-    for (const auto& rung : ladder_of(mesher))
-      found.push_back(rung({}, {}).mesh.tags.front());
+    for (const auto& attempt : with_fallbacks(mesher))
+      found.push_back(attempt({}, {}).mesh.tags.front());
     return found;
   };
   const any_mesher<3> held(two_forms(0), "both");
@@ -110,7 +110,7 @@ TEST_CASE("below a held mesher's form for the background is the ladder of the me
   CHECK(held.with_fallback(two_forms(7)).has_form_for_background());
   CHECK_FALSE(any_mesher<3>(archetype::mesher(0)).has_form_for_background());
   CHECK(marks(held.with_fallback(two_forms(7)).for_background()) == std::vector<local_id>{1, 0, 10, 7});
-  CHECK(ladder_of(any_mesher<3>(archetype::mesher(0)).for_background()).size() == 1);
+  CHECK(with_fallbacks(any_mesher<3>(archetype::mesher(0)).for_background()).size() == 1);
 }
 
 struct marking {

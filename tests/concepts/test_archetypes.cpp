@@ -254,9 +254,9 @@ TEST_CASE("the improver of the background is a policy") {
   const auto told =
       generate<3>(unit_cube(), archetype::sizing(0), given.with_background_improver(archetype::improver(0)));
   CHECK(told.failures.empty());
-  CHECK(
-      measure_quality(told.background.volume).min_wedge_deg <
-      measure_quality(generate<3>(unit_cube(), archetype::sizing(0), given).background.volume).min_wedge_deg);
+  CHECK(measure_quality(told.background.volume).min_dihedral_deg <
+        measure_quality(generate<3>(unit_cube(), archetype::sizing(0), given).background.volume)
+            .min_dihedral_deg);
 }
 
 TEST_CASE("pieces of triangles need no more of an improver or a model with planes than the concepts say") {

@@ -32,9 +32,9 @@ struct square {
 TEST_CASE("corners are measured between lines, across the triangles of a part") {
   const auto found = square().check({0, 0, 1, 1}, 50); // cut along one diagonal
   CHECK(found.interface_faces == 2);
-  CHECK(found.surface_wedge.angle_deg == doctest::Approx(45));
-  CHECK(found.interface_wedge.angle_deg == doctest::Approx(180)); // in the middle
-  CHECK(found.interface_wedge.edge[0] == 4);
+  CHECK(found.surface_dihedral.angle_deg == doctest::Approx(45));
+  CHECK(found.interface_dihedral.angle_deg == doctest::Approx(180)); // in the middle
+  CHECK(found.interface_dihedral.edge[0] == 4);
   REQUIRE(found.violations.size() == 4); // two at each end of the diagonal
   for (const auto& each : found.violations)
     CHECK((each.edge[0] == 0 || each.edge[0] == 2));
@@ -82,6 +82,6 @@ TEST_CASE("between fine lines, a corner is as they leave the vertex") {
     return along;
   };
   const auto found = measure_interface_angles<2>({s.mesh, s.sides, s.states, part, leaves}, {0, 50});
-  CHECK(found.surface_wedge.angle_deg == doctest::Approx(30));
-  CHECK(found.surface_wedge.edge[0] == 0);
+  CHECK(found.surface_dihedral.angle_deg == doctest::Approx(30));
+  CHECK(found.surface_dihedral.edge[0] == 0);
 }

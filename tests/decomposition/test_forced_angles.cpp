@@ -42,24 +42,24 @@ vec3 at_angle(double degrees, double length = 1) {
   return {length * std::cos(a), length * std::sin(a), 0};
 }
 
-/// The floor of a wedge with an opening of 20 degrees about the z axis.
-interface_on_cad in_sharp_wedge(bool seen_from_outside) {
-  interface_on_cad wedge({{0, 0, 0}, {1, 0, 0}, at_angle(20), {0, 0, 1}});
+/// The floor of a dihedral with an opening of 20 degrees about the z axis.
+interface_on_cad in_sharp_dihedral(bool seen_from_outside) {
+  interface_on_cad dihedral({{0, 0, 0}, {1, 0, 0}, at_angle(20), {0, 0, 1}});
   simplex<2> front{0, 1, 3}, back{0, 3, 2};
   if (seen_from_outside) {
     std::swap(front[1], front[2]);
     std::swap(back[1], back[2]);
   }
-  wedge.add(front, {0, no_id}, 4);
-  wedge.add(back, {0, no_id}, 5);
-  wedge.add_curve({0, 3}, 7);
-  return wedge;
+  dihedral.add(front, {0, no_id}, 4);
+  dihedral.add(back, {0, no_id}, 5);
+  dihedral.add_curve({0, 3}, 7);
+  return dihedral;
 }
 
 } // namespace
 
-TEST_CASE("an interface in a sharp wedge of the CAD is forced, and its curve and faces are named") {
-  const auto angles = in_sharp_wedge(false).measure(0.1);
+TEST_CASE("an interface in a sharp dihedral of the CAD is forced, and its curve and faces are named") {
+  const auto angles = in_sharp_dihedral(false).measure(0.1);
   REQUIRE(angles.violations.size() == 1);
   CHECK(angles.violations[0].angle_deg == doctest::Approx(20));
   CHECK(angles.violations[0].cause == violation_cause::forced);
@@ -68,20 +68,20 @@ TEST_CASE("an interface in a sharp wedge of the CAD is forced, and its curve and
 }
 
 TEST_CASE("a slit that the domain lies around forces nothing; what the triangle touches is named") {
-  const auto angles = in_sharp_wedge(true).measure(0.1);
+  const auto angles = in_sharp_dihedral(true).measure(0.1);
   REQUIRE(angles.violations.size() == 1);
   CHECK(angles.violations[0].cause == violation_cause::remeshing);
   CHECK(angles.violations[0].cad == std::vector<host>{{2, 4}, {2, 5}});
 }
 
-TEST_CASE("a wedge between an interface and the CAD is forced at a sharp edge only") {
+TEST_CASE("a dihedral between an interface and the CAD is forced at a sharp edge only") {
   for (const double opening : {25.0, 60.0}) {
     // The interface leaves the z axis, between two faces that meet there.
-    interface_on_cad wedge({{0, 0, 0}, {0, 0, 1}, at_angle(0.4 * opening), {1, 0, 0}, at_angle(opening)});
-    wedge.add({0, 3, 1}, {0, no_id}, 4);
-    wedge.add({0, 1, 4}, {1, no_id}, 5);
-    wedge.add_curve({1, 0}, 7);
-    const auto angles = wedge.measure(0.1);
+    interface_on_cad dihedral({{0, 0, 0}, {0, 0, 1}, at_angle(0.4 * opening), {1, 0, 0}, at_angle(opening)});
+    dihedral.add({0, 3, 1}, {0, no_id}, 4);
+    dihedral.add({0, 1, 4}, {1, no_id}, 5);
+    dihedral.add_curve({1, 0}, 7);
+    const auto angles = dihedral.measure(0.1);
     CHECK(angles.violations.size() == (opening < 30 ? 2 : 1));
     for (const angle_violation& v : angles.violations)
       CHECK(v.cause == (opening < 30 ? violation_cause::forced : violation_cause::remeshing));

@@ -16,15 +16,15 @@ using namespace dovetail_test;
 namespace {
 
 struct measured {
-  double interface_wedge = 360;
-  double surface_wedge = 360;
+  double interface_dihedral = 360;
+  double surface_dihedral = 360;
   std::size_t below = 0;
 };
 
-/// Wedges of parts from the elements: around every ridge, the dihedral angles of consecutive elements of one
-/// part add up.
-measured wedges_from_elements(const simplicial_mesh<3>& mesh, const std::vector<local_id>& part,
-                              double threshold) {
+/// Dihedrals of parts from the elements: around every ridge, the dihedral angles of consecutive elements of
+/// one part add up.
+measured dihedrals_from_elements(const simplicial_mesh<3>& mesh, const std::vector<local_id>& part,
+                                 double threshold) {
   const auto adj = dovetail_test::build_adjacency(mesh);
   measured m;
   for (std::size_t f = 0; f < adj.fan_count(); ++f) {
@@ -36,15 +36,15 @@ measured wedges_from_elements(const simplicial_mesh<3>& mesh, const std::vector<
     };
     std::vector<item> items;
     for (const std::uint32_t code : adj.ridges.fan(f)) {
-      const wedge w = ridge_table<3>::decode(code);
+      const dihedral w = ridge_table<3>::decode(code);
       const auto e = static_cast<std::size_t>(w.element);
       const auto is_surface = [&](std::size_t end) {
         return adj.sides.is_boundary(adj.sides.of_element[e][static_cast<std::size_t>(w.sides[end])]);
       };
-      items.push_back(
-          {part[e],
-           wedge_angles(corners(std::span(mesh.points), mesh.elements[e]))[static_cast<std::size_t>(w.ridge)],
-           is_surface(0), is_surface(1)});
+      items.push_back({part[e],
+                       dihedral_angles(corners(std::span(mesh.points),
+                                               mesh.elements[e]))[static_cast<std::size_t>(w.ridge)],
+                       is_surface(0), is_surface(1)});
     }
     if (adj.ridges.closed[f]) {
       std::size_t start = 0;
@@ -63,7 +63,7 @@ measured wedges_from_elements(const simplicial_mesh<3>& mesh, const std::vector<
       }
       if (run.surface_from && run.surface_to)
         continue;
-      double& minimum = run.surface_from || run.surface_to ? m.surface_wedge : m.interface_wedge;
+      double& minimum = run.surface_from || run.surface_to ? m.surface_dihedral : m.interface_dihedral;
       minimum = std::min(minimum, run.angle);
       m.below += run.angle < threshold ? 1 : 0;
     }
@@ -104,25 +104,25 @@ fine_skeleton tent() {
 
 void check_measured(const interface_angles& angles, const simplicial_mesh<3>& mesh,
                     const side_table<3>& sides, const std::vector<local_id>& part, double threshold) {
-  const measured expected = wedges_from_elements(mesh, part, threshold);
-  CHECK(angles.interface_wedge.angle_deg == doctest::Approx(expected.interface_wedge));
-  CHECK(angles.surface_wedge.angle_deg == doctest::Approx(expected.surface_wedge));
-  std::size_t wedges = 0;
+  const measured expected = dihedrals_from_elements(mesh, part, threshold);
+  CHECK(angles.interface_dihedral.angle_deg == doctest::Approx(expected.interface_dihedral));
+  CHECK(angles.surface_dihedral.angle_deg == doctest::Approx(expected.surface_dihedral));
+  std::size_t dihedrals = 0;
   std::size_t faces = 0;
   for (const angle_violation& v : angles.violations) {
-    wedges += v.is_wedge() ? 1 : 0;
-    faces += v.is_wedge() ? 0 : 1;
+    dihedrals += v.is_dihedral() ? 1 : 0;
+    faces += v.is_dihedral() ? 0 : 1;
     CHECK(v.angle_deg < threshold);
     CHECK(v.cause == violation_cause::remeshing); // nothing was refused, and no corner of the cube is sharp
   }
-  CHECK(wedges == expected.below);
+  CHECK(dihedrals == expected.below);
   std::size_t expected_faces = 0;
   double smallest = 360;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = sides.elements[s];
     if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
       continue;
-    const auto corner = wedge_angles(corners(std::span(mesh.points), sides.vertices[s]));
+    const auto corner = dihedral_angles(corners(std::span(mesh.points), sides.vertices[s]));
     const double angle = *std::min_element(corner.begin(), corner.end());
     smallest = std::min(smallest, angle);
     expected_faces += angle < threshold ? 1 : 0;
@@ -147,7 +147,7 @@ TEST_CASE("angles measured on the skeleton are those measured through the elemen
   }
 }
 
-TEST_CASE("faces and wedges have thresholds of their own") {
+TEST_CASE("faces and dihedrals have thresholds of their own") {
   const auto mesh = jittered_cubes(3, 0.15, 1);
   const auto sides = build_sides(mesh);
   const auto part = random_parts(mesh, 3, 1);
@@ -156,7 +156,7 @@ TEST_CASE("faces and wedges have thresholds of their own") {
     for (const auto& angles : {measure_interface_angles<3>({mesh, sides, {}, part}, wanted),
                                measure_skeleton_angles(skeleton_of(mesh, sides, part), wanted)})
       for (const angle_violation& v : angles.violations)
-        ++found[v.is_wedge() ? 1 : 0];
+        ++found[v.is_dihedral() ? 1 : 0];
     return found;
   };
   CHECK(count({0, 0}) == std::array<std::size_t, 2>{});
@@ -180,20 +180,20 @@ TEST_CASE("the place and the cause of a violation are named") {
   const auto angles = measure_interface_angles<3>({mesh, sides, states, part}, {30, 30});
   CHECK(angles.interface_faces == 1);
   CHECK(angles.face_angle.angle_deg == doctest::Approx(45));
-  CHECK(angles.interface_wedge.angle_deg == 360); // none
-  REQUIRE(angles.violations.size() == 3);         // the wedges of the flat element at the interface's edges
+  CHECK(angles.interface_dihedral.angle_deg == 360); // none
+  REQUIRE(angles.violations.size() == 3); // the dihedrals of the flat element at the interface's edges
   for (const auto& v : angles.violations) {
-    CHECK(v.is_wedge());
+    CHECK(v.is_dihedral());
     CHECK(v.subdomain == 1);
     CHECK(v.cause == violation_cause::refused);
   }
-  CHECK(angles.surface_wedge.angle_deg == angles.violations[0].angle_deg);
-  CHECK(angles.surface_wedge.edge == std::array<local_id, 2>{1, 2});
-  CHECK(angles.surface_wedge.angle_deg ==
+  CHECK(angles.surface_dihedral.angle_deg == angles.violations[0].angle_deg);
+  CHECK(angles.surface_dihedral.edge == std::array<local_id, 2>{1, 2});
+  CHECK(angles.surface_dihedral.angle_deg ==
         doctest::Approx(degrees_per_radian * std::atan2(0.02, 0.5 / std::sqrt(2.0))));
 }
 
-TEST_CASE("only the wedges of the edges asked for are measured") {
+TEST_CASE("only the dihedrals of the edges asked for are measured") {
   const std::vector<std::uint32_t> of_one_edge{2, 5}; // (0, 1), opposite the last vertex of both
   const auto angles = measure_skeleton_angles(tent(), {30, 30}, {}, of_one_edge);
   CHECK(angles.interface_faces == 1);
@@ -206,7 +206,7 @@ TEST_CASE("the cause is the coarse side where it ought to have been removed, and
     std::vector<std::uint8_t> refused(4, 0);
     refused[0] = known ? 1 : 0;
     const auto angles = measure_skeleton_angles(tent(), {30, 30}, refused);
-    CHECK(angles.min_wedge_deg() == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
+    CHECK(angles.min_dihedral_deg() == doctest::Approx(degrees_per_radian * std::atan2(0.1, 0.3)));
     CHECK(angles.count(known ? violation_cause::refused : violation_cause::remeshing) == 3);
     REQUIRE(angles.violations.size() == 3);
     CHECK(angles.violations[0].place == vec3{0.5, 0, 0});
@@ -217,8 +217,8 @@ TEST_CASE("angles are the same after a journey as bytes") {
   interface_angles angles;
   angles.interface_faces = 7;
   angles.face_angle = {20, {1, no_id}, {no_id, no_id}};
-  angles.interface_wedge = {21, {2, 3}, {4, 5}};
-  angles.surface_wedge = {22, {6, 7}, {8, 9}};
+  angles.interface_dihedral = {21, {2, 3}, {4, 5}};
+  angles.surface_dihedral = {22, {6, 7}, {8, 9}};
   angles.violations = {{20, violation_cause::remeshing, {1, no_id}, {no_id, no_id}, no_id, {1, 2, 3}, {}},
                        {21, violation_cause::forced, {2, 3}, {4, 5}, 6, {4, 5, 6}, {{2, 11}, {1, 12}}}};
   const byte_buffer bytes = encoded(angles);
@@ -226,8 +226,8 @@ TEST_CASE("angles are the same after a journey as bytes") {
   const auto read = decode<interface_angles>(from);
   CHECK(from.at_end());
   CHECK(read.interface_faces == 7);
-  for (const auto member : {&interface_angles::face_angle, &interface_angles::interface_wedge,
-                            &interface_angles::surface_wedge}) {
+  for (const auto member : {&interface_angles::face_angle, &interface_angles::interface_dihedral,
+                            &interface_angles::surface_dihedral}) {
     CHECK((read.*member).angle_deg == (angles.*member).angle_deg);
     CHECK((read.*member).sides == (angles.*member).sides);
     CHECK((read.*member).edge == (angles.*member).edge);

@@ -20,8 +20,8 @@ column() { # key: the values
   awk -F, -v key="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == key) at = k; next } at { print $at }' "$table"
 }
 [[ -z $(column error | tr -d '\n') ]] || fault "errors: $(column error)"
-for key in elements bad_per_million low_per_million min_dihedral_deg coarse_min_face_deg coarse_min_wedge_deg \
-  fine_min_face_deg fine_min_wedge_deg fine_under_30 cut imbalance seconds_background seconds_meshing seconds_total; do
+for key in elements bad_per_million low_per_million min_dihedral_deg coarse_min_face_deg coarse_min_dihedral_deg \
+  fine_min_face_deg fine_min_dihedral_deg fine_under_30 cut imbalance seconds_background seconds_meshing seconds_total; do
   (($(column "$key" | grep -cE '^[0-9]+(\.[0-9]+)?$') == 8)) || fault "no figures in the column $key"
 done
 [[ $(column simplifier | sort | uniq -c | tr -s ' \n' ' ') == " 4 none 4 paper " ]] ||
@@ -71,12 +71,12 @@ grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh ma
 grep -q "\"mesh_hash\": \"${hashes[2]}\"" "$sandbox/work/report.json" || fault "mesh makes another mesh than ${hashes[2]}"
 
 # Other rules, and what mesh makes by one of them.
-compare --size 0.1 --subdomains 4 --simplifiers none,wedges,shape --quiet
-[[ $(column simplifier | tr '\n' ' ') == "none wedges shape " ]] || fault "other simplifiers than asked for"
+compare --size 0.1 --subdomains 4 --simplifiers none,dihedrals,shape --quiet
+[[ $(column simplifier | tr '\n' ' ') == "none dihedrals shape " ]] || fault "other simplifiers than asked for"
 elements=$(column elements | sed -n 2p)
-expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --simplifier wedges --format none --report report.json
+expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --simplifier dihedrals --format none --report report.json
 grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
-grep -q '"simplifier": "wedges"' "$sandbox/work/report.json" || fault "the report does not name the simplifier"
+grep -q '"simplifier": "dihedrals"' "$sandbox/work/report.json" || fault "the report does not name the simplifier"
 
 # Without names the defaults are run; quiet is quiet; sizes follow the number of elements asked for.
 compare --elements 3000 --subdomains 2 --quiet

@@ -23,7 +23,7 @@ check_contract() {
   [[ $(figure decomposition) == "$1" ]] || fault "the report names another decomposition"
   (($(figure subdomains) >= 6)) || fault "only $(figure subdomains) subdomains"
   (($(figure background_elements) == 0)) || fault "a background mesh"
-  awk -v angle="$(figure min_wedge_deg)" 'BEGIN { exit !(angle > 0 && angle < 180) }' || fault "no angle of interfaces"
+  awk -v angle="$(figure min_dihedral_deg)" 'BEGIN { exit !(angle > 0 && angle < 180) }' || fault "no angle of interfaces"
   for stage in background skeleton "$2" meshing improvement total; do
     positive "$(figure "$stage")" || fault "no time of $stage"
   done
@@ -103,7 +103,7 @@ expect_usage_error "--decomposition: there is no 'halves'; there are: simplifica
 expect_usage_error "--decomposition bisection divides solids; with --dimension 2" "${bad[@]}" --dimension 2
 expect_usage_error "--decomposition fine-partition has no background mesh: --simplifier does nothing there" \
   mesh nothing.off --decomposition fine-partition --simplifier none
-for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--wedge-angle 20" "--partitioner metis"; do
+for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--dihedral-angle 20" "--partitioner metis"; do
   expect_usage_error "--decomposition bisection has no background mesh: ${option% *} does nothing there" "${bad[@]}" $option
 done
 expect_usage_error "--decomposition bisection with --ranks: give --subdomains, or --redistribute by-elements" "${bad[@]}" --ranks 3

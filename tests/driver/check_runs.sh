@@ -133,7 +133,7 @@ expect_error "--background-mesher: there is no 'nonsense'; there are: native" \
 # Another improver of the background mesh, and another angle of the rule, change both the coarse mesh's interfaces.
 mesh --size 0.08 --subdomains 4 --format none
 unchanged=$(figure mesh_hash)
-for change in "--background-improver none" "--wedge-angle 60"; do
+for change in "--background-improver none" "--dihedral-angle 60"; do
   mesh --size 0.08 --subdomains 4 --format none $change
   [[ $(figure mesh_hash) != "$unchanged" ]] || fault "$change changes nothing"
 done
@@ -141,8 +141,8 @@ expect_error "--background-improver.*--dimension 2" \
   mesh "$inputs/cube.off" --dimension 2 --background-improver none
 expect_error "--background-improver: there is no 'nonsense'; there are: native" \
   mesh "$inputs/cube.off" --background-improver nonsense
-expect_error "--wedge-angle: 91 is not between 0 and 90" mesh "$inputs/cube.off" --wedge-angle 91
-expect_error "--wedge-angle: .*shape has no angle" mesh "$inputs/cube.off" --wedge-angle 20 --simplifier shape
+expect_error "--dihedral-angle: 91 is not between 0 and 90" mesh "$inputs/cube.off" --dihedral-angle 91
+expect_error "--dihedral-angle: .*shape has no angle" mesh "$inputs/cube.off" --dihedral-angle 20 --simplifier shape
 
 # The surface by every mesher that is offered.
 surface_meshers=$(offered surface "Mesher of the surface of --dimension 3")
@@ -292,7 +292,7 @@ stale coarsening "${long[@]}" --coarsening 2
 stale dimension "${long[@]}" --dimension 2
 stale partitioner "${long[@]}" --partitioner greedy
 stale simplifier "${long[@]}" --simplifier none
-stale simplifier "${long[@]}" --wedge-angle 40
+stale simplifier "${long[@]}" --dihedral-angle 40
 stale "background improver" "${long[@]}" --background-improver none
 stale improver "${long[@]}" --improver none
 [[ $surface_meshers == *cgal* ]] && stale "surface mesher" "${long[@]}" --surface-mesher cgal

@@ -26,9 +26,9 @@ comparison_row row_of(const std::string& partitioner, const std::string& improve
   row.seconds.meshing = 2;
   row.seconds.total = 3.5;
   row.quality.elements = row.elements;
-  row.quality.min_wedges.bins[11] = 30;
-  row.quality.min_wedges.bins[50] = row.elements - 30;
-  row.quality.min_wedge_deg = 11.25;
+  row.quality.min_dihedrals.bins[11] = 30;
+  row.quality.min_dihedrals.bins[50] = row.elements - 30;
+  row.quality.min_dihedral_deg = 11.25;
   row.coarse = {simplified ? 30.5 : 14.0, 31.0, simplified ? 120 : 100, simplified ? 0 : 25};
   row.fine = {simplified ? 22.0 : 13.0, 30.0, 400, simplified ? 3 : 40};
   return row;
@@ -98,7 +98,7 @@ TEST_CASE("the CSV has a line per row, and all lines have the head's columns") {
   CHECK(lines[1][column("min_dihedral_deg")] == "11.25");
   CHECK(lines[1][column("coarse_min_face_deg")] == "30.5");
   CHECK(lines[2][column("coarse_under_30")] == "25");
-  CHECK(lines[2][column("fine_min_wedge_deg")] == "30.0");
+  CHECK(lines[2][column("fine_min_dihedral_deg")] == "30.0");
   CHECK(lines[1][column("cut")] == "120");
   CHECK(lines[1][column("imbalance")] == "1.050");
   CHECK(lines[1][column("seconds_meshing")] == "2.00");

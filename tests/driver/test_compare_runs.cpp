@@ -88,7 +88,7 @@ generated<2> generate_mesh_from(const background_result<2>&, const any_geometry&
                                 const generate_options&) {
   generated<2> result;
   result.coarse_angles.interface_faces = 7;
-  result.coarse_angles.surface_wedge.angle_deg = 51;
+  result.coarse_angles.surface_dihedral.angle_deg = 51;
   return result;
 }
 
@@ -257,7 +257,7 @@ TEST_CASE("of dimension 2: interfaces have no angles of their own, and elements 
                                       backgrounds, [](const comparison_row&, const generated<2>&) {});
   CHECK_FALSE(row.failed());
   CHECK(row.coarse.faces == 7);
-  CHECK(row.coarse.min_wedge == 51);
+  CHECK(row.coarse.min_dihedral == 51);
   CHECK(std::isnan(row.coarse.min_face_angle));
   const size_scale scale = scale_for_elements(model(), 8000, surface_policies(), {});
   CHECK(scaled_sizes(model(), scale.factor)({}) == doctest::Approx(0.25)); // 500 / 0.25^2 = 8000

@@ -50,9 +50,9 @@ json example_report() {
                      .writing_back = 0.125,
                      .output = 7,
                      .total = 68};
-  figures.quality.min_wedges.bins[5] = 1;
-  figures.quality.min_wedges.bins[11] = 20;
-  figures.quality.min_wedges.bins[23] = 300;
+  figures.quality.min_dihedrals.bins[5] = 1;
+  figures.quality.min_dihedrals.bins[11] = 20;
+  figures.quality.min_dihedrals.bins[23] = 300;
   const testing::scratch_folder folder("report");
   write_report(figures, folder / "report.json");
   std::ifstream file(folder / "report.json");

@@ -130,9 +130,9 @@ TEST_CASE(
     CHECK(left_out(read) == "the numbers of inner points, which are others now");
     check_kept(original, read);
     improvable_mesh<3> given(read);
-    const double worst = measure_quality(given.mesh).min_wedge_deg;
+    const double worst = measure_quality(given.mesh).min_dihedral_deg;
     improvement::native::fast()(given.mesh, given.frozen, {});
-    CHECK(measure_quality(given.mesh).min_wedge_deg > worst);
+    CHECK(measure_quality(given.mesh).min_dihedral_deg > worst);
     write(std::move(given).put_back());
     check_kept(original, io::read_mesh(written));
   }

@@ -27,8 +27,8 @@ run_figures example() {
   figures.seconds.total = 10;
   figures.seconds.meshing = 6;
   figures.quality.elements = figures.elements;
-  figures.quality.min_wedge_deg = 11.5;
-  figures.quality.min_wedges.bins[11] = 6000;
+  figures.quality.min_dihedral_deg = 11.5;
+  figures.quality.min_dihedrals.bins[11] = 6000;
   figures.interfaces.min_face_angle_deg = 30.5;
   figures.interfaces.forced = 1;
   figures.interfaces.refused = 3;
@@ -84,7 +84,7 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   for (const char* key :
        {"min_dihedral_deg", "max_dihedral_deg", "bad_per_million", "low_per_million", "histogram"})
     CHECK_MESSAGE(document["quality"].contains(key), key);
-  for (const char* key : {"min_face_angle_deg", "min_wedge_deg", "faces", "forced", "refused", "coarse"})
+  for (const char* key : {"min_face_angle_deg", "min_dihedral_deg", "faces", "forced", "refused", "coarse"})
     CHECK_MESSAGE(document["interfaces"].contains(key), key);
 
   CHECK(document["model"] == "a \"quoted\" name\n");
@@ -99,7 +99,7 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   const auto& below = document["interfaces"]["below_threshold"];
   REQUIRE(below.size() == 1);
   CHECK(below[0]["angle_deg"] == 12.5);
-  CHECK(below[0]["of"] == "wedge");
+  CHECK(below[0]["of"] == "dihedral");
   CHECK(below[0]["cause"] == "forced");
   CHECK(below[0]["at"] == std::array{1.0, 2.0, 3.0});
   CHECK(below[0]["cad"][1] == "face 4 (wing)");
@@ -169,7 +169,7 @@ TEST_CASE("the summary of a mesh of triangles speaks of edges and angles") {
   const std::string text = summary_text(figures);
   CHECK(text.find("No. of edges") != std::string::npos);
   CHECK(text.find("Minimum angle (degrees)") != std::string::npos);
-  for (const char* of_solids : {"of faces", "face angle", "wedge", "dihedral", "tetrahedra"})
+  for (const char* of_solids : {"of faces", "face angle", "dihedral", "dihedral", "tetrahedra"})
     CHECK_MESSAGE(text.find(of_solids) == std::string::npos, of_solids);
 }
 

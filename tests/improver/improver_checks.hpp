@@ -115,8 +115,8 @@ mesh_type check_contract(const Improver& improver, const mesh_type& mesh, const 
   improver(result, frozen, size);
   check_kept(mesh, result, frozen);
   if (inverted_count(mesh) == 0)
-    CHECK(dovetail::measure_quality(result).min_wedge_deg >=
-          dovetail::measure_quality(mesh).min_wedge_deg - 1e-3);
+    CHECK(dovetail::measure_quality(result).min_dihedral_deg >=
+          dovetail::measure_quality(mesh).min_dihedral_deg - 1e-3);
   return result;
 }
 

@@ -59,7 +59,9 @@ void check_whole_contract(const subject<Improver>& tried) {
     check_report(made, mesh, result, tried);
     if (tried.changes_meshes && tried.always_helps) {
       CHECK_MESSAGE(made.warnings.empty(), made.warnings.front());
-      const auto low = [](const mesh_type& m) { return dovetail::measure_quality(m).min_wedges.below(24); };
+      const auto low = [](const mesh_type& m) {
+        return dovetail::measure_quality(m).min_dihedrals.below(24);
+      };
       CHECK(low(result) < low(mesh));
     }
   }

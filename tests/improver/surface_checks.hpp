@@ -82,8 +82,8 @@ inline void check_change(const mesh_type& before, const mesh_type& after, const 
   const auto validity = dovetail::check_validity(
       after, {.closed_boundary = false, .non_manifold_sides = true, .isolated_points = true});
   CHECK_MESSAGE(validity.valid(), validity.text());
-  CHECK(dovetail::measure_quality(after).min_wedge_deg >=
-        dovetail::measure_quality(before).min_wedge_deg - 1e-6);
+  CHECK(dovetail::measure_quality(after).min_dihedral_deg >=
+        dovetail::measure_quality(before).min_dihedral_deg - 1e-6);
   CHECK(fixed_edges(after) == fixed_edges(before));
   const auto edges = all_edges(after);
   for (const auto& side : frozen.sides)

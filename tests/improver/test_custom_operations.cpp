@@ -77,21 +77,21 @@ static_assert(improver<native_by<own_operations>, 3> && improver<native_by<own_o
 
 TEST_CASE("operations of one's own are all that is tried when the list has no others") {
   auto mesh = dovetail_test::jittered_cubes(6, 0.25, 3);
-  const double before_3 = measure_quality(mesh).min_wedge_deg;
+  const double before_3 = measure_quality(mesh).min_dihedral_deg;
   const report told = native_by<own_operations>{}(mesh);
   CHECK(told.get("centering tried") > 0);
   CHECK(told.get("centering accepted") > 0);
   CHECK(told.get("edge removal tried", -1) == -1);
-  CHECK(measure_quality(mesh).min_wedge_deg > before_3);
+  CHECK(measure_quality(mesh).min_dihedral_deg > before_3);
   CHECK(check_validity(mesh).valid());
 
   auto triangles = dovetail_test::jittered_squares(20, 0.3, 1, 0);
-  const double before_2 = measure_quality(triangles).min_wedge_deg;
+  const double before_2 = measure_quality(triangles).min_dihedral_deg;
   native preset;
   preset.search_iterations = -2; // nothing is relaxed before the sweeps
   const report of_triangles = native_by<own_operations>{preset}(triangles);
   CHECK(of_triangles.get("relaxing accepted") > 0);
-  CHECK(measure_quality(triangles).min_wedge_deg >= before_2);
+  CHECK(measure_quality(triangles).min_dihedral_deg >= before_2);
 }
 
 TEST_CASE("operations of one's own are tried after the native ones") {

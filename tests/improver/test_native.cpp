@@ -92,8 +92,8 @@ TEST_CASE("a poor mesh becomes good") {
   const auto before = dovetail::measure_quality(mesh);
   const auto result = check_contract(native::finest(), mesh);
   const auto after = dovetail::measure_quality(result);
-  REQUIRE(before.min_wedge_deg < 24);
-  CHECK(after.min_wedge_deg > 24);
+  REQUIRE(before.min_dihedral_deg < 24);
+  CHECK(after.min_dihedral_deg > 24);
   CHECK(after.per_million_under(24) == 0);
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("a far-away or tiny mesh is improved like one at the origin") {
     for (auto& p : scaled.points)
       p = scale * p;
     const auto result = check_contract(native::fine(), scaled);
-    CHECK(dovetail::measure_quality(result).min_wedge_deg > 24);
+    CHECK(dovetail::measure_quality(result).min_dihedral_deg > 24);
   }
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("the report counts operations and both classes") {
         static_cast<double>(mesh.elements.size()));
   const auto quality = dovetail::measure_quality(mesh);
   CHECK(std::min(report.get("after free min angle"), report.get("after limited min angle")) ==
-        doctest::Approx(quality.min_wedge_deg).epsilon(1e-6));
+        doctest::Approx(quality.min_dihedral_deg).epsilon(1e-6));
   CHECK(report.get("after free low") + report.get("after limited low") ==
-        static_cast<double>(quality.min_wedges.below(24)));
+        static_cast<double>(quality.min_dihedrals.below(24)));
 }

@@ -351,8 +351,8 @@ TEST_CASE("contraction removes a vertex only when that helps") {
   CHECK_MESSAGE(validity.valid(), validity.text());
 }
 
-TEST_CASE("sharp fixed triangles and wedges limit the elements they touch") {
-  // A wedge of 30 degrees along the z axis; the far points are not limited by it.
+TEST_CASE("sharp fixed triangles and dihedrals limit the elements they touch") {
+  // A dihedral of 30 degrees along the z axis; the far points are not limited by it.
   mesh_type mesh;
   mesh.points = {
       {0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {std::cos(0.5236), std::sin(0.5236), 0.5}, {1.5, 0.5, 0.5}};

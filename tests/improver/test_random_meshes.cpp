@@ -72,7 +72,7 @@ void try_one(std::uint64_t seed, tally& counts) {
   CHECK(after >= before - 1e-6);
   ++counts.valid;
   counts.better += after > before + 1e-6;
-  counts.poor += dovetail::measure_quality(input.mesh).min_wedge_deg < 1;
+  counts.poor += dovetail::measure_quality(input.mesh).min_dihedral_deg < 1;
 }
 
 } // namespace

@@ -70,7 +70,7 @@ TEST_CASE("the default measure is the squared sine of the worst dihedral angle")
     auto p = random_element(random);
     if (signed_volume(p[0], p[1], p[2], p[3]) < 0)
       std::swap(p[0], p[1]);
-    const auto angles = wedge_angles(p);
+    const auto angles = dihedral_angles(p);
     const double smallest = *std::min_element(angles.begin(), angles.end());
     const double largest = *std::max_element(angles.begin(), angles.end());
     const double small_term = minimum_dihedral::from_angle(smallest);

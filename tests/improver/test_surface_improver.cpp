@@ -88,14 +88,14 @@ TEST_CASE("needles and slivers go") {
     CAPTURE(seed);
     const auto mesh = needles_and_slivers(20, seed, 0.02);
     REQUIRE(turned_over(mesh) == 0);
-    CHECK(dovetail::measure_quality(mesh).min_wedges.below(5) > 50);
+    CHECK(dovetail::measure_quality(mesh).min_dihedrals.below(5) > 50);
     auto result = mesh;
     native::fine()(result);
     check_change(mesh, result);
     CHECK(turned_over(result) == 0);
     const auto quality = dovetail::measure_quality(result);
-    CHECK(quality.min_wedges.below(24) == 0);
-    CHECK(quality.min_wedges.below(30) <= 2);
+    CHECK(quality.min_dihedrals.below(24) == 0);
+    CHECK(quality.min_dihedrals.below(30) <= 2);
   }
 }
 
@@ -108,10 +108,10 @@ TEST_CASE("a better preset reaches more, and a second run finds little to do") {
   mesh_type fast, fine, again;
   count(native::fast(), fast);
   const auto first = count(native::fine(), fine);
-  CHECK(dovetail::measure_quality(fast).min_wedges.below(30) == 0);
-  CHECK(dovetail::measure_quality(fine).min_wedges.below(32) == 0);
-  CHECK(dovetail::measure_quality(fine).mean_min_wedge_deg() >
-        dovetail::measure_quality(fast).mean_min_wedge_deg());
+  CHECK(dovetail::measure_quality(fast).min_dihedrals.below(30) == 0);
+  CHECK(dovetail::measure_quality(fine).min_dihedrals.below(32) == 0);
+  CHECK(dovetail::measure_quality(fine).mean_min_dihedral_deg() >
+        dovetail::measure_quality(fast).mean_min_dihedral_deg());
   again = fine;
   const auto second = native::fine()(again);
   check_change(fine, again);
@@ -161,7 +161,7 @@ TEST_CASE("without a host, vertices stay on the given triangles, and sharp edges
   for (const vec3& p : result.points) {
     CHECK(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) == 1); // exactly on a plane
   }
-  CHECK(dovetail::measure_quality(result).min_wedge_deg > 25);
+  CHECK(dovetail::measure_quality(result).min_dihedral_deg > 25);
 
   const auto ball = closed_cube(10, 0.3, 2, true);
   result = ball;
@@ -170,7 +170,7 @@ TEST_CASE("without a host, vertices stay on the given triangles, and sharp edges
   CHECK(dovetail::check_validity(result).valid()); // still closed
   for (const vec3& p : result.points)
     CHECK(distance_to(ball, p) < 1e-14);
-  CHECK(dovetail::measure_quality(result).min_wedges.below(30) == 0);
+  CHECK(dovetail::measure_quality(result).min_dihedrals.below(30) == 0);
 }
 
 TEST_CASE("triangles that are turned over in the plane are mended where possible") {

@@ -58,8 +58,8 @@ TEST_CASE("on a sphere and on a cylinder") {
       moved += v >= mesh.points.size() || !(p == mesh.points[v]);
     }
     CHECK(moved > mesh.points.size() / 4);
-    CHECK(dovetail::measure_quality(mesh).min_wedges.below(30) > 50);
-    CHECK(dovetail::measure_quality(result).min_wedges.below(30) == 0);
+    CHECK(dovetail::measure_quality(mesh).min_dihedrals.below(30) > 50);
+    CHECK(dovetail::measure_quality(result).min_dihedrals.below(30) == 0);
   }
 }
 

@@ -11,11 +11,11 @@ using namespace improver_checks;
 
 namespace {
 
-/// The vertices of sharp boundary triangles and of sharp boundary edges. On a manifold boundary the wedge at
-/// an edge is the sum of the dihedral angles of all elements there.
+/// The vertices of sharp boundary triangles and of sharp boundary edges. On a manifold boundary the dihedral
+/// at an edge is the sum of the dihedral angles of all elements there.
 std::set<local_id> limiting_vertices(const mesh_type& mesh) {
   std::map<std::array<local_id, 3>, int> uses;
-  std::map<std::array<local_id, 2>, double> wedge;
+  std::map<std::array<local_id, 2>, double> dihedral;
   for (const auto& element : mesh.elements) {
     for (const auto& local : dovetail::numbering::sides<3>) {
       std::array<local_id, 3> v{};
@@ -24,12 +24,12 @@ std::set<local_id> limiting_vertices(const mesh_type& mesh) {
       std::sort(v.begin(), v.end());
       ++uses[v];
     }
-    const auto angles = dovetail::wedge_angles(dovetail::corners(std::span(mesh.points), element));
+    const auto angles = dovetail::dihedral_angles(dovetail::corners(std::span(mesh.points), element));
     for (std::size_t k = 0; k < 6; ++k) {
       const auto& local = dovetail::numbering::ridges<3>[k];
       const local_id a = element[static_cast<std::size_t>(local[0])],
                      b = element[static_cast<std::size_t>(local[1])];
-      wedge[{std::min(a, b), std::max(a, b)}] += angles[k];
+      dihedral[{std::min(a, b), std::max(a, b)}] += angles[k];
     }
   }
   std::set<local_id> limiting;
@@ -42,7 +42,7 @@ std::set<local_id> limiting_vertices(const mesh_type& mesh) {
       const vec3 s = at(b) - at(a), t = at(c) - at(a);
       if (std::acos(dot(s, t) / (norm(s) * norm(t))) * 180 / std::numbers::pi < 20)
         limiting.insert(side.begin(), side.end());
-      if (wedge.at({std::min(a, b), std::max(a, b)}) < 48)
+      if (dihedral.at({std::min(a, b), std::max(a, b)}) < 48)
         limiting.insert({a, b});
     }
   }
@@ -65,7 +65,7 @@ TEST_CASE("both classes are counted as defined, by a slow computation") {
       const bool is_limited =
           std::any_of(element.begin(), element.end(), [&](local_id v) { return limiting.count(v) > 0; });
       auto& counted = is_limited ? expected.limited : expected.free;
-      const auto angles = dovetail::wedge_angles(dovetail::corners(std::span(mesh.points), element));
+      const auto angles = dovetail::dihedral_angles(dovetail::corners(std::span(mesh.points), element));
       const double smallest = *std::min_element(angles.begin(), angles.end());
       ++counted.elements;
       counted.bad += smallest < 12;

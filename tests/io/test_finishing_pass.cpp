@@ -83,9 +83,9 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
       const auto finished = io::finish_mesh<3>(mesh, {vtu(count)}, folder / (name + "by tasks"), run_tasks);
       CHECK(finished.hash == io::mesh_hash(mesh));
       CHECK(finished.quality.elements == whole.elements);
-      CHECK(finished.quality.min_wedge_deg == whole.min_wedge_deg);
+      CHECK(finished.quality.min_dihedral_deg == whole.min_dihedral_deg);
       CHECK(finished.quality.worst_element == expected.worst_element);
-      CHECK(finished.quality.min_wedges.bins == whole.min_wedges.bins);
+      CHECK(finished.quality.min_dihedrals.bins == whole.min_dihedrals.bins);
       REQUIRE(finished.summary.children.size() == 1);
       CHECK(finished.summary.children[0].get("files") == static_cast<double>(files.size()));
       CHECK(testing::content_of(folder / (name + "by tasks")) == files);
@@ -102,12 +102,12 @@ TEST_CASE("a piece whose quality is known is not measured again") {
   const auto measured = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
     mesh.quality.push_back(measure_quality(mesh.load(static_cast<local_id>(p)).mesh));
-    mesh.quality.back().min_wedge_deg = 0.5 + static_cast<double>(p);
+    mesh.quality.back().min_dihedral_deg = 0.5 + static_cast<double>(p);
   }
   const auto known = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
-  CHECK(measured.min_wedge_deg > 1);
-  CHECK(known.min_wedge_deg == 0.5);
-  CHECK(known.min_wedges.bins == measured.min_wedges.bins);
+  CHECK(measured.min_dihedral_deg > 1);
+  CHECK(known.min_dihedral_deg == 0.5);
+  CHECK(known.min_dihedrals.bins == measured.min_dihedrals.bins);
 }
 
 TEST_CASE("a piece is loaded once, whatever is written of it") {

@@ -46,7 +46,7 @@ void check_sides(const simplicial_mesh<D>& mesh) {
     }
 }
 
-/// Every wedge is in exactly one fan, consecutive wedges share an interior side, and fans are maximal.
+/// Every dihedral is in exactly one fan, consecutive dihedrals share an interior side, and fans are maximal.
 template <int D>
 void check_ridges(const simplicial_mesh<D>& mesh) {
   const auto adj = dovetail_test::build_adjacency(mesh);
@@ -56,12 +56,12 @@ void check_ridges(const simplicial_mesh<D>& mesh) {
       const auto codes = adj.ridges.fan(f);
       REQUIRE(!codes.empty());
       const auto side = [&](std::uint32_t code, std::size_t end) {
-        const wedge w = ridge_table<D>::decode(code);
+        const dihedral w = ridge_table<D>::decode(code);
         return adj.sides
             .of_element[static_cast<std::size_t>(w.element)][static_cast<std::size_t>(w.sides[end])];
       };
       for (std::size_t k = 0; k < codes.size(); ++k) {
-        const wedge w = ridge_table<D>::decode(codes[k]);
+        const dihedral w = ridge_table<D>::decode(codes[k]);
         REQUIRE(seen.insert({w.element, w.ridge}).second);
         REQUIRE(
             adj.ridges.of_element[static_cast<std::size_t>(w.element)][static_cast<std::size_t>(w.ridge)] ==
@@ -91,7 +91,7 @@ TEST_CASE("sides and neighbours agree with a map on random meshes") {
   }
 }
 
-TEST_CASE("fans cover all wedges in order around their ridges") {
+TEST_CASE("fans cover all dihedrals in order around their ridges") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     check_ridges(dovetail_test::shuffled(dovetail_test::jittered_cubes(4, 0.15, seed), seed));
     check_ridges(dovetail_test::shuffled(dovetail_test::jittered_squares(9, 0.2, seed), seed));
@@ -131,7 +131,7 @@ TEST_CASE("three sheets meeting at a line give a non-manifold side and open fans
   CHECK(adj.sides.is_non_manifold(0));
   CHECK_FALSE(adj.sides.is_interior(0));
   CHECK(adj.sides.all_elements(0) == std::vector<local_id>{0, 1, 2});
-  CHECK(adj.ridges.fan_begins[1] == 3); // three fans of one wedge at point 0
+  CHECK(adj.ridges.fan_begins[1] == 3); // three fans of one dihedral at point 0
 }
 
 TEST_CASE("two tetrahedra that touch in an edge only have two fans there") {

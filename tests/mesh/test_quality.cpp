@@ -30,18 +30,18 @@ double dihedral_by_projection(const std::array<vec3, 4>& p, std::size_t ridge) {
 } // namespace
 
 TEST_CASE("a regular tetrahedron has dihedral angles of 70.53 degrees and face angles of 60") {
-  for (const double degrees : wedge_angles(corners(std::span(regular.points), regular.elements[0])))
+  for (const double degrees : dihedral_angles(corners(std::span(regular.points), regular.elements[0])))
     CHECK(degrees == doctest::Approx(70.528779365509308));
   const auto statistics = measure_quality(regular);
   CHECK(statistics.min_face_deg == doctest::Approx(60));
-  CHECK(statistics.min_wedges.bins[70] == 1);
+  CHECK(statistics.min_dihedrals.bins[70] == 1);
 }
 
 TEST_CASE("dihedral angles agree with projection along the edge") {
   const auto mesh = dovetail_test::jittered_cubes(4);
   for (const auto& element : mesh.elements) {
     const auto at = corners(std::span(mesh.points), element);
-    const auto angles = wedge_angles(at);
+    const auto angles = dihedral_angles(at);
     for (std::size_t r = 0; r < 6; ++r)
       REQUIRE(angles[r] == doctest::Approx(dihedral_by_projection(at, r)));
   }
@@ -50,7 +50,7 @@ TEST_CASE("dihedral angles agree with projection along the edge") {
 TEST_CASE("angles of a triangle sum to 180 degrees") {
   const auto mesh = dovetail_test::jittered_squares(6);
   for (const auto& element : mesh.elements) {
-    const auto angles = wedge_angles(corners(std::span(mesh.points), element));
+    const auto angles = dihedral_angles(corners(std::span(mesh.points), element));
     CHECK(std::accumulate(angles.begin(), angles.end(), 0.0) == doctest::Approx(180));
     CHECK(smallest_corner_angle(corners(std::span(mesh.points), element)) ==
           doctest::Approx(*std::min_element(angles.begin(), angles.end())));
@@ -60,7 +60,7 @@ TEST_CASE("angles of a triangle sum to 180 degrees") {
 TEST_CASE("a sliver's tiny angle is accurate") {
   const double height = 1e-9;
   const std::array<vec3, 4> sliver{vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{1. / 3, 1. / 3, height}};
-  const auto angles = wedge_angles(sliver);
+  const auto angles = dihedral_angles(sliver);
   const double expected = degrees_per_radian * std::atan2(height, 1. / 3);
   CHECK(angles[0] == doctest::Approx(expected).epsilon(1e-12));
 }
@@ -78,17 +78,17 @@ TEST_CASE("statistics are those of every angle by itself, and of flat elements t
   double min_face = 180;
   for (const auto& element : mesh.elements) {
     const auto at = corners(std::span(mesh.points), element);
-    const auto angles = wedge_angles(at);
+    const auto angles = dihedral_angles(at);
     smallest.add(*std::min_element(angles.begin(), angles.end()));
     largest.add(*std::max_element(angles.begin(), angles.end()));
     for (const auto& side : numbering::sides<3>)
-      for (const double degrees : wedge_angles(std::array<vec3, 3>{at[static_cast<std::size_t>(side[0])],
-                                                                   at[static_cast<std::size_t>(side[1])],
-                                                                   at[static_cast<std::size_t>(side[2])]}))
+      for (const double degrees : dihedral_angles(std::array<vec3, 3>{at[static_cast<std::size_t>(side[0])],
+                                                                      at[static_cast<std::size_t>(side[1])],
+                                                                      at[static_cast<std::size_t>(side[2])]}))
         min_face = std::min(min_face, degrees);
   }
-  CHECK(statistics.min_wedges.bins == smallest.bins);
-  CHECK(statistics.max_wedges.bins == largest.bins);
+  CHECK(statistics.min_dihedrals.bins == smallest.bins);
+  CHECK(statistics.max_dihedrals.bins == largest.bins);
   CHECK(statistics.min_face_deg == min_face);
 }
 
@@ -103,20 +103,20 @@ TEST_CASE("statistics of pieces merge into those of the whole") {
   merged.merge(measure_quality(second), cut);
   merged.merge(quality_statistics{}, 999); // an empty piece changes nothing
   CHECK(merged.elements == expected.elements);
-  CHECK(merged.min_wedge_deg == expected.min_wedge_deg);
-  CHECK(merged.max_wedge_deg == expected.max_wedge_deg);
+  CHECK(merged.min_dihedral_deg == expected.min_dihedral_deg);
+  CHECK(merged.max_dihedral_deg == expected.max_dihedral_deg);
   CHECK(merged.min_face_deg == expected.min_face_deg);
   CHECK(merged.worst_element == expected.worst_element);
-  CHECK(merged.min_wedges.bins == expected.min_wedges.bins);
-  CHECK(merged.max_wedges.bins == expected.max_wedges.bins);
-  CHECK(merged.mean_min_wedge_deg() == doctest::Approx(expected.mean_min_wedge_deg()));
+  CHECK(merged.min_dihedrals.bins == expected.min_dihedrals.bins);
+  CHECK(merged.max_dihedrals.bins == expected.max_dihedrals.bins);
+  CHECK(merged.mean_min_dihedral_deg() == doctest::Approx(expected.mean_min_dihedral_deg()));
 }
 
 TEST_CASE("counts under 6, 12, 18 and 24 degrees are exact at the bounds") {
   quality_statistics statistics;
   statistics.elements = 5;
   for (const double degrees : {5.999, 6.0, 12.0, 23.999, 24.0})
-    statistics.min_wedges.add(degrees);
+    statistics.min_dihedrals.add(degrees);
   CHECK(statistics.under_6_12_18_24() == std::array<std::int64_t, 4>{1, 2, 3, 4});
   CHECK(statistics.per_million_under(12) == doctest::Approx(4e5));
 }
@@ -126,34 +126,34 @@ TEST_CASE("statistics come back from few bytes as they were") {
   std::normal_distribution<double> small(45, 9), large(100, 15);
   quality_statistics many;
   many.elements = 100000;
-  many.min_wedge_deg = 0.1 + 0.2;
-  many.max_wedge_deg = 179.9;
+  many.min_dihedral_deg = 0.1 + 0.2;
+  many.max_dihedral_deg = 179.9;
   many.min_face_deg = 1e-300;
-  many.sum_of_min_wedge_deg = 4.5e6;
+  many.sum_of_min_dihedral_deg = 4.5e6;
   many.worst_element = 99999;
   for (int e = 0; e < 100000; ++e) {
-    many.min_wedges.add(small(random));
-    many.max_wedges.add(large(random));
+    many.min_dihedrals.add(small(random));
+    many.max_dihedrals.add(large(random));
   }
   quality_statistics ends; // of both histograms
-  ends.min_wedges.bins.front() = 1;
-  ends.max_wedges.bins.back() = std::int64_t{1} << 62;
+  ends.min_dihedrals.bins.front() = 1;
+  ends.max_dihedrals.bins.back() = std::int64_t{1} << 62;
   quality_statistics full;
-  full.min_wedges.bins.fill(127);
-  full.max_wedges.bins.fill(128);
+  full.min_dihedrals.bins.fill(127);
+  full.max_dihedrals.bins.fill(128);
   for (const quality_statistics& quality : {many, ends, full, quality_statistics{}}) {
     const byte_buffer bytes = encoded(quality);
     byte_reader from(bytes);
     const auto back = decode<quality_statistics>(from);
     CHECK(from.at_end());
     CHECK(back.elements == quality.elements);
-    CHECK(back.min_wedge_deg == quality.min_wedge_deg);
-    CHECK(back.max_wedge_deg == quality.max_wedge_deg);
+    CHECK(back.min_dihedral_deg == quality.min_dihedral_deg);
+    CHECK(back.max_dihedral_deg == quality.max_dihedral_deg);
     CHECK(back.min_face_deg == quality.min_face_deg);
-    CHECK(back.sum_of_min_wedge_deg == quality.sum_of_min_wedge_deg);
+    CHECK(back.sum_of_min_dihedral_deg == quality.sum_of_min_dihedral_deg);
     CHECK(back.worst_element == quality.worst_element);
-    CHECK(back.min_wedges.bins == quality.min_wedges.bins);
-    CHECK(back.max_wedges.bins == quality.max_wedges.bins);
+    CHECK(back.min_dihedrals.bins == quality.min_dihedrals.bins);
+    CHECK(back.max_dihedrals.bins == quality.max_dihedrals.bins);
     if (quality.elements == 100000)
       CHECK(bytes.size() < 450);
     const byte_buffer cut(bytes.begin(), bytes.end() - 1);

@@ -30,22 +30,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Connects a star-shaped boundary to its middle. The first `bad_rungs` rungs of its ladder fail on the
+/// Connects a star-shaped boundary to its middle. The first `bad_attempts` attempts fail on the
 /// subdomains of material 1, in the way given.
 struct fan_mesher {
   enum class misbehaviour { throws, aborts, hangs, loses_an_element };
   static constexpr mesher_traits traits{.keeps_boundary = true, .repeats_in_process = true};
 
-  int bad_rungs = 0;
+  int bad_attempts = 0;
   misbehaviour how = misbehaviour::throws;
-  int rung = 0;
+  int attempt = 0;
 
-  std::vector<fan_mesher> fallbacks() const { return {{bad_rungs, how, 1}, {bad_rungs, how, 2}}; }
+  std::vector<fan_mesher> fallbacks() const { return {{bad_attempts, how, 1}, {bad_attempts, how, 2}}; }
 
   mesher_result<3> operator()(const mesher_input<3>& in, const any_sizing& size) const {
-    const bool fails = in.material == 1 && rung < bad_rungs;
+    const bool fails = in.material == 1 && attempt < bad_attempts;
     if (fails && how == misbehaviour::throws)
-      throw mesher_error("rung " + std::to_string(rung));
+      throw mesher_error("attempt " + std::to_string(attempt));
     if (fails && how == misbehaviour::aborts)
       std::abort();
     while (fails && how == misbehaviour::hangs)
@@ -218,18 +218,18 @@ TEST_CASE("The largest predicted cost is started first") {
   CHECK_THROWS_AS(run_fan({}, options), usage_error);
 }
 
-TEST_CASE("A failed subdomain climbs the ladder, the others do not") {
+TEST_CASE("A failed subdomain is tried by the fallbacks, the others are not") {
   for (const auto how : {fan_mesher::misbehaviour::throws, fan_mesher::misbehaviour::aborts,
                          fan_mesher::misbehaviour::loses_an_element}) {
     const auto result = run_fan({2, how});
     CHECK(result.failures.empty());
     CHECK(result.summary.get("retried") == 1);
     for (std::size_t s = 0; s < piece_count; ++s)
-      CHECK(result.pieces[s].summary.get("rung") == (s == 2 ? 2 : 0));
+      CHECK(result.pieces[s].summary.get("attempt") == (s == 2 ? 2 : 0));
   }
 }
 
-TEST_CASE("What no rung can mesh comes back as data, with a file of its facets") {
+TEST_CASE("What no attempt can mesh comes back as data, with a file of its facets") {
   const scratch_folder scratch;
   meshing_options options;
   options.on_failure = write_facets_of_failures(scratch.path);
@@ -278,7 +278,7 @@ TEST_CASE("A piece that cannot be improved is kept unimproved, with a warning") 
                                       parallel::processes{2});
   CHECK(result.failures.empty());
   CHECK(result.summary.warnings.size() == 2);
-  CHECK(result.pieces[0].summary.get("rung") == 3);
+  CHECK(result.pieces[0].summary.get("attempt") == 3);
 }
 
 TEST_CASE("An unusable field and a mesher in threads are typed errors") {
@@ -298,7 +298,7 @@ struct fan_mesher_for_threads : fan_mesher {
       .keeps_boundary = true, .thread_safe = true, .repeats_in_process = true};
 };
 
-TEST_CASE("In threads no rung may be a mesher that must not run there") {
+TEST_CASE("In threads no attempt may be a mesher that must not run there") {
   const any_mesher<3> alone(fan_mesher_for_threads{}, "safe");
   const any_mesher<3> backed = alone.with_fallback({fan_mesher{}, "unsafe"});
   CHECK_NOTHROW(require_policies<3>(alone, {}, parallel::threads{2}));

@@ -36,11 +36,11 @@ TEST_CASE("TetGen's failures are typed") {
 }
 
 TEST_CASE("Every fallback fulfils the contract") {
-  const auto ladder = ladder_of(mesher::tetgen{});
-  REQUIRE(ladder.size() == 5);
-  for (std::size_t rung = 1; rung < ladder.size(); ++rung) {
-    CAPTURE(rung);
-    contract::check_shapes(ladder[rung]);
+  const auto meshers = with_fallbacks(mesher::tetgen{});
+  REQUIRE(meshers.size() == 5);
+  for (std::size_t attempt = 1; attempt < meshers.size(); ++attempt) {
+    CAPTURE(attempt);
+    contract::check_shapes(meshers[attempt]);
   }
 }
 

@@ -46,25 +46,25 @@ struct realized_model {
   interface_angles angles;
 };
 
-/// `allowed`: angles that no detour avoids.
+/// `allowed`: angles that no repartition avoids.
 void check_fine(const interface_angles& angles, std::size_t allowed = 0) {
   const std::size_t unforced = angles.violations.size() - angles.count(violation_cause::forced);
   CHECK(angles.interface_faces > 1000);
   CHECK(unforced <= allowed);
   if (angles.count(violation_cause::forced) == 0) {
     CHECK(angles.face_angle.angle_deg > (unforced > 0 ? 28.5 : 29.99));
-    CHECK(angles.min_wedge_deg() > (unforced > 0 ? 28.5 : 29.99));
+    CHECK(angles.min_dihedral_deg() > (unforced > 0 ? 28.5 : 29.99));
   }
 }
 
-/// Most edges lie where no wedge can be small, and are not measured: they hide nothing.
+/// Most edges lie where no dihedral can be small, and are not measured: they hide nothing.
 void check_nothing_missed(const realized_model& model) {
   const fine_skeleton& fine = model.made.fine;
   const auto all = measure_skeleton_angles(fine, {30, 30});
   const auto edges = detail::half_edges_that_matter(model.made);
   CHECK(edges.size() < 3 * fine.sides.size() / 2);
-  CHECK(all.interface_wedge.angle_deg == model.angles.interface_wedge.angle_deg);
-  CHECK(all.surface_wedge.angle_deg == model.angles.surface_wedge.angle_deg);
+  CHECK(all.interface_dihedral.angle_deg == model.angles.interface_dihedral.angle_deg);
+  CHECK(all.surface_dihedral.angle_deg == model.angles.surface_dihedral.angle_deg);
   CHECK(all.violations.size() == model.angles.violations.size());
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("fine interfaces of real parts have no unforced angles under 30 degree
 }
 
 TEST_CASE("fine interfaces of the built-in models have no unforced angles under 30 degrees") {
-  int detours = 0;
+  int repartitioned = 0;
   for (const auto& [name, factor] : {std::pair{"aircraft", 1.9}, {"combustor", 1.6}, {"orbiter", 1.9}}) {
     CAPTURE(name);
     const auto built = builtin_model(name);
@@ -108,9 +108,9 @@ TEST_CASE("fine interfaces of the built-in models have no unforced angles under 
     check_fine(result.angles);
     check_nothing_missed(result);
     check_weights(result);
-    detours += result.made.summary.get("detours") > 0 ? 1 : 0;
+    repartitioned += result.made.summary.get("repartitioned") > 0 ? 1 : 0;
   }
-  CHECK(detours > 0);
+  CHECK(repartitioned > 0);
 }
 
 TEST_CASE("a small part in many subdomains") {

@@ -96,9 +96,9 @@ TEST_CASE("interfaces are clean in the background mesh, and the prediction is wh
   for (const double size : {0.12, 0.08}) {
     const auto result = mesh_shape(drilled_block(), size, in_parts(12)); // without the rule 2 and 6 are not
     CHECK(result.coarse_angles.violations.empty());
-    CHECK(result.coarse_angles.min_wedge_deg() >= 30);
+    CHECK(result.coarse_angles.min_dihedral_deg() >= 30);
     CHECK(result.coarse_angles.face_angle.angle_deg >= 30);
-    CHECK(result.fine_angles.min_wedge_deg() > 30);
+    CHECK(result.fine_angles.min_dihedral_deg() > 30);
     CHECK(result.fine_angles.face_angle.angle_deg > 24); // remeshing to the final size takes some of it
     if (size < 0.1)
       CHECK(result.plan.predicted_elements ==

@@ -120,7 +120,7 @@ TEST_CASE("a planar face with a hole, from BREP and STEP files, is a plane domai
     CHECK(euler_characteristic(mesh) == 0);
     for (const auto& [id, p] : mesh.points)
       REQUIRE(p.z == doctest::Approx(height).epsilon(1e-12));
-    CHECK(result.quality.min_wedge_deg > 25);
+    CHECK(result.quality.min_dihedral_deg > 25);
   }
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("a program with MPI makes the mesh and the files that one process make
   world->agree(); // or the folder would go too early
 }
 
-TEST_CASE("a mesher that forks is refused in a program with MPI, whatever is below it on its ladder") {
+TEST_CASE("a mesher that forks is refused in a program with MPI, whatever its fallbacks are") {
   const any_mesher<3> forks =
       any_mesher<3>(forking_mesher{}, "forks").with_fallback({mesher::tetgen{}, "tetgen"});
   const discrete_model ball(repaired(sphere_soup({0, 0, 0}, 1, 8)));

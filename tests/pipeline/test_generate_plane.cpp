@@ -40,7 +40,7 @@ TEST_CASE("a square with a hole and an inner line: area, hole and line are kept"
   CHECK(result.mesh.counts.size() == 5);
   CHECK(area_of(mesh) == doctest::Approx(1 - 0.2 * 0.3).epsilon(1e-12));
   CHECK(euler_characteristic(mesh) == 0);
-  CHECK(result.quality.min_wedge_deg > 25);
+  CHECK(result.quality.min_dihedral_deg > 25);
   CHECK(static_cast<double>(result.quality.elements) ==
         doctest::Approx(result.plan.predicted_elements).epsilon(0.1));
   double along_line = 0;
@@ -73,7 +73,7 @@ TEST_CASE("cut lines meet no small corners, coarse and fine") {
   const auto result = mesh_plane(plane_domain(square_with_hole()), 0.02, 8);
   CHECK(result.coarse_angles.interface_faces > 10);
   CHECK(result.coarse_angles.violations.empty());
-  CHECK(result.fine_angles.min_wedge_deg() > 49);
+  CHECK(result.fine_angles.min_dihedral_deg() > 49);
   std::size_t between_subdomains = 0;
   const auto& skeleton = result.mesh.skeleton;
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)

@@ -41,7 +41,7 @@ TEST_CASE("a box without its lid is remeshed, its rim kept") {
   CHECK(area_of(mesh) == doctest::Approx(5));
   CHECK(euler_characteristic(mesh) == 1);
   CHECK(rim_length(mesh, [](vec3 p) { return p.z == 1; }) == doctest::Approx(4));
-  CHECK(result.quality.min_wedge_deg > 25);
+  CHECK(result.quality.min_dihedral_deg > 25);
 }
 
 TEST_CASE("a curved sheet of many charts is remeshed, its rim kept, the same by threads") {

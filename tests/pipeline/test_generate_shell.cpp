@@ -40,7 +40,7 @@ TEST_CASE("a sphere: closed, every vertex on it") {
     REQUIRE(norm(p) == doctest::Approx(2).epsilon(1e-9));
   CHECK(area_of(mesh) == doctest::Approx(16 * std::numbers::pi).epsilon(5e-3));
   CHECK(result.coarse_angles.violations.empty());
-  CHECK(result.fine_angles.min_wedge_deg() > 48);
+  CHECK(result.fine_angles.min_dihedral_deg() > 48);
 }
 
 TEST_CASE("the report has all stages in their order, each with what it did") {

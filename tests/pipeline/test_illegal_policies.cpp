@@ -95,8 +95,8 @@ void spoil(wrong how, simplicial_mesh<D>& mesh) {
   }
 }
 
-/// Fills the cube by connecting its surface to the middle, or the square its edges, and spoils that. What its
-/// ladder has is no better.
+/// Fills the cube by connecting its surface to the middle, or the square its edges, and spoils that. Its
+/// fallbacks are no better.
 template <int D>
 struct spoiling_mesher {
   static constexpr mesher_traits traits{.keeps_boundary = true};
@@ -205,7 +205,7 @@ void check_meshers() {
       const auto result = mesh_one<D>({spoiling_mesher<D>{h.how}, "wrong"}, improve);
       REQUIRE(result.failures.size() == 1);
       const auto& reasons = result.failures.front().reasons;
-      CHECK(reasons.size() == (improves ? 3 : 2)); // each rung, and without the improver
+      CHECK(reasons.size() == (improves ? 3 : 2)); // each attempt, and without the improver
       for (const std::string& reason : reasons) {
         CAPTURE(reason);
         CHECK(testing::has(reason, h.reason));
@@ -303,11 +303,11 @@ TEST_CASE_TEMPLATE("The policies of these tests are legal but for the harm they 
   CHECK(result.summary.warnings.empty());
 }
 
-TEST_CASE("A mesher of solids that breaks its promises fails on every rung, by name") {
+TEST_CASE("A mesher of solids that breaks its promises fails on every attempt, by name") {
   check_meshers<3>();
 }
 
-TEST_CASE("A mesher of surfaces that breaks its promises fails on every rung, by name") {
+TEST_CASE("A mesher of surfaces that breaks its promises fails on every attempt, by name") {
   check_meshers<2>();
 }
 

@@ -370,7 +370,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
   CHECK(taken_back.fine.points == unmatched.fine.points);
 }
 
-TEST_CASE("Interfaces make detours around small angles; one by which something crosses is taken back") {
+TEST_CASE("Interfaces move away from small angles, but not to where something crosses") {
   decomposed_shell given(0.5, 16);
   std::set<content_key> loops; // of the patches where interfaces stay
   given.given.mesh_surface =
@@ -379,13 +379,13 @@ TEST_CASE("Interfaces make detours around small angles; one by which something c
         return remesh::patch_remesher{}(s, b, h);
       });
   const auto stays = given.rounds(0.05).realize_boundaries().value();
-  CHECK(stays.summary.get("detours") == 0);
+  CHECK(stays.summary.get("repartitioned") == 0);
 
   given.want(24);
   given.given.mesh_surface = {};
   auto rounds = given.rounds(0.05);
   const auto goes = rounds.realize_boundaries().value();
-  CHECK(goes.summary.get("detours") > 0);
+  CHECK(goes.summary.get("repartitioned") > 0);
   CHECK(goes.subdomain_of_element != stays.subdomain_of_element);
   const auto small_angles = [](const interface_angles& angles) {
     return angles.violations.size() - angles.count(violation_cause::forced);
@@ -401,8 +401,8 @@ TEST_CASE("Interfaces make detours around small angles; one by which something c
       });
   auto refused = given.rounds(0.05);
   const auto back = refused.realize_boundaries().value();
-  CHECK(back.summary.get("detour_rounds") > 0);
-  CHECK(back.summary.get("detours") == 0);
+  CHECK(back.summary.get("repartition_rounds") > 0);
+  CHECK(back.summary.get("repartitioned") == 0);
   CHECK(back.subdomain_of_element == stays.subdomain_of_element);
   CHECK(back.fine.points == stays.fine.points);
   CHECK(refused.merges().merged() == 0);

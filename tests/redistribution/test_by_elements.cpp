@@ -282,7 +282,7 @@ TEST_CASE("super-elements are about as many as asked for, connected, and none cr
   CHECK(between > 100);
 }
 
-TEST_CASE("bad sides of an old interface have a penalty, and so have those beside a small wedge") {
+TEST_CASE("bad sides of an old interface have a penalty, and so have those beside a small dihedral") {
   const auto mesh = stacked_cubes{.cells = 8, .cuts = 2, .jitter = 0.9}.distributed();
   const auto sides = sort_by_subdomain(mesh.skeleton, mesh.counts.size());
   std::size_t dear = 0;

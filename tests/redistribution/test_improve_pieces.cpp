@@ -41,7 +41,7 @@ TEST_CASE("what was at an interface when it was meshed is improved after redistr
   CHECK(in_pieces.summary.get("elements") == 6 * 12 * 12 * 12);
   CHECK(in_pieces.summary.get("improver_seconds") > 0);
   CHECK(io::check_distributed(in_pieces.mesh).text() == "");
-  const auto low = [](const improved_pieces& made) { return made.quality.min_wedges.below(24); };
+  const auto low = [](const improved_pieces& made) { return made.quality.min_dihedrals.below(24); };
   const auto after = improve(*by_elements(in_pieces.mesh, 3).mesh);
   CHECK(io::check_distributed(after.mesh).text() == "");
   CHECK(after.summary.get("pieces") == 3);
@@ -52,7 +52,7 @@ TEST_CASE("what was at an interface when it was meshed is improved after redistr
   std::int64_t measured = 0;
   for (std::size_t p = 0; p < in_pieces.mesh.counts.size(); ++p) {
     const auto piece = io::load_checked(in_pieces.mesh, static_cast<local_id>(p));
-    measured += measure_quality(piece.mesh).min_wedges.below(24);
+    measured += measure_quality(piece.mesh).min_dihedrals.below(24);
   }
   CHECK(measured == low(in_pieces));
 }

@@ -30,9 +30,9 @@ std::vector<naive_dihedral> remaining_dihedrals(const dovetail::simplicial_mesh<
   for (std::size_t f = 0; f < adj.fan_count(); ++f) {
     std::vector<naive_dihedral> parts;
     for (const std::uint32_t code : adj.ridges.fan(f)) {
-      const wedge w = ridge_table<D>::decode(code);
+      const dihedral w = ridge_table<D>::decode(code);
       const auto e = static_cast<std::size_t>(w.element);
-      const auto angles = wedge_angles(corners(std::span(mesh.points), mesh.elements[e]));
+      const auto angles = dihedral_angles(corners(std::span(mesh.points), mesh.elements[e]));
       parts.push_back({angles[static_cast<std::size_t>(w.ridge)],
                        adj.sides.of_element[e][static_cast<std::size_t>(w.sides[0])],
                        adj.sides.of_element[e][static_cast<std::size_t>(w.sides[1])]});

@@ -27,7 +27,7 @@ dovetail::side_judgement checked_judgement(const dovetail::simplicial_mesh<D>& m
   CHECK(rule(mesh, sides).quality == judged.quality);
   CHECK((judged.wanted_quality >= 0 && judged.wanted_angle_deg >= 0));
   if (judged.wanted_angle_deg > 0)
-    CHECK(dovetail::wanted_angles_of<D>(rule).wedge_deg == judged.wanted_angle_deg);
+    CHECK(dovetail::wanted_angles_of<D>(rule).dihedral_deg == judged.wanted_angle_deg);
   for (dovetail::local_id s = 1; s < static_cast<dovetail::local_id>(sides.size()); ++s) {
     const dovetail::dihedral_side a{s - 1, judged.quality[static_cast<std::size_t>(s) - 1], 2};
     const dovetail::dihedral_side b{s, judged.quality[static_cast<std::size_t>(s)], 3};

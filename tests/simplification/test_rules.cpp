@@ -88,12 +88,12 @@ simplification simplified(const simplicial_mesh<D>& mesh, const Rule& rule) {
 } // namespace
 
 TEST_CASE("what interface angles a rule wants follows from its own numbers, or from the paper's") {
-  const auto wants = [](const auto& rule, std::array<double, 2> faces_and_wedges, double corners) {
+  const auto wants = [](const auto& rule, std::array<double, 2> faces_and_dihedrals, double corners) {
     const any_simplification_rule erased(rule);
     for (const wanted_angles& wanted : {wanted_angles_of<3>(rule), wanted_angles_of<3>(erased)})
-      CHECK(std::array{wanted.face_deg, wanted.wedge_deg} == faces_and_wedges);
-    CHECK(wanted_angles_of<2>(rule).wedge_deg == corners);
-    CHECK(wanted_angles_of<2>(erased).wedge_deg == corners);
+      CHECK(std::array{wanted.face_deg, wanted.dihedral_deg} == faces_and_dihedrals);
+    CHECK(wanted_angles_of<2>(rule).dihedral_deg == corners);
+    CHECK(wanted_angles_of<2>(erased).dihedral_deg == corners);
   };
   wants(simplifier::paper{}, {30, 30}, 50);
   wants(simplifier::none{}, {30, 30}, 50);

@@ -124,8 +124,8 @@ inline std::string fault_of(const library_piece& piece, simplicial_mesh<3>& made
       if (!std::binary_search(sides.begin(), sides.end(), side))
         return "it lost a frozen side";
   }
-  const double before = measure_quality(piece.mesh).min_wedge_deg,
-               after = measure_quality(made).min_wedge_deg;
+  const double before = measure_quality(piece.mesh).min_dihedral_deg,
+               after = measure_quality(made).min_dihedral_deg;
   if (after < before - 1e-9)
     return "its worst angle is " + number_text(after) + " degrees instead of " + number_text(before);
   return {};
@@ -260,9 +260,9 @@ private:
 
 inline void report_quality(report& to, const std::string& when, const quality_statistics& quality) {
   to.set("elements " + when, static_cast<double>(quality.elements));
-  to.set(when + " bad", static_cast<double>(quality.min_wedges.below(12)));
-  to.set(when + " low", static_cast<double>(quality.min_wedges.below(24)));
-  to.set(when + " min angle", quality.min_wedge_deg);
+  to.set(when + " bad", static_cast<double>(quality.min_dihedrals.below(12)));
+  to.set(when + " low", static_cast<double>(quality.min_dihedrals.below(24)));
+  to.set(when + " min angle", quality.min_dihedral_deg);
 }
 
 } // namespace detail

@@ -27,9 +27,9 @@ struct coarse_volume_result {
 };
 
 /// Fills all solids of a model with a coarse mesh that has the triangles of `surface` as sides, and improves
-/// it. Solids are meshed together; if no rung of the mesher's ladder can do that, one by one. Every attempt
-/// runs as a task of the executor, so with `processes` a crash of the mesher is survived. Voids need no
-/// marking: what no face has as its solid stays empty.
+/// it. Solids are meshed together; if neither the mesher nor a fallback can do that, one by one. Every
+/// attempt runs as a task of the executor, so with `processes` a crash of the mesher is survived. Voids need
+/// no marking: what no face has as its solid stays empty.
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.

@@ -185,7 +185,7 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   result.summary.seconds = clock.seconds();
   result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
   result.summary.set("points", static_cast<double>(result.mesh.points.size()));
-  result.summary.set("min_dihedral_deg", result.quality.min_wedge_deg);
+  result.summary.set("min_dihedral_deg", result.quality.min_dihedral_deg);
   result.summary.set("one_by_one", one_by_one ? 1 : 0);
   result.summary.warnings = made.summary.warnings;
   result.summary.children.push_back(std::move(made.summary));

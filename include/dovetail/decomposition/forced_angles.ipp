@@ -32,9 +32,9 @@ public:
 
   void judge(angle_violation& violation) const {
     std::vector<host> forcing;
-    if (violation.is_wedge()) {
-      add_sharp_edges(violation.edge[0], wanted_.wedge_deg, forcing);
-      add_sharp_edges(violation.edge[1], wanted_.wedge_deg, forcing);
+    if (violation.is_dihedral()) {
+      add_sharp_edges(violation.edge[0], wanted_.dihedral_deg, forcing);
+      add_sharp_edges(violation.edge[1], wanted_.dihedral_deg, forcing);
     } else {
       const auto [corner, side] = corner_of(violation);
       add_sharp_edges(corner, wanted_.face_deg, forcing);
@@ -72,7 +72,7 @@ private:
   void mark_places(const interface_angles& angles) {
     near_.assign(cad_.points.size(), 0);
     for (const angle_violation& v : angles.violations)
-      if (v.is_wedge())
+      if (v.is_dihedral())
         for (const local_id end : v.edge)
           near_[at(end)] = 1;
       else
@@ -127,7 +127,7 @@ private:
   }
 
   void find_sharp_edges() {
-    const double largest = std::max(wanted_.face_deg, wanted_.wedge_deg);
+    const double largest = std::max(wanted_.face_deg, wanted_.dihedral_deg);
     for (std::size_t i = 0; i < edges_.size(); ++i)
       for (std::size_t j = i + 1; j < edges_.size() && edges_[j].edge == edges_[i].edge; ++j)
         if (const local_id curve = curve_at(edges_[i].edge); curve != no_id)
@@ -197,7 +197,7 @@ private:
   /// The corner with a triangle's smallest angle, and the side opposite to it.
   std::pair<local_id, simplex<1>> corner_of(const angle_violation& violation) const {
     const simplex<2>& t = triangles_[at(violation.sides[0])];
-    const auto angles = wedge_angles(corners(cad_.points, t));
+    const auto angles = dihedral_angles(corners(cad_.points, t));
     const auto least =
         static_cast<std::size_t>(std::min_element(angles.begin(), angles.end()) - angles.begin());
     return {t[least], sorted_vertices(simplex<1>{t[(least + 1) % 3], t[(least + 2) % 3]})};
@@ -210,7 +210,7 @@ private:
       for (const edge_of_triangle& e : items_at(edges_, sorted_vertices(edge)))
         faces.push_back({2, cad_.faces[e.triangle]});
     };
-    if (violation.is_wedge())
+    if (violation.is_dihedral())
       add(violation.edge);
     else
       for (std::size_t i = 0; i < 3; ++i)

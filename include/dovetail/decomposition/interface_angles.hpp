@@ -1,6 +1,7 @@
 /// @file
-/// The interface angles: no small face angle on an interface, no small wedge beside one. Measured in a mesh
-/// that is cut into parts, or on the fine skeleton between them; what is too small is listed with its cause.
+/// The interface angles: no small face angle on an interface, no small dihedral beside one. Measured in a
+/// mesh that is cut into parts, or on the fine skeleton between them; what is too small is listed with its
+/// cause.
 #pragma once
 
 #include "dovetail/core/fields.hpp"
@@ -45,9 +46,9 @@ struct decomposed_mesh {
 struct angle_violation {
   double angle_deg = 0;
   violation_cause cause = violation_cause::refused;
-  std::array<local_id, 2> sides{no_id, no_id}; ///< the face itself, or the two sides that make the wedge
-  std::array<local_id, 2> edge{no_id, no_id};  ///< a wedge's ridge, in D = 2 a vertex; no_id for a face
-  local_id subdomain = no_id;                  ///< the subdomain a wedge lies in
+  std::array<local_id, 2> sides{no_id, no_id}; ///< the face itself, or the two sides that make the dihedral
+  std::array<local_id, 2> edge{no_id, no_id};  ///< a dihedral's ridge, in D = 2 a vertex; no_id for a face
+  local_id subdomain = no_id;                  ///< the subdomain a dihedral lies in
   vec3 place;                                  ///< the middle of the face or ridge
   std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
@@ -55,7 +56,7 @@ struct angle_violation {
                             &angle_violation::edge, &angle_violation::subdomain, &angle_violation::place,
                             &angle_violation::cad>;
 
-  bool is_wedge() const { return edge[0] != no_id; }
+  bool is_dihedral() const { return edge[0] != no_id; }
 };
 
 /// A minimum and where it occurs.
@@ -68,15 +69,17 @@ struct least_angle {
 struct interface_angles {
   std::size_t interface_faces = 0;
   least_angle face_angle;                  ///< of interface faces; none in D = 2
-  least_angle interface_wedge;             ///< between two interface faces
-  least_angle surface_wedge;               ///< between an interface face and a fixed side
+  least_angle interface_dihedral;          ///< between two interface faces
+  least_angle surface_dihedral;            ///< between an interface face and a fixed side
   std::vector<angle_violation> violations; ///< by growing angle
 
   using fields = field_list<&interface_angles::interface_faces, &interface_angles::face_angle,
-                            &interface_angles::interface_wedge, &interface_angles::surface_wedge,
+                            &interface_angles::interface_dihedral, &interface_angles::surface_dihedral,
                             &interface_angles::violations>;
 
-  double min_wedge_deg() const { return std::min(interface_wedge.angle_deg, surface_wedge.angle_deg); }
+  double min_dihedral_deg() const {
+    return std::min(interface_dihedral.angle_deg, surface_dihedral.angle_deg);
+  }
   std::size_t count(violation_cause cause) const {
     return static_cast<std::size_t>(
         std::count_if(violations.begin(), violations.end(), [&](const auto& v) { return v.cause == cause; }));
@@ -84,10 +87,10 @@ struct interface_angles {
 };
 
 /// The interface angles of a mesh of triangles (D = 2) or tetrahedra (D = 3), with or without CAD: at each
-/// ridge those of the elements between two sides that are fixed or interfaces add up to a wedge. One between
-/// fixed sides that themselves include less than is wanted is forced. `sides` in the result are sides of the
-/// mesh. Linear in the mesh. Throws `mesh_error` when `require_valid` refuses the mesh, and `usage_error`
-/// when there is not one part per element, or one state per side where there are any.
+/// ridge those of the elements between two sides that are fixed or interfaces add up to a dihedral. One
+/// between fixed sides that themselves include less than is wanted is forced. `sides` in the result are sides
+/// of the mesh. Linear in the mesh. Throws `mesh_error` when `require_valid` refuses the mesh, and
+/// `usage_error` when there is not one part per element, or one state per side where there are any.
 ///
 ///     auto angles = measure_interface_angles<2>({mesh, sides, simplified.side_states, part_of_element},
 ///                                               wanted_angles_of<2>(rule));
@@ -96,11 +99,11 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 
 /// The interface angles of a fine skeleton: between triangles, around their edges; those on CAD faces and on
 /// the boundary are fixed. `refused`: not zero for triangles on a coarse side that the bound refused to
-/// remove; may be empty. `half_edges`: only the wedges at these edges are measured, given as 3 t + k for side
-/// k of triangle t, all of an edge or none; all when it is empty. `sides` in the result are triangles. About
-/// linear. Throws `mesh_error` for points that do not exist or are not finite, for a triangle that is flat or
-/// there twice, and where the subdomains around an edge contradict each other since a triangle is turned
-/// over; not looked for in a skeleton that is `valid`.
+/// remove; may be empty. `half_edges`: only the dihedrals at these edges are measured, given as 3 t + k for
+/// side k of triangle t, all of an edge or none; all when it is empty. `sides` in the result are triangles.
+/// About linear. Throws `mesh_error` for points that do not exist or are not finite, for a triangle that is
+/// flat or there twice, and where the subdomains around an edge contradict each other since a triangle is
+/// turned over; not looked for in a skeleton that is `valid`.
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
                                          std::span<const std::uint32_t> half_edges = {},

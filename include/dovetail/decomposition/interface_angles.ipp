@@ -41,18 +41,18 @@ public:
     if (angle < wanted_.face_deg - rounding_deg)
       found.violations.push_back({angle, cause, here.sides, here.edge, no_id, (p[0] + p[1] + p[2]) / 3.0});
   }
-  /// Returns whether the wedge is too small, and so the last of the violations.
-  bool add_wedge(const least_angle& here, bool at_surface, violation_cause cause, local_id subdomain,
-                 vec3 place) {
-    least_angle& minimum = at_surface ? found.surface_wedge : found.interface_wedge;
+  /// Returns whether the dihedral is too small, and so the last of the violations.
+  bool add_dihedral(const least_angle& here, bool at_surface, violation_cause cause, local_id subdomain,
+                    vec3 place) {
+    least_angle& minimum = at_surface ? found.surface_dihedral : found.interface_dihedral;
     if (here.angle_deg < minimum.angle_deg)
       minimum = here;
-    if (!is_small_wedge(here.angle_deg))
+    if (!is_small_dihedral(here.angle_deg))
       return false;
     found.violations.push_back({here.angle_deg, cause, here.sides, here.edge, subdomain, place});
     return true;
   }
-  bool is_small_wedge(double angle) const { return angle < wanted_.wedge_deg - rounding_deg; }
+  bool is_small_dihedral(double angle) const { return angle < wanted_.dihedral_deg - rounding_deg; }
 
   interface_angles take() {
     sort_all(found.violations, [](const angle_violation& a, const angle_violation& b) {
@@ -117,7 +117,7 @@ private:
     return !in_.mesh.tags.empty() && in_.mesh.tags[at(a)] != in_.mesh.tags[at(b)];
   }
   bool is_fixed(local_id side) const { return is_fixed_[at(side)]; }
-  /// Whether a wedge ends at the side.
+  /// Whether a dihedral ends at the side.
   bool is_end(local_id side) const { return is_fixed_[at(side)] || is_interface_[at(side)]; }
   violation_cause cause_at(local_id side) const {
     return !in_.side_states.empty() && in_.side_states[at(side)] == side_state::refused
@@ -132,16 +132,16 @@ private:
   };
 
   passage decoded(std::uint32_t code) const {
-    const wedge w = ridge_table<D>::decode(code);
+    const dihedral w = ridge_table<D>::decode(code);
     const auto& sides = in_.sides.of_element[at(w.element)];
-    const auto angles = wedge_angles(corners(span_of(in_.mesh.points), in_.mesh.elements[at(w.element)]));
+    const auto angles = dihedral_angles(corners(span_of(in_.mesh.points), in_.mesh.elements[at(w.element)]));
     return {w.element, sides[at(w.sides[0])], sides[at(w.sides[1])], angles[at(w.ridge)]};
   }
 
-  /// Adds up the angles of a fan from one side where wedges end to the next.
+  /// Adds up the angles of a fan from one side where dihedrals end to the next.
   void measure_fan(const simplex<D - 2>& ridge, std::span<const std::uint32_t> codes, bool is_closed) {
     const auto has = [&](std::uint32_t code, auto is_wanted) {
-      const wedge w = ridge_table<D>::decode(code);
+      const dihedral w = ridge_table<D>::decode(code);
       return is_wanted(in_.sides.of_element[at(w.element)][at(w.sides[0])]);
     };
     const auto first = [&](auto is_wanted) {
@@ -168,12 +168,12 @@ private:
       opening += here.angle;
       if (!is_end(here.to))
         continue;
-      measure_wedge(ridge, run);
+      measure_dihedral(ridge, run);
       run.element = no_id;
       if (!is_fixed(here.to))
         continue;
       auto& violations = collector_.found.violations;
-      if (collector_.is_small_wedge(opening))
+      if (collector_.is_small_dihedral(opening))
         for (; first_found < violations.size(); ++first_found)
           violations[first_found].cause = violation_cause::forced;
       opening = 0;
@@ -181,7 +181,7 @@ private:
     }
   }
 
-  void measure_wedge(const simplex<D - 2>& ridge, const passage& run) {
+  void measure_dihedral(const simplex<D - 2>& ridge, const passage& run) {
     if (is_fixed(run.from) && is_fixed(run.to)) // also where a fixed line ends inside a part
       return;
     std::array<local_id, 2> edge{no_id, no_id};
@@ -189,7 +189,7 @@ private:
     const vec3 place = midpoint(in_.mesh.points[at(ridge.front())], in_.mesh.points[at(ridge.back())]);
     const bool is_refused =
         cause_at(run.from) == violation_cause::refused || cause_at(run.to) == violation_cause::refused;
-    const bool is_small = collector_.add_wedge(
+    const bool is_small = collector_.add_dihedral(
         {angle_of(run, edge[0]), {run.from, run.to}, edge}, is_fixed(run.from) || is_fixed(run.to),
         is_refused ? violation_cause::refused : violation_cause::remeshing, part(run.element), place);
     if (D == 2 && is_small && !in_.mesh.tags.empty())
@@ -242,7 +242,7 @@ public:
           around.clear();
           for (const std::uint32_t i : members)
             around.push_back(half_edge(i));
-          measure_wedges(edge, around);
+          measure_dihedrals(edge, around);
         });
     return collector_.take();
   }
@@ -315,7 +315,7 @@ private:
   }
   vec3 at(local_id v) const { return fine_.points[static_cast<std::size_t>(v)]; }
 
-  void measure_wedges(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
+  void measure_dihedrals(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
     const bool all_fixed = std::all_of(half_edges.begin(), half_edges.end(), [&](std::uint32_t h) {
       return is_fixed(static_cast<local_id>(h / 3));
     });
@@ -332,9 +332,9 @@ private:
         continue; // outside of the domain, or no interface's
       const double turn =
           next.direction - here.direction + (k + 1 == flaps_.size() ? 2 * std::numbers::pi : 0.0);
-      collector_.add_wedge({turn * degrees_per_radian, {here.triangle, next.triangle}, edge}, fixed > 0,
-                           cause_of(here.triangle, next.triangle), here.after,
-                           midpoint(at(edge[0]), at(edge[1])));
+      collector_.add_dihedral({turn * degrees_per_radian, {here.triangle, next.triangle}, edge}, fixed > 0,
+                              cause_of(here.triangle, next.triangle), here.after,
+                              midpoint(at(edge[0]), at(edge[1])));
     }
   }
 

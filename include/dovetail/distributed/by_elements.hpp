@@ -39,7 +39,7 @@ struct elements {
   /// The summary has, beside what `describe_redistribution` says: super_elements, seams_before and
   /// seams_after (sides inside solids that were interfaces, and still are), interface_sides, depends_on_ranks
   /// (1 where the partitioner does, with a warning that says what this means); in D = 3 also
-  /// min_face_angle_deg, min_wedge_deg, small_angles (smaller than the rule wants) and, of these,
+  /// min_face_angle_deg, min_dihedral_deg, small_angles (smaller than the rule wants) and, of these,
   /// avoidable_angles, at sides that the rule had not refused; children "simplification", "partition",
   /// "migration" with their seconds.
   ///

@@ -255,7 +255,7 @@ private:
         measure_skeleton_angles(migrated_.mesh->skeleton, wanted_angles_of<3>(given_.simplify_by),
                                 migrated_.avoided, {}, mesh_state::valid);
     to.set("min_face_angle_deg", angles.face_angle.angle_deg);
-    to.set("min_wedge_deg", angles.min_wedge_deg());
+    to.set("min_dihedral_deg", angles.min_dihedral_deg());
     to.set("small_angles", static_cast<double>(angles.violations.size()));
     to.set("avoidable_angles", static_cast<double>(angles.count(violation_cause::remeshing)));
   }

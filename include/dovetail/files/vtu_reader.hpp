@@ -35,7 +35,7 @@ inline std::string vtk_cell_name(int type) {
   case 12:
     return "hexahedron";
   case 13:
-    return "wedge";
+    return "dihedral";
   case 14:
     return "pyramid";
   case 22:

@@ -16,7 +16,7 @@ namespace dovetail::improvement {
 struct quality_counts {
   struct of_class {
     std::size_t elements = 0, inverted = 0, bad = 0, low = 0;
-    double min_angle = 180, max_angle = 0; ///< of wedges, degrees; of elements that are not inverted
+    double min_angle = 180, max_angle = 0; ///< of dihedrals, degrees; of elements that are not inverted
   };
   of_class limited, free;
 

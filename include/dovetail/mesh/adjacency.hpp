@@ -1,6 +1,6 @@
 /// @file
-/// Who touches whom in a mesh: unique sides with their elements, element neighbours, and the fans of wedges
-/// around ridges. Everything is found by sorting; a mesh of 10 million elements takes seconds.
+/// Who touches whom in a mesh: unique sides with their elements, element neighbours, and the fans of
+/// dihedrals around ridges. Everything is found by sorting; a mesh of 10 million elements takes seconds.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -21,8 +21,8 @@
 
 namespace dovetail {
 
-/// One wedge: an element at one of its ridges, passed from side `from` to side `to`.
-struct wedge {
+/// One dihedral: an element at one of its ridges, passed from side `from` to side `to`.
+struct dihedral {
   local_id element;
   int ridge;                ///< local ridge of the element
   std::array<int, 2> sides; ///< its local sides, in passing order: {from, to}
@@ -30,9 +30,9 @@ struct wedge {
 
 /// The unique ridges of a mesh, in lexicographic order of their sorted vertices, with their fans.
 ///
-/// A fan is a maximal run of wedges around a ridge in which consecutive wedges share an interior side. It is
-/// closed (cyclic) or open; an open one starts and ends at sides that do not have two elements. On a manifold
-/// every ridge has one fan.
+/// A fan is a maximal run of dihedrals around a ridge in which consecutive dihedrals share an interior side.
+/// It is closed (cyclic) or open; an open one starts and ends at sides that do not have two elements. On a
+/// manifold every ridge has one fan.
 template <int D>
 struct ridge_table {
   static constexpr std::size_t per_element = numbering::ridges<D>.size();
@@ -41,20 +41,20 @@ struct ridge_table {
   std::vector<std::array<local_id, per_element>> of_element; ///< ridge of each (element, local ridge)
   std::vector<std::uint32_t> fan_begins{
       0}; ///< size ridges + 1: fans of ridge r are [fan_begins[r], fan_begins[r+1])
-  std::vector<std::uint32_t> wedge_begins{
-      0}; ///< size fans + 1: wedges of fan f are the codes in [wedge_begins[f], ...)
-  std::vector<std::uint32_t> wedge_codes; ///< see `decode`
-  std::vector<bool> closed;               ///< per fan: cyclic?
+  std::vector<std::uint32_t> dihedral_begins{
+      0}; ///< size fans + 1: dihedrals of fan f are the codes in [dihedral_begins[f], ...)
+  std::vector<std::uint32_t> dihedral_codes; ///< see `decode`
+  std::vector<bool> closed;                  ///< per fan: cyclic?
 
   std::size_t size() const { return vertices.size(); }
-  /// The codes of the wedges of a fan, in order around the ridge.
+  /// The codes of the dihedrals of a fan, in order around the ridge.
   std::span<const std::uint32_t> fan(std::size_t f) const {
-    return std::span(wedge_codes).subspan(wedge_begins[f], wedge_begins[f + 1] - wedge_begins[f]);
+    return std::span(dihedral_codes).subspan(dihedral_begins[f], dihedral_begins[f + 1] - dihedral_begins[f]);
   }
   static constexpr std::uint32_t encode(std::uint32_t element, std::uint32_t ridge, bool flipped) {
     return (element * static_cast<std::uint32_t>(per_element) + ridge) * 2 + (flipped ? 1 : 0);
   }
-  static constexpr wedge decode(std::uint32_t code) {
+  static constexpr dihedral decode(std::uint32_t code) {
     const std::uint32_t flat = code / 2;
     const auto ridge = static_cast<int>(flat % per_element);
     std::array<int, 2> sides = numbering::sides_of_ridge<D>[static_cast<std::size_t>(ridge)];
@@ -88,26 +88,26 @@ void require_valid_vertices(std::span<const simplex<D>> elements, std::size_t po
                          ", but the mesh has " + std::to_string(point_count) + " points");
 }
 
-/// Orders the wedges of one ridge into fans. `ends[i]` are the sides of wedge i, `codes[i]` its code.
+/// Orders the dihedrals of one ridge into fans. `ends[i]` are the sides of dihedral i, `codes[i]` its code.
 template <int D>
 class fan_builder {
 public:
   fan_builder(const side_table<D>& sides, ridge_table<D>& ridges) : sides_(sides), ridges_(ridges) {}
 
-  /// Appends the fans of a ridge whose wedges are `members` (element x ridges per element + local ridge).
+  /// Appends the fans of a ridge whose dihedrals are `members` (element x ridges per element + local ridge).
   void append(std::span<const std::uint32_t> members) {
     load(members);
-    for (std::size_t first = 0; first < wedges_.size();) {
+    for (std::size_t first = 0; first < dihedrals_.size();) {
       std::size_t last = extend(first, first + 1);
-      const local_id start = wedges_[first].from;
-      const bool is_closed = wedges_[last - 1].to == start && interior(start);
+      const local_id start = dihedrals_[first].from;
+      const bool is_closed = dihedrals_[last - 1].to == start && interior(start);
       if (!is_closed) {
         reverse(first, last);
         last = extend(first, last);
       }
       for (std::size_t i = first; i < last; ++i)
-        ridges_.wedge_codes.push_back(wedges_[i].code);
-      ridges_.wedge_begins.push_back(static_cast<std::uint32_t>(ridges_.wedge_codes.size()));
+        ridges_.dihedral_codes.push_back(dihedrals_[i].code);
+      ridges_.dihedral_begins.push_back(static_cast<std::uint32_t>(ridges_.dihedral_codes.size()));
       ridges_.closed.push_back(is_closed);
       first = last;
     }
@@ -129,36 +129,36 @@ private:
   bool interior(local_id side) const { return sides_.is_interior(side); }
 
   void load(std::span<const std::uint32_t> members) {
-    wedges_.clear();
+    dihedrals_.clear();
     for (const std::uint32_t member : members) {
-      const wedge w = ridge_table<D>::decode(member * 2);
+      const dihedral w = ridge_table<D>::decode(member * 2);
       const auto& of_element = sides_.of_element[static_cast<std::size_t>(w.element)];
-      wedges_.push_back({of_element[static_cast<std::size_t>(w.sides[0])],
-                         of_element[static_cast<std::size_t>(w.sides[1])], member * 2});
+      dihedrals_.push_back({of_element[static_cast<std::size_t>(w.sides[0])],
+                            of_element[static_cast<std::size_t>(w.sides[1])], member * 2});
     }
   }
 
-  /// Grows the run [first, last) at its end by wedges found behind it; returns the new end.
+  /// Grows the run [first, last) at its end by dihedrals found behind it; returns the new end.
   std::size_t extend(std::size_t first, std::size_t last) {
-    while (last < wedges_.size()) {
-      const local_id open = wedges_[last - 1].to;
-      if (!interior(open) || open == wedges_[first].from)
+    while (last < dihedrals_.size()) {
+      const local_id open = dihedrals_[last - 1].to;
+      if (!interior(open) || open == dihedrals_[first].from)
         break;
       std::size_t next = last;
-      while (next < wedges_.size() && wedges_[next].from != open && wedges_[next].to != open)
+      while (next < dihedrals_.size() && dihedrals_[next].from != open && dihedrals_[next].to != open)
         ++next;
-      if (next == wedges_.size())
+      if (next == dihedrals_.size())
         break;
-      std::swap(wedges_[last], wedges_[next]);
-      if (wedges_[last].from != open)
-        wedges_[last].flip();
+      std::swap(dihedrals_[last], dihedrals_[next]);
+      if (dihedrals_[last].from != open)
+        dihedrals_[last].flip();
       ++last;
     }
     return last;
   }
 
   void reverse(std::size_t first, std::size_t last) {
-    const auto run = std::span(wedges_).subspan(first, last - first);
+    const auto run = std::span(dihedrals_).subspan(first, last - first);
     std::reverse(run.begin(), run.end());
     for (link& w : run)
       w.flip();
@@ -166,7 +166,7 @@ private:
 
   const side_table<D>& sides_;
   ridge_table<D>& ridges_;
-  std::vector<link> wedges_;
+  std::vector<link> dihedrals_;
 };
 
 } // namespace detail
@@ -224,15 +224,15 @@ std::vector<std::array<local_id, D + 1>> element_neighbours(const side_table<D>&
   return neighbours;
 }
 
-/// Finds the unique ridges of `elements` and orders the wedges around each into fans. `sides` must be
-/// `build_sides` of the same elements. About linear time; quadratic in the number of wedges of one ridge.
+/// Finds the unique ridges of `elements` and orders the dihedrals around each into fans. `sides` must be
+/// `build_sides` of the same elements. About linear time; quadratic in the number of dihedrals of one ridge.
 template <int D>
 ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t point_count,
                             const side_table<D>& sides) {
   constexpr std::size_t n = ridge_table<D>::per_element;
   ridge_table<D> table;
   table.of_element.resize(elements.size());
-  table.wedge_codes.reserve(elements.size() * n);
+  table.dihedral_codes.reserve(elements.size() * n);
   detail::fan_builder<D> fans(sides, table);
   for_each_group<static_cast<std::size_t>(D - 1)>(
       elements.size() * n, point_count,

@@ -25,7 +25,7 @@ std::array<vec3, N> corners(std::span<const vec3> points, const std::array<local
 }
 
 /// Angles of a triangle at its corners, in degrees.
-inline std::array<double, 3> wedge_angles(const std::array<vec3, 3>& p) {
+inline std::array<double, 3> dihedral_angles(const std::array<vec3, 3>& p) {
   const vec3 ab = p[1] - p[0];
   const vec3 bc = p[2] - p[1];
   const vec3 ca = p[0] - p[2];
@@ -74,7 +74,7 @@ struct tetrahedron_parts {
 
   /// The sine and the cosine of the angle at an edge, times the same factor. The sine comes from the volume
   /// (|n1 x n2| = 6 V |edge|), which stays accurate for slivers; it is not negative.
-  std::array<double, 2> wedge(std::size_t r) const {
+  std::array<double, 2> dihedral(std::size_t r) const {
     const auto& sides = numbering::sides_of_ridge<3>[r];
     return {six_volumes * std::sqrt(lengths_squared[r]),
             -dot(normals[static_cast<std::size_t>(sides[0])], normals[static_cast<std::size_t>(sides[1])])};
@@ -85,11 +85,11 @@ struct tetrahedron_parts {
 
 /// Dihedral angles of a tetrahedron at its edges, in degrees, in the order of `numbering::ridges<3>`. An
 /// inverted tetrahedron gives the angles of its mirror image.
-inline std::array<double, 6> wedge_angles(const std::array<vec3, 4>& p) {
+inline std::array<double, 6> dihedral_angles(const std::array<vec3, 4>& p) {
   const detail::tetrahedron_parts parts(p);
   std::array<double, 6> angles;
   for (std::size_t r = 0; r < 6; ++r) {
-    const auto [sine, cosine] = parts.wedge(r);
+    const auto [sine, cosine] = parts.dihedral(r);
     angles[r] = degrees_per_radian * std::atan2(sine, cosine);
   }
   return angles;

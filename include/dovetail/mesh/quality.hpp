@@ -29,7 +29,7 @@ inline std::array<double, 2> extremes_of(const tetrahedron_parts& parts) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double largest_cotangent = -infinity, smallest_cotangent = infinity;
   for (std::size_t r = 0; r < 6; ++r) {
-    const auto [sine, cosine] = parts.wedge(r);
+    const auto [sine, cosine] = parts.dihedral(r);
     const double cotangent = sine > 0 ? cosine / sine : cosine < 0 ? -infinity : infinity;
     largest_cotangent = std::max(largest_cotangent, cotangent);
     smallest_cotangent = std::min(smallest_cotangent, cotangent);
@@ -40,12 +40,12 @@ inline std::array<double, 2> extremes_of(const tetrahedron_parts& parts) {
 
 } // namespace detail
 
-/// The smallest and the largest of `wedge_angles`, but for rounding.
-inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 4>& p) {
+/// The smallest and the largest of `dihedral_angles`, but for rounding.
+inline std::array<double, 2> extreme_dihedral_angles(const std::array<vec3, 4>& p) {
   return detail::extremes_of(detail::tetrahedron_parts(p));
 }
-inline std::array<double, 2> extreme_wedge_angles(const std::array<vec3, 3>& p) {
-  const auto angles = wedge_angles(p);
+inline std::array<double, 2> extreme_dihedral_angles(const std::array<vec3, 3>& p) {
+  const auto angles = dihedral_angles(p);
   const auto [smallest, largest] = std::minmax_element(angles.begin(), angles.end());
   return {*smallest, *largest};
 }
@@ -97,48 +97,49 @@ struct angle_histogram {
 
 /// Statistics of the angles of a mesh. Those of pieces merge into those of the whole.
 ///
-/// Wedge angles are dihedral angles (D = 3) or corner angles (D = 2); face angles are the corner angles of an
+/// Dihedrals are dihedral angles (D = 3) or corner angles (D = 2); face angles are the corner angles of an
 /// element's triangles, which for D = 2 are the same.
 struct quality_statistics {
   std::int64_t elements = 0;
-  double min_wedge_deg = 180; ///< 180 for an empty mesh
-  double max_wedge_deg = 0;
+  double min_dihedral_deg = 180; ///< 180 for an empty mesh
+  double max_dihedral_deg = 0;
   double min_face_deg = 180;
-  double sum_of_min_wedge_deg = 0; ///< over elements; see mean_min_wedge_deg
-  global_id worst_element = -1;    ///< the element with the smallest wedge angle; the first of several
-  angle_histogram min_wedges;      ///< each element's smallest wedge angle
-  angle_histogram max_wedges;      ///< each element's largest wedge angle
+  double sum_of_min_dihedral_deg = 0; ///< over elements; see mean_min_dihedral_deg
+  global_id worst_element = -1;       ///< the element with the smallest dihedral angle; the first of several
+  angle_histogram min_dihedrals;      ///< each element's smallest dihedral angle
+  angle_histogram max_dihedrals;      ///< each element's largest dihedral angle
 
-  using fields = field_list<&quality_statistics::elements, &quality_statistics::min_wedge_deg,
-                            &quality_statistics::max_wedge_deg, &quality_statistics::min_face_deg,
-                            &quality_statistics::sum_of_min_wedge_deg, &quality_statistics::worst_element,
-                            &quality_statistics::min_wedges, &quality_statistics::max_wedges>;
+  using fields = field_list<&quality_statistics::elements, &quality_statistics::min_dihedral_deg,
+                            &quality_statistics::max_dihedral_deg, &quality_statistics::min_face_deg,
+                            &quality_statistics::sum_of_min_dihedral_deg, &quality_statistics::worst_element,
+                            &quality_statistics::min_dihedrals, &quality_statistics::max_dihedrals>;
 
-  /// Elements with a wedge angle under 6, 12, 18 and 24 degrees.
+  /// Elements with a dihedral angle under 6, 12, 18 and 24 degrees.
   std::array<std::int64_t, 4> under_6_12_18_24() const {
-    return {min_wedges.below(6), min_wedges.below(12), min_wedges.below(18), min_wedges.below(24)};
+    return {min_dihedrals.below(6), min_dihedrals.below(12), min_dihedrals.below(18),
+            min_dihedrals.below(24)};
   }
-  double mean_min_wedge_deg() const {
-    return elements == 0 ? 0 : sum_of_min_wedge_deg / static_cast<double>(elements);
+  double mean_min_dihedral_deg() const {
+    return elements == 0 ? 0 : sum_of_min_dihedral_deg / static_cast<double>(elements);
   }
   double per_million_under(int degrees) const {
     return elements == 0
                ? 0
-               : 1e6 * static_cast<double>(min_wedges.below(degrees)) / static_cast<double>(elements);
+               : 1e6 * static_cast<double>(min_dihedrals.below(degrees)) / static_cast<double>(elements);
   }
 
   /// Adds the statistics of a piece whose element 0 has the number `first_element` in the whole.
   void merge(const quality_statistics& piece, global_id first_element = 0) {
-    if (piece.elements > 0 && piece.min_wedge_deg < min_wedge_deg) {
-      min_wedge_deg = piece.min_wedge_deg;
+    if (piece.elements > 0 && piece.min_dihedral_deg < min_dihedral_deg) {
+      min_dihedral_deg = piece.min_dihedral_deg;
       worst_element = first_element + piece.worst_element;
     }
     elements += piece.elements;
-    max_wedge_deg = std::max(max_wedge_deg, piece.max_wedge_deg);
+    max_dihedral_deg = std::max(max_dihedral_deg, piece.max_dihedral_deg);
     min_face_deg = std::min(min_face_deg, piece.min_face_deg);
-    sum_of_min_wedge_deg += piece.sum_of_min_wedge_deg;
-    min_wedges.merge(piece.min_wedges);
-    max_wedges.merge(piece.max_wedges);
+    sum_of_min_dihedral_deg += piece.sum_of_min_dihedral_deg;
+    min_dihedrals.merge(piece.min_dihedrals);
+    max_dihedrals.merge(piece.max_dihedrals);
   }
 };
 
@@ -157,7 +158,7 @@ public:
     constexpr double rounding = 1 + 1e-9;
     if (by_sine > rounding * sine_squared_ * (a * b * c))
       return;
-    const auto angles = wedge_angles(p);
+    const auto angles = dihedral_angles(p);
     degrees_ = std::min({degrees_, angles[0], angles[1], angles[2]});
     if (a * b * c > 0)
       sine_squared_ = std::min(sine_squared_, by_sine / (a * b * c));
@@ -206,7 +207,7 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
     const auto at = corners(span_of(mesh.points), mesh.elements[e]);
     std::array<double, 2> extremes;
     if constexpr (D == 2) {
-      extremes = extreme_wedge_angles(at);
+      extremes = extreme_dihedral_angles(at);
       face_angle.include(at);
     } else {
       const detail::tetrahedron_parts parts(at);
@@ -214,14 +215,14 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
       face_angle.include(at, parts);
     }
     const auto [smallest, largest] = extremes;
-    if (smallest < statistics.min_wedge_deg || e == 0) {
-      statistics.min_wedge_deg = smallest;
+    if (smallest < statistics.min_dihedral_deg || e == 0) {
+      statistics.min_dihedral_deg = smallest;
       statistics.worst_element = static_cast<global_id>(e);
     }
-    statistics.max_wedge_deg = std::max(statistics.max_wedge_deg, largest);
-    statistics.sum_of_min_wedge_deg += smallest;
-    statistics.min_wedges.add(smallest);
-    statistics.max_wedges.add(largest);
+    statistics.max_dihedral_deg = std::max(statistics.max_dihedral_deg, largest);
+    statistics.sum_of_min_dihedral_deg += smallest;
+    statistics.min_dihedrals.add(smallest);
+    statistics.max_dihedrals.add(largest);
   }
   statistics.min_face_deg = face_angle.degrees();
   return statistics;

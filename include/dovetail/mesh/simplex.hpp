@@ -37,7 +37,7 @@ inline constexpr auto ridges = [] {
     return std::array<std::array<int, 2>, 6>{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 }();
 
-/// `sides_of_ridge<D>[r]` lists the two sides that meet at ridge r; together they make the wedge at r.
+/// `sides_of_ridge<D>[r]` lists the two sides that meet at ridge r; together they make the dihedral at r.
 template <int D>
 inline constexpr auto sides_of_ridge = [] {
   if constexpr (D == 2)

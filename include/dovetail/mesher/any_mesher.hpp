@@ -31,28 +31,28 @@ public:
     requires(!std::same_as<M, any_mesher> && boundary_keeping_mesher<M, D>)
   any_mesher(M policy, std::string name = {}) // NOLINT: converts, as std::function does
       : any_mesher(policy, std::move(name), without_fallbacks{}) {
-    const std::vector<M> ladder = ladder_of(policy);
-    for (std::size_t rung = 1; rung < ladder.size(); ++rung)
-      fallbacks_.push_back(any_mesher(ladder[rung], name_, without_fallbacks{}));
+    const std::vector<M> meshers = with_fallbacks(policy);
+    for (std::size_t attempt = 1; attempt < meshers.size(); ++attempt)
+      fallbacks_.push_back(any_mesher(meshers[attempt], name_, without_fallbacks{}));
     if constexpr (has_background_form<M>)
       background_ =
           std::make_shared<const any_mesher>(any_mesher(policy.for_background(), name_, without_fallbacks{}));
   }
 
-  /// The same with another mesher as the last rung of the ladder, for pieces that this one cannot mesh.
+  /// The same with another mesher as the last fallback, for pieces that this one cannot mesh.
   any_mesher with_fallback(any_mesher other) const {
     any_mesher extended = *this;
     extended.fallbacks_.push_back(std::move(other));
     return extended;
   }
 
-  /// The mesher for the mesh that is decomposed, with this one's ladder below it; this one when it has no
-  /// form for that.
+  /// The mesher for the mesh that is decomposed, with this one and its fallbacks after it; this one when it
+  /// has no form for that.
   any_mesher for_background() const {
     if (!background_)
       return *this;
     any_mesher form = *background_;
-    form.fallbacks_ = ladder_of(*this);
+    form.fallbacks_ = with_fallbacks(*this);
     return form;
   }
 
@@ -94,7 +94,7 @@ private:
   double elements_per_subdomain_ = default_elements_per_subdomain;
   std::function<mesher_result<D>(const mesher_input<D>&, const any_sizing&)> call_;
   std::vector<any_mesher> fallbacks_;
-  std::shared_ptr<const any_mesher> background_; ///< its ladder is this one's
+  std::shared_ptr<const any_mesher> background_; ///< its fallbacks are this one's
 };
 static_assert(boundary_keeping_mesher<any_mesher<2>, 2> && boundary_keeping_mesher<any_mesher<3>, 3>);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The ladder a failed piece climbs: the same mesher with other parameters, in a fixed order.
+/// What a failed piece is tried by: the same mesher with other parameters, in a fixed order.
 #pragma once
 
 #include <concepts>
@@ -26,12 +26,12 @@ concept has_fallbacks = requires(const M& m) {
 
 /// The mesher itself and then its fallbacks; never empty.
 template <class M>
-std::vector<M> ladder_of(const M& mesher) {
-  std::vector<M> ladder{mesher};
+std::vector<M> with_fallbacks(const M& mesher) {
+  std::vector<M> meshers{mesher};
   if constexpr (has_fallbacks<M>)
     for (const M& next : mesher.fallbacks())
-      ladder.push_back(next);
-  return ladder;
+      meshers.push_back(next);
+  return meshers;
 }
 
 } // namespace dovetail

@@ -15,7 +15,7 @@ inline report brief(const report& piece) {
   report kept;
   kept.seconds = piece.seconds;
   kept.warnings = piece.warnings;
-  kept.set("rung", piece.get("rung"));
+  kept.set("attempt", piece.get("attempt"));
   if (const double stops = stops_by_clock(piece); stops > 0)
     kept.set("stops_by_clock", stops);
   for (const report& part : piece.children) {

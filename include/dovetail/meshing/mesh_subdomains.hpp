@@ -1,6 +1,6 @@
 /// @file
-/// Meshes, improves, checks and stores every subdomain through an executor. Failed ones climb the mesher's
-/// ladder in rounds; those that still fail come back as data.
+/// Meshes, improves, checks and stores every subdomain through an executor. Failed ones are tried by the
+/// mesher's fallbacks in rounds; those that still fail come back as data.
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
@@ -27,13 +27,13 @@ using piece_source = std::function<piece_input<D>(local_id)>;
 
 using subdomain_source = piece_source<3>;
 
-/// A subdomain that no rung of the ladder could mesh.
+/// A subdomain that no attempt could mesh.
 struct piece_failure {
   local_id subdomain = no_id;
   std::vector<std::string> reasons; ///< one per attempt, naming the policy unless its worker died
-  bool timed_out = false;           ///< some rung reached the wall-clock limit: the mesh may differ next time
-  std::size_t crossing_facets = 0;  ///< boundary triangles that cross others; known when a file was written
-  std::filesystem::path facets;     ///< OFF file of the offending facets, when one was written
+  bool timed_out = false; ///< some attempt reached the wall-clock limit: the mesh may differ next time
+  std::size_t crossing_facets = 0; ///< boundary triangles that cross others; known when a file was written
+  std::filesystem::path facets;    ///< OFF file of the offending facets, when one was written
 };
 
 struct meshing_options {
@@ -46,16 +46,16 @@ struct meshing_options {
   /// The `skeleton_points` of a subdomain's input, called by `load` whenever it is. Empty: `load` asks the
   /// source, so that what that refers to must last as long as the result.
   std::function<std::vector<local_id>(local_id)> skeleton_points = {};
-  /// Called with every subdomain of D = 3 that failed on all rungs and the boundary that none could fill, to
-  /// keep a record of it; may be empty.
+  /// Called with every subdomain of D = 3 that failed on all attempts and the boundary that none could fill,
+  /// to keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
   progress on_progress = {};
 };
 
 template <int D>
 struct meshed_pieces {
-  /// Per subdomain; counts are 0 where it failed. Of a report only "rung", "stops_by_clock", and the seconds,
-  /// warnings and deviations of its children: counters of mesher and improver stay in the store.
+  /// Per subdomain; counts are 0 where it failed. Of a report only "attempt", "stops_by_clock", and the
+  /// seconds, warnings and deviations of its children: counters of mesher and improver stay in the store.
   std::vector<piece_summary> pieces;
   std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where it failed
   std::vector<piece_failure> failures; ///< by growing subdomain

@@ -41,7 +41,7 @@ public:
                    const any_improver<D>& improve, const refined_sizing& size, const any_executor& run_tasks,
                    const meshing_options& options)
       : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
-        ladder_(ladder_of(mesh_it)),
+        meshers_(with_fallbacks(mesh_it)),
         skeleton_points_(options.skeleton_points
                              ? options.skeleton_points
                              : [source](local_id s) { return source(s).skeleton_points; }),
@@ -55,8 +55,8 @@ public:
 
   meshed_pieces<D> run() {
     const stopwatch clock;
-    for (std::size_t rung = 0; rung < rung_count() && !pending_.empty(); ++rung)
-      run_round(rung);
+    for (std::size_t attempt = 0; attempt < attempt_count() && !pending_.empty(); ++attempt)
+      run_round(attempt);
     report_failures();
     summarize();
     result_.keys = pieces_->keys();
@@ -87,33 +87,35 @@ private:
     };
   }
 
-  /// After the mesher's ladder, the mesher as it is, without improvement: better a raw piece than none.
-  std::size_t rung_count() const { return ladder_.size() + (improve_ ? 1 : 0); }
+  /// After the mesher's fallbacks the mesher as it is, without improvement: better a raw piece than none.
+  std::size_t attempt_count() const { return meshers_.size() + (improve_ ? 1 : 0); }
   box3 place(const piece_input<D>& input) const { return size_.is_refined() ? place_of(input) : box3{}; }
 
-  finished_piece<D> attempt(const piece_failure& piece, const piece_input<D>& input, std::size_t rung) const {
-    const bool climbs = rung < ladder_.size();
-    return make_piece<D>(piece.subdomain, input, ladder_[climbs ? rung : 0], climbs ? &improve_ : nullptr,
+  finished_piece<D> piece_by(const piece_failure& piece, const piece_input<D>& input,
+                             std::size_t attempt) const {
+    const bool has_mesher = attempt < meshers_.size();
+    return make_piece<D>(piece.subdomain, input, meshers_[has_mesher ? attempt : 0],
+                         has_mesher ? &improve_ : nullptr,
                          faster_in(size_.near(place(input)), box_around(input.boundary.boundary.points)),
                          piece.reasons, piece.timed_out);
   }
 
-  void run_round(std::size_t rung) {
+  void run_round(std::size_t attempt) {
     run_options round;
     round.order = largest_first();
     round.on_progress = options_.on_progress;
-    round.stage = rung == 0 ? "meshing" : "meshing again";
+    round.stage = attempt == 0 ? "meshing" : "meshing again";
     auto results = pieces_->make(
         pending_.size(), run_tasks_, [&](std::size_t k) { return pending_[k].subdomain; },
         [&](std::size_t k) { return source_(pending_[k].subdomain); },
         [&](const piece_input<D>& input) { return key_of(input, size_.key_near(place(input))); },
-        [&](std::size_t k, const piece_input<D>& input) { return attempt(pending_[k], input, rung); },
+        [&](std::size_t k, const piece_input<D>& input) { return piece_by(pending_[k], input, attempt); },
         brief_summary, round);
     std::vector<piece_failure> failed;
     for (std::size_t k = 0; k < results.size(); ++k)
       if (!accept(pending_[k], results[k]))
         failed.push_back(std::move(pending_[k]));
-    if (rung == 0)
+    if (attempt == 0)
       result_.summary.set("retried", static_cast<double>(failed.size()));
     pending_ = std::move(failed);
   }
@@ -191,7 +193,7 @@ private:
   const refined_sizing& size_;
   const any_executor& run_tasks_;
   const meshing_options& options_;
-  std::vector<any_mesher<D>> ladder_;
+  std::vector<any_mesher<D>> meshers_;
   std::function<std::vector<local_id>(local_id)> skeleton_points_;
   std::shared_ptr<kept_pieces<D>> pieces_;
   std::vector<piece_failure> pending_;
@@ -208,9 +210,9 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
     throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
   if (!runs_in_threads(run_tasks))
     return;
-  for (const any_mesher<D>& rung : ladder_of(mesh_it))
-    if (!rung.actual_traits().thread_safe)
-      throw usage_error(named_policy("mesher", rung.name()) + why);
+  for (const any_mesher<D>& attempt : with_fallbacks(mesh_it))
+    if (!attempt.actual_traits().thread_safe)
+      throw usage_error(named_policy("mesher", attempt.name()) + why);
   if (!improve.actual_traits().thread_safe)
     throw usage_error(named_policy("improver", improve.name()) + why);
 }

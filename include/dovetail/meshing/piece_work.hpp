@@ -41,7 +41,7 @@ using subdomain_input = piece_input<3>;
 struct piece_summary {
   piece_counts counts;
   quality_statistics quality;
-  report summary; ///< children "mesher" and "improver"; counter "rung": 0 unless it failed at first
+  report summary; ///< children "mesher" and "improver"; counter "attempt": 0 unless it failed at first
 
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
@@ -187,7 +187,7 @@ finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, co
       by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
   piece_summary summary;
   summary.summary.name = piece_name(subdomain);
-  summary.summary.set("rung", static_cast<double>(failed.size()));
+  summary.summary.set("attempt", static_cast<double>(failed.size()));
   summary.summary.children.push_back(std::move(made.summary));
   if (improve != nullptr && *improve)
     summary.summary.children.push_back(by_policy("improver", improve->name(), [&] {

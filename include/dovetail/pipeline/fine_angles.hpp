@@ -15,8 +15,8 @@
 
 namespace dovetail::detail {
 
-/// Of the edges at which a wedge may be small: not those inside of a plane interface face, nor those inside
-/// of a CAD face.
+/// Of the edges at which a dihedral may be small: not those inside of a plane interface face, nor those
+/// inside of a CAD face.
 inline std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skeleton) {
   const auto& first = skeleton.patches.first_triangle;
   const std::size_t regions = skeleton.coarse.regions.size();

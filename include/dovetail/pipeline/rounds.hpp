@@ -8,11 +8,11 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/pipeline/crossings.hpp"
-#include "dovetail/pipeline/detour_rounds.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 #include "dovetail/pipeline/repairs.hpp"
+#include "dovetail/pipeline/repartition_rounds.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -40,7 +40,7 @@ public:
                               0,
                               0,
                               {}},
-        detours_(mesh, divided), made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
+        repartition_(mesh, divided), made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
         pieces_(std::make_shared<entity_store>(given.options.store)), intersection_(std::move(account)) {
     intersection_.name = "intersection";
   }
@@ -52,7 +52,7 @@ public:
   /// The field given, smaller where something crossed.
   any_sizing size() const { return state_.size.everywhere(); }
   /// What was found and done so far: "crossings", "rounds", "refinements", "merges", "merged_after_failure",
-  /// "largest_merged". Its time is also that of measuring interface angles and of finding detours.
+  /// "largest_merged". Its time is also that of measuring interface angles and of local repartition.
   report intersection() const {
     report account = intersection_;
     account.add("refinements", state_.refinements);
@@ -92,8 +92,8 @@ public:
     }
   }
 
-  /// The same with the pieces meshed. What no rung of the mesher's ladder can mesh is refined where a surface
-  /// is at fault, or merged with a neighbour, as long as that may be; what then fails still is data.
+  /// The same with the pieces meshed. What neither the mesher nor a fallback can mesh is refined where a
+  /// surface is at fault, or merged with a neighbour, as long as that may be; what then fails still is data.
   std::optional<std::pair<realized<D>, meshed_pieces<D>>> mesh_pieces() {
     while (auto made = realize_boundaries()) {
       auto meshed = mesh_all_pieces(model_, mesh_, *made, divided_.weights, state_.size, pieces_, given_);
@@ -148,7 +148,7 @@ private:
   }
 
   realized<D> with_clean_angles(realized<D> made) {
-    return detours_.avoid_small_angles(
+    return repartition_.avoid_small_angles(
         std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
         [&] { return realize_once(); },
         [&](const realized<D>& made_so) {
@@ -177,7 +177,7 @@ private:
   const divided_background<D>& divided_;
   any_parameters<D> given_;
   decomposition_state state_;
-  detour_rounds<D> detours_;
+  repartition_rounds<D> repartition_;
   interface_angles angles_; ///< of what was last realized
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;

@@ -2,9 +2,9 @@
 /// The step from regions with frozen boundaries to their meshes: of the faces of a coarse surface, of the
 /// regions and interface faces of a skeleton, and of the regions of a piece of D = 2.
 ///
-/// Whoever the surface mesher is, all climb the same ladder: again without the edges that another region has
-/// as well (chords), again with smaller sizes inside where triangles are folded over; what is left of such
-/// edges is split, and the result is checked. What is wrong after that is handed back as data.
+/// Whoever the surface mesher is, what fails is tried in the same order: again without the edges that another
+/// region has as well (chords), again with smaller sizes inside where triangles are folded over; what is left
+/// of such edges is split, and the result is checked. What is wrong after that is handed back as data.
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"

@@ -66,7 +66,7 @@ inline patch_mesh mesh_once(const any_surface_mesher& mesher, const any_surface&
   return made;
 }
 
-/// One rung of a region's ladder: without the edges that it must not have.
+/// One attempt at a region: without the edges that it must not have.
 inline patch_mesh mesh_without_chords(const any_surface_mesher& mesher, const any_surface& surface,
                                       const surface_region& region, const any_sizing& size, int rounds) {
   patch_boundary boundary = region.boundary;

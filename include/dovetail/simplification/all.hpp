@@ -20,7 +20,7 @@ inline auto all() {
       listed{"paper", paper{}},
       listed{"none", none{}},
       listed{"shape", shape_only{}},
-      listed{"wedges", dihedrals_only{}},
+      listed{"dihedrals", dihedrals_only{}},
       listed{"aspect", aspect_ratio{}},
       listed{"flow-x", flow_aligned{}}
   };

@@ -11,7 +11,7 @@
 
 namespace dovetail {
 
-/// What the rule says by `wants(D)`. A rule without that function wants of wedges what its judgement says,
+/// What the rule says by `wants(D)`. A rule without that function wants of dihedrals what its judgement says,
 /// which for this is asked about a mesh without elements. An angle that a rule has no opinion about (0) is
 /// the one of the paper.
 template <int D, simplification_rule<D> Rule>
@@ -22,10 +22,10 @@ wanted_angles wanted_angles_of(const Rule& rule) {
                 })
     wanted = rule.wants(D);
   else
-    wanted.wedge_deg = rule(simplicial_mesh<D>{}, side_table<D>{}).wanted_angle_deg;
+    wanted.dihedral_deg = rule(simplicial_mesh<D>{}, side_table<D>{}).wanted_angle_deg;
   const wanted_angles of_paper = simplifier::paper{}.wants(D);
   return {wanted.face_deg > 0 ? wanted.face_deg : of_paper.face_deg,
-          wanted.wedge_deg > 0 ? wanted.wedge_deg : of_paper.wedge_deg};
+          wanted.dihedral_deg > 0 ? wanted.dihedral_deg : of_paper.dihedral_deg};
 }
 
 } // namespace dovetail

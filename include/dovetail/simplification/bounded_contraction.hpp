@@ -294,7 +294,7 @@ private:
     summary.set("removed_sides", count(side_state::removed));
     summary.set("refused_sides", count(side_state::refused));
     summary.set("fixed_sides", count(side_state::fixed));
-    summary.set("forced_wedges", static_cast<double>(out.forced.size()));
+    summary.set("forced_dihedrals", static_cast<double>(out.forced.size()));
     summary.set("weight_bound", bound_);
     const auto& weights = out.graph.node_weights;
     summary.set("heaviest_super_element",

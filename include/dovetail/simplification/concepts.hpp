@@ -84,8 +84,8 @@ concept contraction_rule = requires(const R& r, const dihedral_side& a, const di
 /// - `r.propagate(below)`: std::optional<ridge_decision>: what a removed or refused side of the surface means
 ///   for the interior sides of the volume at it; nothing for nothing
 /// - optional: `r.wants(D)`: wanted_angles: the interface angles below which the stages after the
-///   simplification mend, move and count interfaces (`wanted_angles_of`); of wedges the same as in the
-///   judgement. A rule without it wants of wedges what its judgement of a mesh without elements says
+///   simplification mend, move and count interfaces (`wanted_angles_of`); of dihedrals the same as in the
+///   judgement. A rule without it wants of dihedrals what its judgement of a mesh without elements says
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
 /// sides unused. First the sides at coupled ridges are removed, then candidates, worst first; then, smallest

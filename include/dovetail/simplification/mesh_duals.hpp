@@ -93,7 +93,7 @@ public:
     std::vector<double> all;
     all.reserve(mesh_->elements.size() * dihedrals_per_element);
     for (const auto& element : mesh_->elements) {
-      const auto angles = wedge_angles(corners(span_of(mesh_->points), element));
+      const auto angles = dihedral_angles(corners(span_of(mesh_->points), element));
       all.insert(all.end(), angles.begin(), angles.end());
     }
     return all;

@@ -25,7 +25,7 @@ inline std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const sid
 inline std::vector<double> side_shapes(const simplicial_mesh<2>& mesh, const side_table<2>& sides) {
   std::vector<double> shapes(sides.size(), 180.0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto angles = wedge_angles(corners(span_of(mesh.points), mesh.elements[e]));
+    const auto angles = dihedral_angles(corners(span_of(mesh.points), mesh.elements[e]));
     for (std::size_t r = 0; r < angles.size(); ++r)
       for (const int local : numbering::sides_of_ridge<2>[r]) {
         double& shape =

@@ -28,11 +28,11 @@ struct bisected_surface {
 ///    surface edges between them are smoothed;
 /// 2. an inter-domain triangulation in the sizes of the mesh spans the loops: made in the plane, then
 ///    lifted inside to where the loops are;
-/// 3. it must stay inside the subdomain, cross none of its triangles, and make no wedge with them that is
+/// 3. it must stay inside the subdomain, cross none of its triangles, and make no dihedral with them that is
 ///    smaller than need be.
 ///
-/// Where one of these fails, or a wedge is under `good_wedge_deg`, other planes are tried, and the best of
-/// them is taken. Where none will do the subdomain stays whole.
+/// Where one of these fails, or a dihedral is under `good_dihedral_deg`, other planes are tried, and the best
+/// of them is taken. Where none will do the subdomain stays whole.
 ///
 /// It is sequential, as in the paper: the first cut is one task, and it takes all of the surface.
 ///
@@ -41,14 +41,14 @@ struct bisected_surface {
 /// O(n log n) in the faces for each level of the recursion and each plane tried.
 ///
 /// The summary counts "subdomains", "cuts", "planes" (tried), those of them that failed ("without_loops",
-/// "uneven", "unspanned", "crossing", and "too_sharp": no better than `least_wedge_deg`, or than another),
+/// "uneven", "unspanned", "crossing", and "too_sharp": no better than `least_dihedral_deg`, or than another),
 /// "whole" (subdomains with more than `most_faces` that no plane divides), "most_faces" and
-/// "interface_faces"; "least_wedge_deg" is the smallest at a loop.
+/// "interface_faces"; "least_dihedral_deg" is the smallest at a loop.
 struct recursive_bisection {
   std::size_t most_faces = 20000;  ///< of a subdomain's boundary
   std::size_t most_subdomains = 0; ///< no more cuts are made when there are so many; 0: any number
-  double good_wedge_deg = 30;      ///< no other plane is tried where the least wedge is this
-  double least_wedge_deg = 8;      ///< a cut with a smaller one is none
+  double good_dihedral_deg = 30;   ///< no other plane is tried where the least dihedral is this
+  double least_dihedral_deg = 8;   ///< a cut with a smaller one is none
   double least_share = 0.1;        ///< of the faces, on either side of a cut
   any_surface_mesher mesh_interface = {};
   progress on_progress = {}; ///< of the subdomains that there are

@@ -27,7 +27,7 @@ namespace detail {
 struct bi_division {
   surface_cut cut;
   spanning_surface spanning;
-  double wedge_deg = 0;
+  double dihedral_deg = 0;
 };
 
 /// One run of `recursive_bisection`.
@@ -62,7 +62,7 @@ public:
     for (const auto& sides : sides_)
       summary_.set("most_faces", std::max(summary_.get("most_faces"), static_cast<double>(sides.size())));
     summary_.set("subdomains", static_cast<double>(sides_.size()));
-    summary_.set("least_wedge_deg", least_wedge_deg_);
+    summary_.set("least_dihedral_deg", least_dihedral_deg_);
     summary_.seconds = clock.seconds();
     return {std::move(fine_), std::move(materials_), std::move(summary_)};
   }
@@ -144,8 +144,8 @@ private:
     made.spanning = *std::move(spanning);
     if (std::max(above, all - above) + made.spanning.triangles.size() >= all)
       return "uneven"; // it would not end
-    made.wedge_deg = least_wedge_at_loops(surface, made.cut, made.spanning);
-    if (made.wedge_deg <= better_than_deg)
+    made.dihedral_deg = least_dihedral_at_loops(surface, made.cut, made.spanning);
+    if (made.dihedral_deg <= better_than_deg)
       return "too_sharp";
     return crosses(surface, made.spanning) ? "crossing" : nullptr;
   }
@@ -173,12 +173,12 @@ private:
       summary_.add("planes", 1);
       bi_division made;
       if (const char* reason = try_plane(whole.boundary, table, plane,
-                                         best ? best->wedge_deg : given_.least_wedge_deg, made)) {
+                                         best ? best->dihedral_deg : given_.least_dihedral_deg, made)) {
         summary_.add(reason, 1);
         continue;
       }
       best = std::move(made);
-      if (best->wedge_deg >= given_.good_wedge_deg)
+      if (best->dihedral_deg >= given_.good_dihedral_deg)
         break;
     }
     if (!best)
@@ -205,7 +205,7 @@ private:
     }
     summary_.add("cuts", 1);
     summary_.add("interface_faces", static_cast<double>(made.spanning.triangles.size()));
-    least_wedge_deg_ = std::min(least_wedge_deg_, made.wedge_deg);
+    least_dihedral_deg_ = std::min(least_dihedral_deg_, made.dihedral_deg);
     for (const local_id part : {s, above})
       separate_bodies(part);
   }
@@ -259,7 +259,7 @@ private:
   const recursive_bisection& given_;
   std::vector<std::vector<local_id>> sides_; ///< per subdomain, growing
   std::vector<std::uint8_t> stays_whole_;    ///< per subdomain: not zero where no plane divides it
-  double least_wedge_deg_ = 360;
+  double least_dihedral_deg_ = 360;
   report summary_;
 };
 

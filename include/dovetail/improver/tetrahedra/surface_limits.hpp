@@ -16,7 +16,7 @@ namespace dovetail::improvement {
 /// A fixed triangle with a smaller angle limits the elements at its vertices.
 inline constexpr double limiting_triangle_angle = 20;
 /// Two fixed sides that meet at a smaller angle inside the mesh limit the elements at their common edge.
-inline constexpr double limiting_wedge_angle = 48;
+inline constexpr double limiting_dihedral_angle = 48;
 
 /// cos of the dihedral angle of element (a, b, c, d) at its edge (a, b).
 inline double cos_of_dihedral(vec3 a, vec3 b, vec3 c, vec3 d) {
@@ -25,7 +25,7 @@ inline double cos_of_dihedral(vec3 a, vec3 b, vec3 c, vec3 d) {
   return lengths > 0 ? std::clamp(dot(n, m) / lengths, -1.0, 1.0) : 1.0;
 }
 
-/// Marks the vertices of fixed triangles and wedges that are sharper than the limits. O(fixed sides).
+/// Marks the vertices of fixed triangles and dihedrals that are sharper than the limits. O(fixed sides).
 class surface_limits {
 public:
   explicit surface_limits(const tet_complex& mesh)
@@ -36,7 +36,7 @@ public:
           if (mesh.is_fixed(e, side))
             examine(mesh, e, side);
   }
-  /// The element touches a vertex of a sharp fixed triangle or wedge.
+  /// The element touches a vertex of a sharp fixed triangle or dihedral.
   bool limits(const simplex<3>& element) const {
     return std::any_of(element.begin(), element.end(), [&](local_id v) {
       return static_cast<std::size_t>(v) < is_limiting_.size() &&
@@ -63,14 +63,14 @@ private:
       for (const local_id corner : v)
         limit(corner);
     for (std::size_t k = 0; k < 3; ++k)
-      if (wedge_is_sharp(mesh, e, side, v[k], v[(k + 1) % 3])) {
+      if (dihedral_is_sharp(mesh, e, side, v[k], v[(k + 1) % 3])) {
         limit(v[k]);
         limit(v[(k + 1) % 3]);
       }
   }
 
   /// Turns around the edge (a, b) from a fixed side to the next one.
-  static bool wedge_is_sharp(const tet_complex& mesh, local_id e, int side, local_id a, local_id b) {
+  static bool dihedral_is_sharp(const tet_complex& mesh, local_id e, int side, local_id a, local_id b) {
     double turned = 0;
     int behind = side; // the corner opposite the side we come from
     for (;;) {
@@ -86,7 +86,7 @@ private:
         }
       }
       turned += std::acos(cos_of_dihedral(mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d)));
-      if (turned >= limiting_wedge_angle * std::numbers::pi / 180)
+      if (turned >= limiting_dihedral_angle * std::numbers::pi / 180)
         return false;
       if (mesh.is_fixed(e, ahead))
         return true;

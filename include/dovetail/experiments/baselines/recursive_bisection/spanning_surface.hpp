@@ -119,10 +119,10 @@ inline std::optional<spanning_surface> span_loops(const simplicial_mesh<2>& surf
   return result;
 }
 
-/// The least wedge between a spanning surface and the triangles at its loops, in degrees; negative where it
-/// leaves the solid. O(loops log loops) and linear in its triangles.
-inline double least_wedge_at_loops(const simplicial_mesh<2>& surface, const surface_cut& cut,
-                                   const spanning_surface& spanning) {
+/// The least dihedral between a spanning surface and the triangles at its loops, in degrees; negative where
+/// it leaves the solid. O(loops log loops) and linear in its triangles.
+inline double least_dihedral_at_loops(const simplicial_mesh<2>& surface, const surface_cut& cut,
+                                      const spanning_surface& spanning) {
   std::map<std::array<local_id, 2>, local_id> apex; // of the triangle that has this edge on its left
   for (const auto& t : spanning.triangles)
     for (std::size_t k = 0; k < 3; ++k)

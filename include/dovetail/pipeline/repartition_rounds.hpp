@@ -1,9 +1,9 @@
 /// @file
-/// Detours of interfaces around places where remeshing makes an angle of theirs small.
+/// Local repartition where remeshing makes an angle of an interface small.
 #pragma once
 
-#include "dovetail/decomposition/detours.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/decomposition/local_repartition.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/realize.hpp"
 
@@ -15,15 +15,15 @@ namespace dovetail {
 
 /// A local search for the decomposition with the fewest small angles. Mesh and division must outlive it.
 template <int D>
-class detour_rounds {
+class repartition_rounds {
 public:
-  detour_rounds(const simplicial_background<D>& mesh, const divided_background<D>& divided)
-      : detours_(mesh.elements(), divided.sides, divided.pieces),
+  repartition_rounds(const simplicial_background<D>& mesh, const divided_background<D>& divided)
+      : repartition_(mesh.elements(), divided.sides, divided.pieces),
         are_wanted_(divided.angles.count(violation_cause::remeshing) == 0) {}
 
   /// Changes `subdomain_of_element`, of which `made` is realized, round by round; the best is taken, and
-  /// what is realized of it returned. What crosses after a detour is taken back. Where the coarse interfaces
-  /// have such angles already, the rule does not care for them, and nothing is done.
+  /// what is realized of it returned. Where something crosses then, a round is taken back. Where the coarse
+  /// interfaces have such angles already, the rule does not care for them, and nothing is done.
   ///
   /// `realize()` realizes `subdomain_of_element` as it is then, `crosses(made)` says whether something
   /// crosses in that, and `small_angles(made)` gives the coarse sides at each small angle of it.
@@ -36,7 +36,7 @@ public:
     while (are_wanted_ && !places.empty() && places.size() <= most_places && rounds_ < most_rounds) {
       const auto before = subdomain_of_element;
       const stopwatch clock;
-      const std::size_t moved = detours_.avoid(places, subdomain_of_element, subdomains);
+      const std::size_t moved = repartition_.avoid(places, subdomain_of_element, subdomains);
       seconds += clock.seconds();
       if (moved == 0)
         break;
@@ -57,19 +57,19 @@ public:
       made = realize();
       small_angles(made);
     }
-    made.summary.set("detour_rounds", rounds_);
-    made.summary.set("detours", static_cast<double>(moved_));
+    made.summary.set("repartition_rounds", rounds_);
+    made.summary.set("repartitioned", static_cast<double>(moved_));
     return made;
   }
 
 private:
   /// Each takes the time of what it changes, and mostly two are enough.
   static constexpr int most_rounds = 8;
-  /// With more small angles the decomposition is poor as a whole: detours would take longer than all the
-  /// rest.
+  /// With more small angles the decomposition is poor as a whole: this would take longer than all
+  /// the rest.
   static constexpr std::size_t most_places = 32;
 
-  interface_detours<D> detours_;
+  local_repartition<D> repartition_;
   bool are_wanted_;
   int rounds_ = 0;
   std::size_t moved_ = 0; ///< super-elements that changed their subdomain

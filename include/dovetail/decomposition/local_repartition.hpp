@@ -1,5 +1,5 @@
 /// @file
-/// Detours of interfaces: where remeshing shows that a side is no good one between parts, the super-elements
+/// Local repartition: where remeshing shows that a side is no good one between parts, the super-elements
 /// beside it are joined.
 #pragma once
 
@@ -19,17 +19,17 @@ namespace dovetail {
 /// Keeps a list of places that interfaces are to avoid, and gives super-elements there to other parts. Mesh,
 /// sides and decomposition must outlive it.
 template <int D>
-class interface_detours {
+class local_repartition {
 public:
-  interface_detours(const simplicial_mesh<D>& mesh, const side_table<D>& sides, const decomposition& pieces)
+  local_repartition(const simplicial_mesh<D>& mesh, const side_table<D>& sides, const decomposition& pieces)
       : mesh_(mesh), sides_(sides), pieces_(pieces) {}
 
   /// A place is a list of sides, of which one at least should lie inside a part. Adds some to those of
-  /// earlier calls and makes detours around them, at the least penalty of what then lies between parts. Parts
-  /// stay connected, of one material and as manifold as they are, and gain little weight where others can. A
-  /// place where that is not possible stays as it is. `parts` are those of `part_of_element`, which may have
-  /// been merged since the decomposition. Returns the number of super-elements that went. About linear in the
-  /// mesh, as long as the places are few.
+  /// earlier calls and moves interfaces away from them, at the least penalty of what then lies between parts.
+  /// Parts stay connected, of one material and as manifold as they are, and gain little weight where others
+  /// can. A place where that is not possible stays as it is. `parts` are those of `part_of_element`, which
+  /// may have been merged since the decomposition. Returns the number of super-elements that went. About
+  /// linear in the mesh, as long as the places are few.
   std::size_t avoid(std::span<const std::vector<local_id>> places, std::vector<local_id>& part_of_element,
                     local_id parts) {
     append(places_, places);

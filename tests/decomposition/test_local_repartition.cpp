@@ -1,4 +1,4 @@
-#include "dovetail/decomposition/detours.hpp"
+#include "dovetail/decomposition/local_repartition.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/none.hpp"
@@ -60,7 +60,7 @@ struct decomposed {
 TEST_CASE("interfaces avoid sides, and go on to avoid them; parts stay connected and manifold") {
   const decomposed given(jittered_cubes(7, 0.15, 1), 5);
   REQUIRE(given.defective_points(given.pieces.part_of_element).empty());
-  interface_detours<3> detours(given.mesh, given.sides, given.pieces);
+  local_repartition<3> repartition(given.mesh, given.sides, given.pieces);
   std::vector<local_id> part = given.pieces.part_of_element, all;
   const auto between = given.sides_between_parts();
   REQUIRE(between.size() > 100);
@@ -73,7 +73,7 @@ TEST_CASE("interfaces avoid sides, and go on to avoid them; parts stay connected
         all.push_back(between[k]);
       }
     REQUIRE_FALSE(places.empty());
-    CHECK(detours.avoid(places, part, given.pieces.parts) > 0);
+    CHECK(repartition.avoid(places, part, given.pieces.parts) > 0);
     for (const local_id side : all)
       CHECK_FALSE(given.is_between(side, part));
     CHECK(given.defective_points(part).empty());
@@ -83,15 +83,15 @@ TEST_CASE("interfaces avoid sides, and go on to avoid them; parts stay connected
 
 TEST_CASE("of a place with two sides one is enough; what is avoided already stays as it is") {
   const decomposed given(jittered_cubes(6, 0.15, 2), 3);
-  interface_detours<3> detours(given.mesh, given.sides, given.pieces);
+  local_repartition<3> repartition(given.mesh, given.sides, given.pieces);
   std::vector<local_id> part = given.pieces.part_of_element;
   const auto between = given.sides_between_parts();
   const std::vector<local_id> both{between.front(), between.back()};
   const places_to_avoid place{both};
-  CHECK(detours.avoid(place, part, given.pieces.parts) > 0);
+  CHECK(repartition.avoid(place, part, given.pieces.parts) > 0);
   CHECK(given.is_between(both[0], part) != given.is_between(both[1], part));
   const auto before = part;
-  CHECK(detours.avoid(place, part, given.pieces.parts) == 0);
+  CHECK(repartition.avoid(place, part, given.pieces.parts) == 0);
   CHECK(part == before);
 }
 
@@ -99,8 +99,8 @@ TEST_CASE("no part is emptied") {
   const decomposed two(jittered_cubes(1, 0, 1), 6); // six tetrahedra in a cube, each a part
   std::vector<local_id> part = two.pieces.part_of_element;
   const auto before = part;
-  interface_detours<3> detours(two.mesh, two.sides, two.pieces);
+  local_repartition<3> repartition(two.mesh, two.sides, two.pieces);
   const places_to_avoid place{{two.sides_between_parts().front()}};
-  CHECK(detours.avoid(place, part, two.pieces.parts) == 0);
+  CHECK(repartition.avoid(place, part, two.pieces.parts) == 0);
   CHECK(part == before);
 }
