@@ -6,7 +6,7 @@
 #include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
-#include "io/stacked_cubes.hpp"
+#include "files/stacked_cubes.hpp"
 
 #include <cstdio>
 #include <cstdlib>

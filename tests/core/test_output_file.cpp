@@ -1,5 +1,5 @@
 #include "dovetail/core/output_file.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 driver=$1
 source "$(dirname "$0")/expectations.sh"
 limit=120
-reader=$(dirname "$0")/../io/check_rank_files.py
+reader=$(dirname "$0")/../files/check_rank_files.py
 
 write_cube >"$inputs/cube.off"
 small=(mesh "$inputs/cube.off" --size 0.15 --improver none)

@@ -3,7 +3,7 @@
 #include "png.hpp"
 
 #include "dovetail/core/xml_tree.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 #include "support/refusal.hpp"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 #include "file_place.hpp"
 
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,8 +6,8 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "io/scratch_folder.hpp"
-#include "io/stacked_cubes.hpp"
+#include "files/scratch_folder.hpp"
+#include "files/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
 

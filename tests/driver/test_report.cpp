@@ -3,7 +3,7 @@
 #include "file_checksums.hpp"
 
 #include "dovetail/core/error.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "entry_points.hpp"
 
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 /// Eigen's views of meshes.
-#include "io/stacked_cubes.hpp"
+#include "files/stacked_cubes.hpp"
 
 #include "dovetail/adapters/eigen.hpp"
 

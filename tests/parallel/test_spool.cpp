@@ -4,7 +4,7 @@
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,9 +10,9 @@
 #include "dovetail/sizing/uniform.hpp"
 #include "dovetail/solver/adapt.hpp"
 #include "dovetail/solver/gather.hpp"
-#include "geometry/discrete_shapes.hpp"
-#include "geometry/model_checks.hpp"
-#include "io/stacked_cubes.hpp"
+#include "files/stacked_cubes.hpp"
+#include "models/discrete_shapes.hpp"
+#include "models/model_checks.hpp"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/uniform.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 #include "solid_meshes.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>

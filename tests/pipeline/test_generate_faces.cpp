@@ -2,7 +2,7 @@
 
 #include "dovetail/models/occt/shape.hpp"
 #include "dovetail/models/occt_model.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>

@@ -9,7 +9,7 @@
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/serial.hpp"
-#include "geometry/discrete_shapes.hpp"
+#include "models/discrete_shapes.hpp"
 #include "ranked_meshes.hpp"
 
 #include <optional>

@@ -4,7 +4,7 @@
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/models/plane/read.hpp"
 #include "dovetail/parallel/threads.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <chrono>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/threads.hpp"
-#include "geometry/discrete_shapes.hpp"
+#include "models/discrete_shapes.hpp"
 
 using namespace dovetail;
 using namespace dovetail::testing;

@@ -8,7 +8,7 @@
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/sizing/sources.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>

@@ -7,7 +7,7 @@
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/simplification/paper.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 #include "mesher/surface_mesher_contract.hpp"
 #include "pipeline/plane_meshes.hpp"
 

@@ -17,7 +17,7 @@
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 #include "support/refusal.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>

@@ -2,7 +2,7 @@
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
-#include "geometry/discrete_shapes.hpp"
+#include "models/discrete_shapes.hpp"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -7,7 +7,7 @@
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
-#include "io/scratch_folder.hpp"
+#include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,121 @@
+// VTK itself reads what the VTU writer writes (scripts/check_mesh.py says what it found), and the VTU reader
+// reads what VTK writes.
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/files/write_vtu.hpp"
+#include "dovetail/files/zlib.hpp"
+#include "dovetail/mesh/mesh_hash.hpp"
+#include "files/scratch_folder.hpp"
+#include "files/stacked_cubes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+
+using namespace dovetail;
+
+namespace {
+
+const std::string python = "/usr/bin/python3";
+
+/// The script's exit status (0: valid) and what it printed.
+std::pair<int, std::string> check(const std::filesystem::path& folder) {
+  const auto log = folder / "check.json";
+  const int status = std::system(
+      (python + " " DOVETAIL_SCRIPTS "/check_mesh.py '" + folder.string() + "' > '" + log.string() + "' 2>&1")
+          .c_str());
+  return {status, testing::file_content(log)};
+}
+
+bool has_vtk() {
+  if (std::system((python + " -c 'import vtkmodules.vtkIOXML, numpy' > /dev/null 2>&1").c_str()) == 0)
+    return true;
+  MESSAGE("skipped: python3-vtk9 is not installed");
+  return false;
+}
+
+const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
+
+} // namespace
+
+TEST_CASE("VTK reads a valid mesh, for any number of files") {
+  if (!has_vtk())
+    return;
+  for (const int files : {0, 1, 3, 100}) {
+    const testing::scratch_folder folder("vtk_check");
+    io::vtu_writer{.files = files}(cubes.distributed(), folder);
+    const auto [status, log] = check(folder);
+    INFO(log);
+    CHECK(status == 0);
+    CHECK(log.find("\"elements\": 3072") != std::string::npos);
+    CHECK(log.find("\"vertices\": 729") != std::string::npos);
+    CHECK(log.find("\"subdomains\": 8") != std::string::npos);
+    CHECK(log.find("\"solid \\\"1\\\" <&>\"") != std::string::npos);
+    CHECK(log.find("\"side walls\": 4.0") != std::string::npos);
+    CHECK(log.find("\"euler_characteristic\": 2") != std::string::npos);
+  }
+}
+
+TEST_CASE("the check finds a crack, an inverted element and a wrong surface") {
+  if (!has_vtk())
+    return;
+  const auto spoil = [](auto change) {
+    auto mesh = cubes.distributed();
+    mesh.load = [load = mesh.load, change](local_id p) {
+      auto piece = load(p);
+      if (p == 1)
+        change(piece);
+      return piece;
+    };
+    const testing::scratch_folder folder("vtk_spoilt");
+    io::vtu_writer{}(mesh, folder);
+    return check(folder);
+  };
+  const auto inverted =
+      spoil([](mesh_piece& piece) { std::swap(piece.mesh.elements[9][0], piece.mesh.elements[9][1]); });
+  CHECK(inverted.first != 0);
+  CHECK(inverted.second.find("without positive volume") != std::string::npos);
+  const auto cracked = spoil([](mesh_piece& piece) { piece.mesh.elements[9] = piece.mesh.elements[8]; });
+  CHECK(cracked.first != 0);
+  CHECK(cracked.second.find("surface.vtp is not the boundary") != std::string::npos);
+}
+
+TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zlib, both byte orders") {
+  if (!has_vtk())
+    return;
+  const testing::scratch_folder folder("vtk_variants");
+  const auto mesh = cubes.whole();
+  std::vector<double> sizes;
+  for (const auto& p : mesh.points)
+    sizes.push_back(0.1 + p.x * p.y);
+  io::write_vtu(mesh, folder / "mesh.vtu", {{"size", sizes}});
+  const auto variants = folder / "variants";
+  std::filesystem::create_directory(variants);
+  REQUIRE(std::system((python + " " DOVETAIL_TESTS "/write_vtk_variants.py '" +
+                       (folder / "mesh.vtu").string() + "' '" + variants.string() + "' > /dev/null 2>&1")
+                          .c_str()) == 0);
+  std::size_t read_files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(variants)) {
+    if (entry.path().filename() == "lz4") {
+      CHECK_THROWS_WITH_AS(io::read_mesh(entry.path(), io::zlib_expand),
+                           doctest::Contains("vtkLZ4DataCompressor"), input_error);
+      continue;
+    }
+    CAPTURE(entry.path().string());
+    const auto read = io::read_mesh(entry.path(), io::zlib_expand);
+    ++read_files;
+    CHECK(read.mesh.elements == mesh.elements);
+    CHECK(read.mesh.tags == mesh.tags);
+    REQUIRE(read.scalars("size") != nullptr);
+    if (entry.path().filename().string().starts_with("Ascii")) {
+      REQUIRE(read.mesh.points.size() == mesh.points.size());
+      for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        CHECK(distance(read.mesh.points[v], mesh.points[v]) < 1e-6);
+    } else {
+      CHECK(read.mesh.points == mesh.points);
+      CHECK(*read.scalars("size") == sizes);
+    }
+  }
+  CHECK(read_files == 2 + 3 * 2 * 2 * 2);
+}
