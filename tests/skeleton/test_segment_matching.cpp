@@ -32,19 +32,22 @@ struct two_faces {
     region_store made_patches(store);
     const refined_sizing size(unit_size);
     numbered_lines lines;
+    const surface_mesh no_surface;
+    const std::vector<local_id> material{0};
+    const skeleton_to_remesh of{no_lines_on_it, no_surface, points, skeleton, lines, size, material};
     const auto fill = [&] {
       lines = number_lines(
           skeleton,
           remesh_lines(no_lines_on_it, skeleton.lines, points, size, parallel::serial{}, made_lines), points,
           {});
-      return remesh_skeleton(no_lines_on_it, surface_mesh{}, points, skeleton, lines, size,
-                             any_surface_mesher(), std::vector<local_id>(1, 0), parallel::serial{},
-                             made_patches);
+      return mesh_patches(of, any_surface_mesher(), parallel::serial{}, made_patches);
     };
-    auto made = fill();
-    matched = match_segments(no_lines_on_it, points, skeleton, lines.lines, made, size, least_angle_deg,
-                             any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
-    return matched == 0 ? made : fill();
+    auto patches = fill();
+    matched =
+        match_segments(no_lines_on_it, points, skeleton, lines.lines,
+                       faces_with_small_angles(patches, skeleton, made_patches, least_angle_deg), size,
+                       least_angle_deg, any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
+    return join_patches(of, matched == 0 ? std::move(patches) : fill(), parallel::serial{}, made_patches);
   }
 };
 

@@ -37,8 +37,10 @@ fine_skeleton strip(const any_executor& run, const std::shared_ptr<entity_store>
   region_store made_patches(store);
   const numbered_lines lines = number_lines(
       coarse, remesh_lines(no_lines_on_it, coarse.lines, points, size, run, made_lines), points, {});
-  return remesh_skeleton(no_lines_on_it, surface_mesh{}, points, coarse, lines, size, any_surface_mesher(),
-                         std::vector<local_id>{7, 7}, run, made_patches)
+  const surface_mesh no_surface;
+  const std::vector<local_id> materials{7, 7};
+  return remesh_skeleton({no_lines_on_it, no_surface, points, coarse, lines, size, materials},
+                         any_surface_mesher(), run, made_patches)
       .fine;
 }
 

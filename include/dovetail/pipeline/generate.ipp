@@ -75,7 +75,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   any_parameters<D> given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
-  const given_up_decompositions<D> given_up(given);
+  given_up_decompositions<D> given_up(given);
   report account; // of decompositions that were given up
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     if (auto found = given_up.find(background)) {

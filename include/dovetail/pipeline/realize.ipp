@@ -64,6 +64,39 @@ inline realized<2> realize_boundaries(const any_geometry& model, const simplicia
   return result;
 }
 
+/// The patches of a skeleton, on lines with numbers of segments that suit each other. Better small angles
+/// than patches that fail: then on the lines as they were.
+inline skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
+                                                 skeleton_store& made, const any_parameters<3>& given) {
+  const progress& on_progress = given.options.on_progress;
+  const auto fill = [&] {
+    return mesh_patches(of, given.mesh_surface, given.run_tasks, made.patches, on_progress);
+  };
+  const auto fill_again = [&] {
+    space_lines<3>(of.model, of.surface, of.coarse_points, of.size, made, given, result);
+    return fill();
+  };
+  auto patches = fill();
+  const stopwatch clock;
+  const double wanted = wanted_angles_of<3>(given.simplify_by).face_deg;
+  std::size_t matched = 0;
+  if (patches.failures.empty())
+    matched = match_segments(of.model, of.coarse_points, result.coarse, result.lines.lines,
+                             faces_with_small_angles(patches, result.coarse, made.patches, wanted), of.size,
+                             wanted, given.mesh_surface, given.run_tasks, made.segments, on_progress);
+  result.summary.set("matching_seconds", clock.seconds());
+  if (matched > 0)
+    patches = fill_again();
+  if (matched > 0 && !patches.failures.empty()) {
+    for (skeleton_line& line : result.coarse.lines)
+      line.segments = 0, line.bias = 0;
+    patches = fill_again();
+    matched = 0;
+  }
+  result.summary.set("matched_lines", static_cast<double>(matched));
+  return patches;
+}
+
 inline realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
                                       const divided_background<3>& divided,
                                       const std::vector<local_id>& subdomain_of_element,
@@ -74,34 +107,10 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
   auto result = realize_lines<3>(
       model, mesh.surface, mesh.points(), induced_subdomains(divided.beside_surface, subdomain_of_element),
       interface_faces(mesh, divided.sides, subdomain_of_element, mesh_state::valid), size, made, given);
-  const auto fill = [&] {
-    return remesh_skeleton(model, mesh.surface, mesh.points(), result.coarse, result.lines, size,
-                           given.mesh_surface, material_of_subdomain, given.run_tasks, made.patches,
-                           given.options.on_progress);
-  };
-  auto remeshed = fill();
-  const stopwatch matching_clock;
-  const std::size_t matched =
-      match_segments(model, mesh.points(), result.coarse, result.lines.lines, remeshed, size,
-                     wanted_angles_of<3>(given.simplify_by).face_deg, given.mesh_surface, given.run_tasks,
-                     made.segments, given.options.on_progress);
-  result.summary.set("matched_lines", static_cast<double>(matched));
-  result.summary.set("matching_seconds", matching_clock.seconds());
-  const auto fill_again = [&] {
-    remeshed = {};
-    space_lines<3>(model, mesh.surface, mesh.points(), size, made, given, result);
-    remeshed = fill();
-  };
-  if (matched > 0) {
-    const std::size_t failures = remeshed.patches.failures.size();
-    fill_again();
-    if (remeshed.patches.failures.size() > failures) { // better small angles than patches that fail
-      for (skeleton_line& line : result.coarse.lines)
-        line.segments = 0, line.bias = 0;
-      fill_again();
-      result.summary.set("matched_lines", 0);
-    }
-  }
+  const skeleton_to_remesh of{model,        mesh.surface, mesh.points(),        result.coarse,
+                              result.lines, size,         material_of_subdomain};
+  auto remeshed = join_patches(of, patches_on_matched_lines(of, result, made, given), given.run_tasks,
+                               made.patches, given.options.on_progress);
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
   result.lines = {};

@@ -79,6 +79,7 @@ struct region_store {
     std::size_t inner_points = 0, triangles = 0;
     bool is_faulty = false; ///< folded over, or no mesh at all as its boundary crosses itself
     surface_deviation deviation = {};
+    double least_angle_deg = 180;        ///< of a triangle's corners, where it was asked for
     std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
   };
 
@@ -126,6 +127,7 @@ struct mesh_regions_options {
   region_attempts attempts = {};
   bool parameters = true; ///< false: the meshes come without `inner_uv`
   bool deviation = false; ///< true: meshes on CAD faces have their `surface_deviation` in their summary
+  bool angles = false;    ///< true: the others have their least corner angle there
   double triangles_per_task = 4096;
   progress on_progress = {};
   std::string stage = "regions";

@@ -6,6 +6,7 @@
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/chords.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
@@ -112,6 +113,18 @@ inline void check_region(const any_surface_mesher& mesher, const patch_boundary&
     throw mesher_error(who + "its triangles leave a hole or lie upon each other");
 }
 
+/// In degrees; 180 without triangles.
+inline double least_corner_angle(const patch_boundary& boundary, const patch_mesh& made) {
+  const auto point = [&](local_id v) {
+    const auto i = static_cast<std::size_t>(v), frozen = boundary.points.size();
+    return i < frozen ? boundary.points[i] : made.inner_points[i - frozen];
+  };
+  double least = 180;
+  for (const auto& [a, b, c] : made.triangles)
+    least = std::min(least, smallest_corner_angle({point(a), point(b), point(c)}));
+  return least;
+}
+
 /// The meshes of the regions of one set.
 class region_making {
 public:
@@ -163,7 +176,7 @@ private:
         forbidden.push_back({at_x->second, at_y->second});
     key_maker make(size_.key_near(place(model_, r, b)));
     make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
-        std::int64_t{options_.parameters})(std::int64_t{options_.deviation});
+        std::int64_t{options_.parameters})(std::int64_t{options_.deviation})(std::int64_t{options_.angles});
     make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
     if (!set_.surface_keys.empty())
       make(static_cast<std::int64_t>(set_.surface_keys[r].value));
@@ -204,9 +217,11 @@ private:
         [&](std::size_t r, const patch_mesh& mesh) {
           const auto labels = std::as_const(result_.labels)[r];
           store_.known[result_.keys[r]] = {
-              mesh.inner_points.size(), mesh.triangles.size(),
+              mesh.inner_points.size(),
+              mesh.triangles.size(),
               !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
               deviation_in(mesh.summary),
+              mesh.summary.get("least_angle_deg", 180),
               chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
         });
   }
@@ -224,6 +239,8 @@ private:
       made.summary.set("cut_off", off.cut_off);
       made.summary.set("gap", off.gap);
     }
+    if (options_.angles && region.face == no_id)
+      made.summary.set("least_angle_deg", least_corner_angle(region.boundary, made));
     if (!options_.parameters)
       made.inner_uv.clear();
     return made;

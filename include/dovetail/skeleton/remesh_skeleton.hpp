@@ -41,17 +41,48 @@ struct remeshed_skeleton {
   report summary;
 };
 
-/// Remeshes what lies between remeshed lines to the sizing field. The result is on all ranks, in memory that
-/// they share where they have one spool. `made` carries patches from one call to the next as long as the
-/// model, the plain field and the mesher are the same. "patches_made" in the summary are those that were not
-/// in it. About linear in the triangles made. Faults come back as `failures`; throws `mesher_error` when a
-/// patch cannot be evaluated at all.
-remeshed_skeleton remesh_skeleton(const any_geometry& model, const surface_mesh& surface,
-                                  std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                                  const numbered_lines& lines, const refined_sizing& size,
-                                  const any_surface_mesher& mesher,
-                                  std::span<const local_id> material_of_subdomain, const any_executor& run,
-                                  region_store& made, const progress& on_progress = {});
+/// What is remeshed: a skeleton of a coarse surface and what lies inside it, with its lines. All of it
+/// outlives the calls that it is given to.
+struct skeleton_to_remesh {
+  const any_geometry& model;
+  const surface_mesh& surface;
+  std::span<const vec3> coarse_points;
+  const coarse_skeleton& skeleton;
+  const numbered_lines& lines;
+  const refined_sizing& size;
+  std::span<const local_id> material_of_subdomain;
+};
+
+/// The patches of a skeleton before they are put together; they lie in the store that they were made with.
+struct skeleton_patches {
+  meshed_regions meshes;
+  std::vector<patch_failure> failures;
+  std::size_t made = 0; ///< that were not in the store
+};
+
+/// Remeshes what lies between remeshed lines to the sizing field. `made` carries patches from one call to the
+/// next as long as the model, the plain field and the mesher are the same. About linear in the triangles
+/// made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at all.
+skeleton_patches mesh_patches(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
+                              const any_executor& run, region_store& made, const progress& on_progress = {});
+
+/// The interface faces with an angle below a threshold, growing.
+std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
+                                              const coarse_skeleton& skeleton, const region_store& made,
+                                              double threshold_deg);
+
+/// Puts patches together. The result is on all ranks, in memory that they share where they have one spool.
+/// Linear.
+remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
+                               const any_executor& run, const region_store& made,
+                               const progress& on_progress = {});
+
+/// `mesh_patches` and `join_patches`.
+inline remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
+                                         const any_executor& run, region_store& made,
+                                         const progress& on_progress = {}) {
+  return join_patches(of, mesh_patches(of, mesher, run, made, on_progress), run, made, on_progress);
+}
 
 } // namespace dovetail
 

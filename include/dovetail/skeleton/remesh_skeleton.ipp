@@ -17,48 +17,12 @@ namespace dovetail {
 
 namespace detail {
 
-class skeleton_remesher {
+/// The patches of a skeleton, and what is wrong with one.
+class skeleton_parts {
 public:
-  skeleton_remesher(const any_geometry& model, const surface_mesh& surface,
-                    std::span<const vec3> coarse_points, const coarse_skeleton& skeleton,
-                    const numbered_lines& lines, const refined_sizing& size, const any_surface_mesher& mesher,
-                    std::span<const local_id> material_of_subdomain, const any_executor& run,
-                    region_store& made, const progress& on_progress)
-      : model_(model), surface_(surface), coarse_points_(coarse_points), skeleton_(skeleton), lines_(lines),
-        size_(size), mesher_(mesher), material_of_subdomain_(material_of_subdomain), run_(run), store_(made),
-        on_progress_(on_progress) {}
-
-  remeshed_skeleton run() {
-    const std::size_t made_before = store_.meshes.made();
-    mesh_patches();
-    remeshed_skeleton result = assemble();
-    result.summary.set("interface_faces", static_cast<double>(skeleton_.faces.size()));
-    result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
-    result.summary.set("points", static_cast<double>(result.fine.points.size()));
-    result.summary.set("patches_made", static_cast<double>(store_.meshes.made() - made_before));
-    return result;
-  }
-
-private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  bool is_region(std::size_t patch) const { return patch < skeleton_.regions.size(); }
-  const skeleton_face& face_of(std::size_t patch) const {
-    return skeleton_.faces[patch - skeleton_.regions.size()];
-  }
-
-  skeleton_patch patch(std::size_t p) const {
-    return is_region(p) ? region_patch(model_, surface_, skeleton_.regions[p], lines_)
-                        : interface_patch(face_of(p), coarse_points_, lines_).patch;
-  }
-
-  surface_region region(std::size_t p) const {
-    surface_region built;
-    built.boundary = patch(p).boundary;
-    if (is_region(p))
-      built.face = skeleton_.regions[p].cad_face;
-    built.reversed = is_reversed(p);
-    return built;
-  }
+  explicit skeleton_parts(const skeleton_to_remesh& of)
+      : model_(of.model), surface_(of.surface), coarse_points_(of.coarse_points), skeleton_(of.skeleton),
+        lines_(of.lines) {}
 
   bool is_reversed(std::size_t p) const {
     return is_region(p) ? model_.topology().faces[at(skeleton_.regions[p].cad_face)].reversed
@@ -83,17 +47,6 @@ private:
     return set;
   }
 
-  void mesh_patches() {
-    region_set set = patches();
-    meshed_ = mesh_regions(
-        model_, set, mesher_, size_, run_, store_,
-        {.parameters = false, .deviation = true, .on_progress = on_progress_, .stage = "skeleton"});
-    if (!meshed_.failures.empty()) {
-      const auto& [patch, reason] = *meshed_.failures.begin();
-      throw mesher_error("remeshing of " + name_of(patch) + " failed: " + reason);
-    }
-  }
-
   std::string name_of(std::size_t p) const {
     if (!is_region(p))
       return "interface face " + std::to_string(p - skeleton_.regions.size());
@@ -101,35 +54,6 @@ private:
     const std::string& name = model_.topology().faces[at(f)].name;
     return "a region of face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
   }
-
-  remeshed_skeleton assemble() {
-    const patches_to_join patches{skeleton_,
-                                  lines_,
-                                  meshed_,
-                                  store_,
-                                  [this](std::size_t p) { return is_reversed(p); },
-                                  material_of_subdomain_};
-    const skeleton_assembly assembly(patches);
-    remeshed_skeleton result;
-    result.fine = assembly.run(run_, on_progress_);
-    result.patches.line_points = static_cast<local_id>(lines_.points.size());
-    for (const std::size_t first : assembly.first_triangles())
-      result.patches.first_triangle.push_back(static_cast<local_id>(first));
-    report deviation;
-    for (std::size_t p = 0; p < skeleton_.regions.size(); ++p)
-      note_deviation(deviation, "face " + std::to_string(skeleton_.regions[p].cad_face), known(p).deviation);
-    meshed_.for_each(
-        store_, [&](std::size_t p) { return known(p).is_faulty; },
-        [&](std::size_t p, const patch_mesh& mesh) {
-          result.patches.failures.push_back(failure_of(p, mesh));
-        });
-    result.patches.keys = std::move(meshed_.keys);
-    warn_of_deviations(result.summary, deviation);
-    result.summary.children.push_back(std::move(deviation));
-    return result;
-  }
-
-  const region_store::known_mesh& known(std::size_t p) const { return store_.known.at(meshed_.keys[p]); }
 
   patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {
     patch_failure failure;
@@ -167,30 +91,100 @@ private:
     return failure;
   }
 
+private:
+  skeleton_patch patch(std::size_t p) const {
+    return is_region(p) ? region_patch(model_, surface_, skeleton_.regions[p], lines_)
+                        : interface_patch(face_of(p), coarse_points_, lines_).patch;
+  }
+
+  surface_region region(std::size_t p) const {
+    surface_region built;
+    built.boundary = patch(p).boundary;
+    if (is_region(p))
+      built.face = skeleton_.regions[p].cad_face;
+    built.reversed = is_reversed(p);
+    return built;
+  }
+
+  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
+  bool is_region(std::size_t patch) const { return patch < skeleton_.regions.size(); }
+  const skeleton_face& face_of(std::size_t patch) const {
+    return skeleton_.faces[patch - skeleton_.regions.size()];
+  }
+
   const any_geometry& model_;
   const surface_mesh& surface_;
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
   const numbered_lines& lines_;
-  const refined_sizing& size_;
-  const any_surface_mesher& mesher_;
-  std::span<const local_id> material_of_subdomain_;
-  const any_executor& run_;
-  region_store& store_;
-  const progress& on_progress_;
-  meshed_regions meshed_;
 };
 
 } // namespace detail
 
-DOVETAIL_INLINE remeshed_skeleton
-remesh_skeleton(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
-                const coarse_skeleton& skeleton, const numbered_lines& lines, const refined_sizing& size,
-                const any_surface_mesher& mesher, std::span<const local_id> material_of_subdomain,
-                const any_executor& run, region_store& made, const progress& on_progress) {
-  return detail::skeleton_remesher(model, surface, coarse_points, skeleton, lines, size, mesher,
-                                   material_of_subdomain, run, made, on_progress)
-      .run();
+DOVETAIL_INLINE skeleton_patches mesh_patches(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
+                                              const any_executor& run, region_store& made,
+                                              const progress& on_progress) {
+  const std::size_t made_before = made.meshes.made();
+  const detail::skeleton_parts parts(of);
+  region_set set = parts.patches();
+  skeleton_patches result;
+  result.meshes = mesh_regions(of.model, set, mesher, of.size, run, made,
+                               {.parameters = false,
+                                .deviation = true,
+                                .angles = true,
+                                .on_progress = on_progress,
+                                .stage = "skeleton"});
+  if (!result.meshes.failures.empty()) {
+    const auto& [patch, reason] = *result.meshes.failures.begin();
+    throw mesher_error("remeshing of " + parts.name_of(patch) + " failed: " + reason);
+  }
+  result.meshes.for_each(
+      made, [&](std::size_t p) { return made.known.at(result.meshes.keys[p]).is_faulty; },
+      [&](std::size_t p, const patch_mesh& mesh) { result.failures.push_back(parts.failure_of(p, mesh)); });
+  result.made = made.meshes.made() - made_before;
+  return result;
+}
+
+DOVETAIL_INLINE std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
+                                                              const coarse_skeleton& skeleton,
+                                                              const region_store& made,
+                                                              double threshold_deg) {
+  std::vector<local_id> faces;
+  for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
+    if (made.known.at(patches.meshes.keys[skeleton.regions.size() + f]).least_angle_deg < threshold_deg)
+      faces.push_back(static_cast<local_id>(f));
+  return faces;
+}
+
+DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
+                                               const any_executor& run, const region_store& made,
+                                               const progress& on_progress) {
+  const detail::skeleton_parts parts(of);
+  const detail::patches_to_join joined{of.skeleton,
+                                       of.lines,
+                                       patches.meshes,
+                                       made,
+                                       [&](std::size_t p) { return parts.is_reversed(p); },
+                                       of.material_of_subdomain};
+  const detail::skeleton_assembly assembly(joined);
+  remeshed_skeleton result;
+  result.fine = assembly.run(run, on_progress);
+  result.patches.line_points = static_cast<local_id>(of.lines.points.size());
+  for (const std::size_t first : assembly.first_triangles())
+    result.patches.first_triangle.push_back(static_cast<local_id>(first));
+  report deviation;
+  for (std::size_t p = 0; p < of.skeleton.regions.size(); ++p)
+    note_deviation(deviation, "face " + std::to_string(of.skeleton.regions[p].cad_face),
+                   made.known.at(patches.meshes.keys[p]).deviation);
+  result.patches.keys = std::move(patches.meshes.keys);
+  result.patches.failures = std::move(patches.failures);
+  warn_of_deviations(result.summary, deviation);
+  result.summary.children.push_back(std::move(deviation));
+  result.summary.set("interface_faces", static_cast<double>(of.skeleton.faces.size()));
+  result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
+  result.summary.set("points", static_cast<double>(result.fine.points.size()));
+  result.summary.set("patches_made", static_cast<double>(patches.made));
+  return result;
 }
 
 } // namespace dovetail

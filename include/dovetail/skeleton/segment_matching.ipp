@@ -4,8 +4,6 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/quality.hpp"
-#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
@@ -135,45 +133,14 @@ private:
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed
 };
 
-/// Growing. In tasks: a large skeleton has millions of triangles.
-inline std::vector<local_id> faces_with_small_angles(const coarse_skeleton& skeleton,
-                                                     const remeshed_skeleton& made, double threshold_deg,
-                                                     const any_executor& run, const progress& on_progress) {
-  constexpr std::size_t faces_per_task = 2000; // some ten milliseconds
-  const auto is_small = [&](const simplex<2>& t) {
-    return smallest_corner_angle(corners(span_of(made.fine.points), t)) < threshold_deg;
-  };
-  const std::size_t count = skeleton.faces.size();
-  auto results = map_tasks(
-      run, (count + faces_per_task - 1) / faces_per_task,
-      [&](std::size_t task) {
-        std::vector<local_id> small;
-        for (std::size_t f = task * faces_per_task; f < std::min(count, (task + 1) * faces_per_task); ++f) {
-          const auto first =
-              made.patches.first_triangle.begin() + static_cast<std::ptrdiff_t>(skeleton.regions.size() + f);
-          if (std::any_of(made.fine.sides.begin() + first[0], made.fine.sides.begin() + first[1], is_small))
-            small.push_back(static_cast<local_id>(f));
-        }
-        return small;
-      },
-      run_options{.on_progress = on_progress, .stage = "matching"});
-  std::vector<local_id> faces;
-  for (const auto& small : values_of(std::move(results), "the search for small angles"))
-    append(faces, small);
-  return faces;
-}
-
 } // namespace detail
 
 DOVETAIL_INLINE std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
                                            coarse_skeleton& skeleton, std::vector<fine_line> lines,
-                                           const remeshed_skeleton& remeshed, const refined_sizing& size,
+                                           std::vector<local_id> faces, const refined_sizing& size,
                                            double threshold_deg, const any_surface_mesher& mesher,
                                            const any_executor& run, batched_entities<face_segments>& made,
                                            const progress& on_progress) {
-  if (!remeshed.patches.failures.empty())
-    return 0;
-  auto faces = detail::faces_with_small_angles(skeleton, remeshed, threshold_deg, run, on_progress);
   if (faces.empty())
     return 0;
   detail::segment_matcher(

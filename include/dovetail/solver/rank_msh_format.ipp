@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/files/msh_writer.ipp"
+#include "dovetail/files/msh_document.hpp"
 #include "dovetail/solver/rank_msh_format.hpp"
 
 #include <algorithm>
