@@ -54,6 +54,10 @@ public:
 private:
   /// Of the weight of a part, beyond which others are preferred.
   static constexpr double growth = 1.02;
+  /// Super-elements that may change their part together where boundaries have to be kept manifold. What
+  /// needs more is not local: it mostly fails in the end, and took longer than all the rest of a large
+  /// decomposition.
+  static constexpr std::size_t most_reassigned = 32;
 
   /// Super-elements of one part that go to another.
   struct move {
@@ -152,7 +156,7 @@ private:
     };
     parts.assign(supers, wanted.to);
     if (adds_defects())
-      repair.repair(parts.points_of(supers));
+      repair.repair(parts.points_of(supers), most_reassigned - std::min(most_reassigned, supers.size()));
     if (!adds_defects() && avoided(parts) > avoided_before)
       return true;
     parts.go_back_to(before);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <set>
 #include <span>
 #include <tuple>
@@ -32,8 +33,11 @@ public:
   /// Repairs what can be repaired.
   void run() { repair(defective_points()); }
 
-  /// Repairs what can be repaired at some points, and what comes up beside them meanwhile.
-  void repair(const std::vector<local_id>& points) {
+  /// Repairs what can be repaired at some points, and what comes up beside them meanwhile. Once `most`
+  /// super-elements were reassigned for it the rest stays as it is.
+  void repair(const std::vector<local_id>& points,
+              std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    const std::size_t before = parts_.assignments();
     std::set<local_id> open(points.begin(), points.end());
     std::set<local_id> filled;
     while (!open.empty()) {
@@ -42,6 +46,8 @@ public:
       open.erase(open.begin());
       if (!parts_.defects_at(v).any())
         continue;
+      if (parts_.assignments() - before >= most)
+        return;
       const change best = best_change(v);
       std::vector<local_id> changed = best.supers;
       if (!changed.empty())

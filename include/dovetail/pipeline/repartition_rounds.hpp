@@ -32,6 +32,7 @@ public:
                                  local_id subdomains, const Realize& realize, const Crosses& crosses,
                                  const SmallAngles& small_angles, double& seconds) {
     auto places = small_angles(made);
+    const stopwatch cost;
     auto best = std::pair(places.size(), subdomain_of_element);
     while (are_wanted_ && !places.empty() && places.size() <= most_places && rounds_ < most_rounds) {
       const auto before = subdomain_of_element;
@@ -59,6 +60,8 @@ public:
     }
     made.summary.set("repartition_rounds", rounds_);
     made.summary.set("repartitioned", static_cast<double>(moved_));
+    seconds_ += rounds_ > 0 ? cost.seconds() : 0;
+    made.summary.set("repartition_seconds", seconds_);
     return made;
   }
 
@@ -72,6 +75,7 @@ private:
   local_repartition<D> repartition_;
   bool are_wanted_;
   int rounds_ = 0;
+  double seconds_ = 0;
   std::size_t moved_ = 0; ///< super-elements that changed their subdomain
 };
 
