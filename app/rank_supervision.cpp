@@ -2,9 +2,9 @@
 
 #include "failure.hpp"
 
-#include <cstdlib>
-
 #ifdef DOVETAIL_DRIVER_WITH_MPI
+#include "mpi_segments.hpp"
+#include "mpirun_rank.hpp"
 #include "neighbouring_relays.hpp"
 #include "rank_partitioner.hpp"
 #include "supervision.hpp"
@@ -36,22 +36,6 @@
 #endif
 
 namespace dovetail::app {
-
-mpirun_rank rank_of_mpirun() {
-  struct names {
-    const char* rank;
-    const char* size;
-  };
-  for (const names& starter :
-       {names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, names{"PMI_RANK", "PMI_SIZE"},
-        names{"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}}) {
-    const char* rank = std::getenv(starter.rank);
-    const char* size = std::getenv(starter.size);
-    if (rank != nullptr && size != nullptr)
-      return {std::atoi(rank), std::atoi(size)};
-  }
-  return {};
-}
 
 #ifdef DOVETAIL_DRIVER_WITH_MPI
 
@@ -231,6 +215,38 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const cle
   return failed->code;
 }
 
+/// Of one of the processes that see it; a relay and its computing process do not say it both.
+void complain_of_lost_relay(int rank) {
+  if (!has_complained())
+    complain(
+        "rank " + std::to_string(rank) +
+        ": its relay, the process that speaks to the other ranks, is gone, killed perhaps (signal 9) for "
+        "want of memory");
+}
+
+/// In a computing process that has begun nothing yet: returns when its relay speaks to all others, or false
+/// when one of the relays is gone, for which MPI waits in vain until mpirun ends it.
+bool all_meet(int socket, pid_t starter) {
+  neighbouring_relays neighbours;
+  for (;;) {
+    neighbours.look_for(starter);
+    const bool all_known = neighbours.count() >= place_of_mpirun().size;
+    if (all_known)
+      neighbours.await_change(socket, std::chrono::milliseconds(100));
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    char next = 0;
+    const ssize_t come = ::recv(socket, &next, 1, MSG_PEEK | MSG_DONTWAIT);
+    if (come >= 0)
+      return come > 0;
+    if (!all_known || neighbours.all_live())
+      continue;
+    if (neighbours.first_living() == rank_of_mpirun().rank)
+      complain_of_lost_relay(neighbours.first_gone());
+    return false;
+  }
+}
+
 /// What is left to do on the machine of a relay that was killed, in the second that mpirun leaves the ranks.
 /// One of its neighbours says so, and cleans up; the others stay until then, or they would be taken for
 /// killed too.
@@ -242,9 +258,7 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const cle
   if (!computing.has_ended({}, nothing))
     computing.end();
   if (speaks)
-    complain("rank " + std::to_string(lost) +
-             ": its relay, the process that speaks to the other ranks, is gone, killed perhaps for want of "
-             "memory");
+    complain_of_lost_relay(lost);
   while (!computing.has_ended(pause, nothing)) {
   }
   computing.await_workers();
@@ -295,16 +309,23 @@ int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const c
   const auto [of_relay, of_computing] = connected_sockets();
   const bool first = rank_of_mpirun().rank == 0;
   const kept_error_stream said(!first);
+  const pid_t relay = ::getpid(), starter = ::getppid();
   supervisor computing; // before MPI, which starts threads
   if (computing.has_no_child())
     throw usage_error("the system refuses to start a process");
   if (!computing.supervises()) {
     of_relay.close();
     ::setpgid(0, 0); // mpirun's signals go to the group of the relay, which passes them on
+    end_without_parent();
+    if (!all_meet(of_computing.messages, starter))
+      return exit_failure;
+    end_with_parent(relay);
     said.redirect();
     return command({network_by_relay(of_computing.messages), of_computing.partition_desk});
   }
   of_computing.close();
+  if (place_of_mpirun().rank == 0)
+    remove_dead_mpi_segments();
   const boost::mpi::environment started(boost::mpi::threading::single, false);
   try {
     return relay_of_rank(computing, of_relay, said, first, clean_up);
