@@ -7,12 +7,13 @@
 #include "mpirun_rank.hpp"
 #include "neighbouring_relays.hpp"
 #include "rank_partitioner.hpp"
+#include "relay_loop.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/parallel/mpi.hpp"
-#include "dovetail/parallel/relay.hpp"
+#include "dovetail/parallel/relayed.hpp"
 
 #include <boost/mpi/environment.hpp>
 
@@ -40,11 +41,6 @@ namespace dovetail::app {
 #ifdef DOVETAIL_DRIVER_WITH_MPI
 
 namespace {
-
-/// Between two looks of a relay; a message waits so long, or longer where none has come for a while.
-constexpr std::chrono::milliseconds pause{1};
-constexpr std::chrono::milliseconds long_pause{4};
-constexpr int looks_before_long_pause = 100;
 
 /// What the computing processes of other ranks write to the error stream, of which rank 0 says what is
 /// needed.
@@ -140,59 +136,7 @@ private:
   parallel::relayed network_;
 };
 
-/// How the computing process of a rank has ended.
-struct rank_end {
-  int code = exit_ok;
-  bool by_itself = false; ///< and was not killed because another one had ended
-  std::string cause;      ///< one line, where it did not end well
-
-  static constexpr auto fields = std::tuple(&rank_end::code, &rank_end::by_itself, &rank_end::cause);
-};
-
 using relay_network = watched_network<parallel::mpi>;
-
-/// Passes messages until the computing process has ended. Throws `relay_lost`.
-rank_end relay_until_end(supervisor& computing, relay_network& network, const neighbouring_relays& neighbours,
-                         int socket, partition_desk& desk, const kept_error_stream& said) {
-  parallel::relay relay(network, socket);
-  bool others_go_on = true;
-  int looks = 0; // since a message was there
-  // When a relay is killed, mpirun asks the others to stop: not what the user did.
-  while (!computing.has_ended(looks < looks_before_long_pause ? pause : long_pause,
-                              [&] { return neighbours.all_live(); })) {
-    try {
-      ++looks;
-      const auto pass_messages = [&] {
-        while (relay.step())
-          looks = 0;
-      };
-      if (others_go_on) {
-        pass_messages();
-        desk.serve(pass_messages);
-      }
-    } catch (const communication_error& problem) {
-      others_go_on = false;
-      relay.tell_abandoned(problem.what());
-      computing.end_soon();
-    }
-  }
-  computing.await_workers();
-  try {
-    while (others_go_on && relay.step()) { // what it said last
-    }
-  } catch (const communication_error&) {
-    others_go_on = false;
-  }
-  rank_end end{computing.code(), others_go_on || !computing.was_killed(), {}};
-  if (end.code == exit_ok || !end.by_itself)
-    return end;
-  end.cause = computing.ended()        ? stopped_line(false)
-              : computing.was_killed() ? computing.killed_line()
-                                       : said.text();
-  if (others_go_on)
-    network.abandon(end.cause);
-  return end;
-}
 
 /// On rank 0: the exit code of all, with what is to be said on the error stream. Others see that a rank was
 /// stopped as a network that fails.
@@ -259,7 +203,7 @@ bool all_meet(int socket, pid_t starter) {
     computing.end();
   if (speaks)
     complain_of_lost_relay(lost);
-  while (!computing.has_ended(pause, nothing)) {
+  while (!computing.has_ended(std::chrono::milliseconds(1), nothing)) {
   }
   computing.await_workers();
   clean_up.of_rank();
@@ -290,7 +234,11 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
   partition_desk desk(sockets.partition_desk, relay_network(parallel::mpi{}, neighbours));
   neighbours.meet(relays, computing.child());
   try {
-    const rank_end end = relay_until_end(computing, network, neighbours, sockets.messages, desk, said);
+    const rank_end end = relay_loop(computing, network, sockets.messages,
+                                    {.all_live = [&] { return neighbours.all_live(); },
+                                     .said = [&] { return said.text(); },
+                                     .serve = [&](const auto& pass_messages) { desk.serve(pass_messages); }})
+                             .run();
     if (end.code != exit_ok)
       clean_up.of_rank();
     const std::vector<rank_end> all = relays.gather(end);

@@ -168,9 +168,14 @@ bool supervisor::goes_on_in_spare() {
 void supervisor::request() {
   if (requested_ && clock::now() - since_ > one_request)
     end();
+  ask_to_stop();
+}
+
+void supervisor::ask_to_stop() {
   if (requested_)
     return;
   end_soon();
+  asked_to_stop_ = true;
   ::kill(child_, SIGTERM);
 }
 

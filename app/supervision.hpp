@@ -42,6 +42,9 @@ public:
   /// `passes_on()` is false, the child is not told of a request to stop that comes.
   bool has_ended(
       std::chrono::milliseconds at_most, const std::function<bool()>& passes_on = [] { return true; });
+  /// As a signal does, the first that comes.
+  void ask_to_stop();
+  bool is_asked_to_stop() const { return asked_to_stop_; }
   /// Ends the child, if it does not end by itself soon.
   void end_soon();
   /// Ends the child now.
@@ -67,6 +70,7 @@ private:
   sigset_t signals_{};
   sigset_t before_{};
   bool requested_ = false;
+  bool asked_to_stop_ = false;
   bool ended_ = false;
   std::chrono::steady_clock::time_point since_{};
 };
