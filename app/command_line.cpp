@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
+#include "mpirun_rank.hpp"
 #include "named_policies.hpp"
 #include "output.hpp"
 #include "output_claim.hpp"

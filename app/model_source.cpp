@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -76,6 +77,9 @@ read_geometry cad_geometry(const std::filesystem::path& file, const model_option
   std::error_code unknown;
   const auto bytes = std::filesystem::file_size(file, unknown);
   const double megabytes = unknown ? 0 : 1e-6 * static_cast<double>(bytes);
+  std::optional<spare_process> spare;
+  if (std::filesystem::is_regular_file(file, unknown)) // a pipe can be read once
+    spare.emplace();
   const risky_step reading(file.string() + ": reading and healing with Open CASCADE",
                            "the file is damaged or beyond it; export it again, best as STEP",
                            60 + 40 * megabytes); // it needs about one second per megabyte

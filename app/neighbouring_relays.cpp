@@ -1,5 +1,7 @@
 #include "neighbouring_relays.hpp"
 
+#include "mpirun_rank.hpp"
+
 #include "dovetail/core/bytes.hpp"
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include <poll.h>
 #include <sys/syscall.h>
@@ -21,6 +24,19 @@ std::string place_of_numbers() {
   std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
   std::error_code ignored;
   return boot + std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  std::vector<pid_t> children;
+  std::error_code problem;
+  const auto threads = "/proc/" + std::to_string(process) + "/task";
+  for (std::filesystem::directory_iterator thread(threads, problem), end; !problem && thread != end;
+       thread.increment(problem)) {
+    std::ifstream listed(thread->path() / "children");
+    for (pid_t child = 0; listed >> child;)
+      children.push_back(child);
+  }
+  return children;
 }
 
 int descriptor_of(pid_t process) {
@@ -47,13 +63,33 @@ void neighbouring_relays::meet(any_communicator& relays, pid_t computing) {
   int rank = 0;
   for (const auto& [place, of_relay, of_computing] :
        relays.all_gather(std::tuple(here, ::getpid(), computing))) {
-    if (place == here) {
-      const int relay = descriptor_of(of_relay);
-      ranks_.push_back({rank, relay, descriptor_of(of_computing)});
-      of_relays_.push_back({relay, POLLIN, 0});
-    }
+    if (place == here)
+      add({rank, of_relay, descriptor_of(of_relay), descriptor_of(of_computing)});
     ++rank;
   }
+}
+
+void neighbouring_relays::look_for(pid_t starter) {
+  for (const pid_t process : children_of(starter)) {
+    const auto of_run = looked_at_.contains(process) ? std::nullopt : rank_of_mpirun(process);
+    if (!of_run) // or not yet: it is still a copy of its starter
+      continue;
+    looked_at_.insert(process);
+    add({of_run->rank, process, descriptor_of(process), -1});
+  }
+}
+
+void neighbouring_relays::await_change(int socket, std::chrono::milliseconds at_most) const {
+  std::vector<pollfd> watched = of_relays_;
+  watched.push_back({socket, POLLIN, 0});
+  ::poll(watched.data(), watched.size(), static_cast<int>(at_most.count()));
+}
+
+void neighbouring_relays::add(const processes& of_rank) {
+  const auto after =
+      std::find_if(ranks_.begin(), ranks_.end(), [&](const processes& p) { return p.rank > of_rank.rank; });
+  ranks_.insert(after, of_rank);
+  of_relays_.push_back({of_rank.relay, POLLIN, 0});
 }
 
 bool neighbouring_relays::all_live() const {
@@ -63,7 +99,7 @@ bool neighbouring_relays::all_live() const {
 
 void neighbouring_relays::require_all() const {
   if (!all_live())
-    throw relay_lost{first(false)};
+    throw relay_lost{first_gone()};
 }
 
 void neighbouring_relays::await_relay(int rank, std::chrono::milliseconds at_most) const {
@@ -73,11 +109,17 @@ void neighbouring_relays::await_relay(int rank, std::chrono::milliseconds at_mos
 }
 
 void neighbouring_relays::await_computing(std::chrono::milliseconds at_most) const {
-  const auto until = std::chrono::steady_clock::now() + at_most;
-  for (const processes& of_rank : ranks_)
-    has_ended(of_rank.computing,
-              std::max(std::chrono::milliseconds(0), std::chrono::duration_cast<std::chrono::milliseconds>(
-                                                         until - std::chrono::steady_clock::now())));
+  using clock = std::chrono::steady_clock;
+  const auto until = clock::now() + at_most;
+  const auto left = [&] {
+    return std::max(std::chrono::milliseconds(0),
+                    std::chrono::duration_cast<std::chrono::milliseconds>(until - clock::now()));
+  };
+  for (const processes& of_rank : ranks_) {
+    has_ended(of_rank.computing, left());
+    while (!has_ended(of_rank.relay) && !children_of(of_rank.process).empty() && left().count() > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1)); // another one may have taken its place
+  }
 }
 
 int neighbouring_relays::first(bool living) const {

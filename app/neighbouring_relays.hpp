@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +22,8 @@ struct relay_lost {
   int rank;
 };
 
-/// Holds nobody until `meet`, nor where the kernel has no descriptors of processes (Linux before 5.3).
+/// Holds nobody until `meet` or `look_for`, nor where the kernel has no descriptors of processes (Linux
+/// before 5.3).
 class neighbouring_relays {
 public:
   neighbouring_relays() = default;
@@ -32,12 +34,20 @@ public:
   /// Collective, of the relays; `computing` is the process that this one speaks for.
   void meet(any_communicator& relays, pid_t computing);
 
+  /// Before MPI is initialised: adds those that this process has started for the same run since it was last
+  /// looked for them.
+  void look_for(pid_t starter);
+  int count() const { return static_cast<int>(ranks_.size()); }
+  /// Until one is gone, or there is something to read or nobody at the other end of the socket, or so long.
+  void await_change(int socket, std::chrono::milliseconds at_most) const;
+
   /// By one call of the system, however many they are: a relay asks at each look for messages.
   bool all_live() const;
   /// Throws `relay_lost` with the lowest rank whose relay is gone.
   void require_all() const;
-  /// The lowest rank whose relay lives, maybe this one.
+  /// The lowest rank whose relay lives, maybe this one; whose relay is gone.
   int first_living() const { return first(true); }
+  int first_gone() const { return first(false); }
   /// Until this one's relay has ended, or so long.
   void await_relay(int rank, std::chrono::milliseconds at_most) const;
   /// Until no process computes on this machine, or so long.
@@ -46,15 +56,18 @@ public:
   static constexpr int nobody = -1;
 
 private:
-  /// Descriptors; -1: none to be had.
+  /// The relay, and descriptors of processes; -1: none to be had.
   struct processes {
     int rank;
+    pid_t process;
     int relay;
     int computing;
   };
+  void add(const processes& of_rank);
   int first(bool living) const;
 
-  std::vector<processes> ranks_;  ///< growing, this one too
+  std::vector<processes> ranks_;  ///< by rank, this one too
+  std::set<pid_t> looked_at_;     ///< of `look_for`
   std::vector<pollfd> of_relays_; ///< of the same, to be watched together
 };
 

@@ -2,7 +2,7 @@
 
 #include "failure.hpp"
 #include "file_place.hpp"
-#include "rank_supervision.hpp"
+#include "mpirun_rank.hpp"
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/output_file.hpp"

@@ -2,18 +2,18 @@
 
 #include "failure.hpp"
 
-#include <cstdlib>
-
 #ifdef DOVETAIL_DRIVER_WITH_MPI
+#include "mpi_segments.hpp"
+#include "mpirun_rank.hpp"
 #include "neighbouring_relays.hpp"
 #include "rank_partitioner.hpp"
+#include "relay_loop.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/fields.hpp"
 #include "dovetail/distributed/mpi.hpp"
-#include "dovetail/distributed/relay.hpp"
+#include "dovetail/distributed/relayed.hpp"
 
 #include <boost/mpi/environment.hpp>
 
@@ -38,30 +38,9 @@
 
 namespace dovetail::app {
 
-mpirun_rank rank_of_mpirun() {
-  struct names {
-    const char* rank;
-    const char* size;
-  };
-  for (const names& starter :
-       {names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, names{"PMI_RANK", "PMI_SIZE"},
-        names{"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}}) {
-    const char* rank = std::getenv(starter.rank);
-    const char* size = std::getenv(starter.size);
-    if (rank != nullptr && size != nullptr)
-      return {std::atoi(rank), std::atoi(size)};
-  }
-  return {};
-}
-
 #ifdef DOVETAIL_DRIVER_WITH_MPI
 
 namespace {
-
-/// Between two looks of a relay; a message waits so long, or longer where none has come for a while.
-constexpr std::chrono::milliseconds pause{1};
-constexpr std::chrono::milliseconds long_pause{4};
-constexpr int looks_before_long_pause = 100;
 
 /// What the computing processes of other ranks write to the error stream, of which rank 0 says what is
 /// needed.
@@ -157,59 +136,7 @@ private:
   parallel::relayed network_;
 };
 
-/// How the computing process of a rank has ended.
-struct rank_end {
-  int code = exit_ok;
-  bool by_itself = false; ///< and was not killed because another one had ended
-  std::string cause;      ///< one line, where it did not end well
-
-  using fields = field_list<&rank_end::code, &rank_end::by_itself, &rank_end::cause>;
-};
-
 using relay_network = watched_network<parallel::mpi>;
-
-/// Passes messages until the computing process has ended. Throws `relay_lost`.
-rank_end relay_until_end(supervisor& computing, relay_network& network, const neighbouring_relays& neighbours,
-                         int socket, partition_desk& desk, const kept_error_stream& said) {
-  parallel::relay relay(network, socket);
-  bool others_go_on = true;
-  int looks = 0; // since a message was there
-  // When a relay is killed, mpirun asks the others to stop: not what the user did.
-  while (!computing.has_ended(looks < looks_before_long_pause ? pause : long_pause,
-                              [&] { return neighbours.all_live(); })) {
-    try {
-      ++looks;
-      const auto pass_messages = [&] {
-        while (relay.step())
-          looks = 0;
-      };
-      if (others_go_on) {
-        pass_messages();
-        desk.serve(pass_messages);
-      }
-    } catch (const communication_error& problem) {
-      others_go_on = false;
-      relay.tell_abandoned(problem.what());
-      computing.end_soon();
-    }
-  }
-  computing.await_workers();
-  try {
-    while (others_go_on && relay.step()) { // what it said last
-    }
-  } catch (const communication_error&) {
-    others_go_on = false;
-  }
-  rank_end end{computing.code(), others_go_on || !computing.was_killed(), {}};
-  if (end.code == exit_ok || !end.by_itself)
-    return end;
-  end.cause = computing.ended()        ? stopped_line(false)
-              : computing.was_killed() ? computing.killed_line()
-                                       : said.text();
-  if (others_go_on)
-    network.abandon(end.cause);
-  return end;
-}
 
 /// On rank 0: the exit code of all, with what is to be said on the error stream. Others see that a rank was
 /// stopped as a network that fails.
@@ -232,6 +159,38 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const cle
   return failed->code;
 }
 
+/// Of one of the processes that see it; a relay and its computing process do not say it both.
+void complain_of_lost_relay(int rank) {
+  if (!has_complained())
+    complain(
+        "rank " + std::to_string(rank) +
+        ": its relay, the process that speaks to the other ranks, is gone, killed perhaps (signal 9) for "
+        "want of memory");
+}
+
+/// In a computing process that has begun nothing yet: returns when its relay speaks to all others, or false
+/// when one of the relays is gone, for which MPI waits in vain until mpirun ends it.
+bool all_meet(int socket, pid_t starter) {
+  neighbouring_relays neighbours;
+  for (;;) {
+    neighbours.look_for(starter);
+    const bool all_known = neighbours.count() >= place_of_mpirun().size;
+    if (all_known)
+      neighbours.await_change(socket, std::chrono::milliseconds(100));
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    char next = 0;
+    const ssize_t come = ::recv(socket, &next, 1, MSG_PEEK | MSG_DONTWAIT);
+    if (come >= 0)
+      return come > 0;
+    if (!all_known || neighbours.all_live())
+      continue;
+    if (neighbours.first_living() == rank_of_mpirun().rank)
+      complain_of_lost_relay(neighbours.first_gone());
+    return false;
+  }
+}
+
 /// What is left to do on the machine of a relay that was killed, in the second that mpirun leaves the ranks.
 /// One of its neighbours says so, and cleans up; the others stay until then, or they would be taken for
 /// killed too.
@@ -243,10 +202,8 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const cle
   if (!computing.has_ended({}, nothing))
     computing.end();
   if (speaks)
-    complain("rank " + std::to_string(lost) +
-             ": its relay, the process that speaks to the other ranks, is gone, killed perhaps for want of "
-             "memory");
-  while (!computing.has_ended(pause, nothing)) {
+    complain_of_lost_relay(lost);
+  while (!computing.has_ended(std::chrono::milliseconds(1), nothing)) {
   }
   computing.await_workers();
   clean_up.of_rank();
@@ -277,7 +234,11 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
   partition_desk desk(sockets.partition_desk, relay_network(parallel::mpi{}, neighbours));
   neighbours.meet(relays, computing.child());
   try {
-    const rank_end end = relay_until_end(computing, network, neighbours, sockets.messages, desk, said);
+    const rank_end end = relay_loop(computing, network, sockets.messages,
+                                    {.all_live = [&] { return neighbours.all_live(); },
+                                     .said = [&] { return said.text(); },
+                                     .serve = [&](const auto& pass_messages) { desk.serve(pass_messages); }})
+                             .run();
     if (end.code != exit_ok)
       clean_up.of_rank();
     const std::vector<rank_end> all = relays.gather(end);
@@ -296,16 +257,23 @@ int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const c
   const auto [of_relay, of_computing] = connected_sockets();
   const bool first = rank_of_mpirun().rank == 0;
   const kept_error_stream said(!first);
+  const pid_t relay = ::getpid(), starter = ::getppid();
   supervisor computing; // before MPI, which starts threads
   if (computing.has_no_child())
     throw usage_error("the system refuses to start a process");
   if (!computing.supervises()) {
     of_relay.close();
     ::setpgid(0, 0); // mpirun's signals go to the group of the relay, which passes them on
+    end_without_parent();
+    if (!all_meet(of_computing.messages, starter))
+      return exit_failure;
+    end_with_parent(relay);
     said.redirect();
     return command({network_by_relay(of_computing.messages), of_computing.partition_desk});
   }
   of_computing.close();
+  if (place_of_mpirun().rank == 0)
+    remove_dead_mpi_segments();
   const boost::mpi::environment started(boost::mpi::threading::single, false);
   try {
     return relay_of_rank(computing, of_relay, said, first, clean_up);

@@ -8,13 +8,6 @@
 
 namespace dovetail::app {
 
-/// Which rank this process is, as mpirun says before MPI is initialised.
-struct mpirun_rank {
-  int rank = 0;
-  int size = 1;
-};
-mpirun_rank rank_of_mpirun();
-
 /// What a process that computes has of its relay.
 struct relayed_rank {
   any_communicator network;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -15,12 +16,14 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <new>
 #include <thread>
 #include <vector>
 
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,8 +41,12 @@ struct shared_lines {
   std::array<char, 2048> killed;
   std::array<char, 2048> out_of_stack;
   volatile bool stack_is_used_up;
+  std::atomic<pid_t> spare; ///< 0: none
 };
 shared_lines* lines = nullptr;
+
+/// In a child: where its spare process is called from; -1: there can be none.
+int spare_calls = -1;
 
 sigset_t set_of(const std::vector<int>& signals) {
   sigset_t set;
@@ -63,12 +70,38 @@ void copy(const std::string& text, std::array<char, 2048>& to) {
   std::snprintf(to.data(), to.size(), "%s", text.c_str());
 }
 
+/// What a spare process does before it goes on.
+void await_call(pid_t supervisor) {
+  char call = 0;
+  ssize_t got = 0;
+  do
+    got = ::read(spare_calls, &call, 1);
+  while (got < 0 && errno == EINTR);
+  if (got != 1)
+    ::_exit(exit_failure);
+  spare_calls = -1;
+  end_with_parent(supervisor);
+}
+
 } // namespace
+
+void end_with_parent(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent)
+    ::_exit(exit_failure);
+}
+
+void end_without_parent() {
+  ::prctl(PR_SET_PDEATHSIG, 0);
+}
 
 supervisor::supervisor() {
   void* const memory =
       ::mmap(nullptr, sizeof(shared_lines), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  lines = memory == MAP_FAILED ? nullptr : static_cast<shared_lines*>(memory);
+  lines = memory == MAP_FAILED ? nullptr : new (memory) shared_lines{};
+  std::array<int, 2> calls{-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, calls.data()) == 0)
+    call_ = detail::owned_descriptor(calls[1]);
   share_complaints();
   ::prctl(PR_SET_CHILD_SUBREAPER, 1); // the workers of a child that is gone can be waited for
   std::signal(SIGCHLD, SIG_DFL);      // who started us may ignore it, and then nothing is left to wait for
@@ -79,14 +112,16 @@ supervisor::supervisor() {
   std::fflush(nullptr);
   const pid_t self = ::getpid();
   child_ = ::fork();
-  if (child_ > 0)
+  if (child_ > 0) {
+    ::close(calls[0]);
     return;
+  }
   if (child_ == 0)
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (child_ == 0 && ::getppid() != self)
-    ::_exit(exit_failure);
+    end_with_parent(self);
   if (child_ < 0)
     lines = nullptr; // nobody would read them
+  call_.close();
+  spare_calls = calls[0];
   catch_stop_signals();
   if (child_ == 0 && lines != nullptr)
     detail::on_stack_overflow([] { lines->stack_is_used_up = true; });
@@ -106,9 +141,11 @@ bool supervisor::has_ended(std::chrono::milliseconds at_most, const std::functio
   const pid_t found = ::waitpid(child_, &status_, WNOHANG);
   if (found < 0 && errno == ECHILD) // somebody else has waited for it: how it ended nobody knows
     status_ = W_EXITCODE(exit_failure, 0);
-  over_ = found == child_ || (found < 0 && errno == ECHILD);
-  if (over_)
+  over_ = (found == child_ && !goes_on_in_spare()) || (found < 0 && errno == ECHILD);
+  if (over_) {
+    call_.close();
     return true;
+  }
   if (signal > 0 && signal != SIGCHLD && passes_on())
     request();
   if (requested_ && clock::now() - since_ > patience)
@@ -116,12 +153,29 @@ bool supervisor::has_ended(std::chrono::milliseconds at_most, const std::functio
   return false;
 }
 
+bool supervisor::goes_on_in_spare() {
+  const bool was_killed_by_others =
+      WIFSIGNALED(status_) && WTERMSIG(status_) == SIGKILL && !requested_ && !ended_;
+  const pid_t spare = lines != nullptr ? lines->spare.exchange(0) : 0;
+  if (spare == 0 || !was_killed_by_others)
+    return false;
+  const bool heard = ::send(call_.get(), "", 1, MSG_NOSIGNAL) == 1;
+  if (heard)
+    child_ = spare;
+  return heard;
+}
+
 void supervisor::request() {
   if (requested_ && clock::now() - since_ > one_request)
     end();
+  ask_to_stop();
+}
+
+void supervisor::ask_to_stop() {
   if (requested_)
     return;
   end_soon();
+  asked_to_stop_ = true;
   ::kill(child_, SIGTERM);
 }
 
@@ -134,6 +188,7 @@ void supervisor::end_soon() {
 
 void supervisor::end() {
   ended_ = true;
+  call_.close();
   ::kill(child_, SIGKILL);
 }
 
@@ -181,6 +236,26 @@ int run_supervised(const std::function<int()>& command, const std::function<bool
       complain(watched.ended() ? stopped_line(can_go_on) : watched.killed_line());
   }
   return watched.code();
+}
+
+spare_process::spare_process() {
+  if (lines == nullptr || spare_calls < 0)
+    return;
+  std::fflush(nullptr);
+  const pid_t supervisor = ::getppid();
+  process_ = ::fork();
+  if (process_ > 0)
+    lines->spare = process_;
+  if (process_ == 0)
+    await_call(supervisor);
+}
+
+spare_process::~spare_process() {
+  if (process_ <= 0)
+    return;
+  lines->spare = 0;
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
 }
 
 risky_step::risky_step(const std::string& what, const std::string& advice, double seconds) {

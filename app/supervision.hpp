@@ -2,6 +2,8 @@
 /// A command runs in a child process: whatever becomes of that, this one ends in time and cleans up.
 #pragma once
 
+#include "dovetail/parallel/owned_descriptor.hpp"
+
 #include <chrono>
 #include <csignal>
 #include <functional>
@@ -18,7 +20,8 @@ namespace dovetail::app {
 /// (`exit_stopped`). A child that a signal ends, a crash inside a library for example, is one line on the
 /// error stream and `exit_failure`. Where a child was stopped or did not end by itself, `clean_up` is called
 /// when all its processes are gone, since a worker may leave part of a file; it returns whether another run
-/// can go on from what is left. Call it from a process without threads.
+/// can go on from what is left. Where there is a `spare_process` the command goes on after it was killed.
+/// Call it from a process without threads.
 int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up);
 
 /// Forks a child, and is its parent's side: from then on there are two processes in the program. Made in a
@@ -39,6 +42,9 @@ public:
   /// `passes_on()` is false, the child is not told of a request to stop that comes.
   bool has_ended(
       std::chrono::milliseconds at_most, const std::function<bool()>& passes_on = [] { return true; });
+  /// As a signal does, the first that comes.
+  void ask_to_stop();
+  bool is_asked_to_stop() const { return asked_to_stop_; }
   /// Ends the child, if it does not end by itself soon.
   void end_soon();
   /// Ends the child now.
@@ -55,15 +61,37 @@ public:
 
 private:
   void request();
+  bool goes_on_in_spare();
 
   pid_t child_ = -1;
+  detail::owned_descriptor call_; ///< a byte is for the spare process to go on, its end for it to end
   int status_ = 0;
   bool over_ = false;
   sigset_t signals_{};
   sigset_t before_{};
   bool requested_ = false;
+  bool asked_to_stop_ = false;
   bool ended_ = false;
   std::chrono::steady_clock::time_point since_{};
+};
+
+/// This process is killed when its parent ends, or has ended; or not any more.
+void end_with_parent(pid_t parent);
+void end_without_parent();
+
+/// While it lives, a process under supervision can be killed (SIGKILL) by others, and the command goes on:
+/// what comes after its constructor is begun again in another process, once. That one is forked here, since
+/// the parent may have threads by now. Nothing may be written or sent meanwhile. Made in a process without
+/// threads.
+class spare_process {
+public:
+  spare_process();
+  spare_process(const spare_process&) = delete;
+  spare_process& operator=(const spare_process&) = delete;
+  ~spare_process();
+
+private:
+  pid_t process_ = -1; ///< where there is one
 };
 
 /// What `clean_up` returns. Whatever goes wrong in it, the supervisor still says how the command ended.

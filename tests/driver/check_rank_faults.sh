@@ -18,7 +18,7 @@ stages=(background partition lines skeleton intersection meshing redistribution 
 [[ $all ]] && stages+=(moving reading)
 declare -A begin=(
   [background]="planning" [partition]="background volume" [lines]="partition" [skeleton]="partition*lines"
-  [intersection]="matching" [meshing]="intersection" [redistribution]="redistributing elements"
+  [intersection]="skeleton" [meshing]="intersection" [redistribution]="redistributing elements"
   [moving]="cutting pieces" [finishing]="moving elements" [reading]="finishing")
 
 figure() {
@@ -174,7 +174,8 @@ for victim in relay computing worker; do
       done
     else
       try "${numbers[tried % 3]}" "$stage" --resume
-      ((status == 0)) && fresh several
+      # What rank 0 has kept of the background before it heard is not made again, and the next stage not seen.
+      [[ $status == 0 || $stage == background ]] && fresh several
     fi
   done
   [[ $all ]] || go_on "${numbers[tried % 3]}"

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -92,6 +94,69 @@ TEST_CASE("a crash is one line, of the step that is known to be risky or of any"
     return crash(SIGKILL);
   });
   CHECK(killed.told == "dovetail: reading was killed, perhaps for want of memory\n");
+}
+
+/// What several processes count together.
+class shared_count {
+public:
+  shared_count()
+      : number_(static_cast<std::atomic<int>*>(::mmap(
+            nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
+  shared_count(const shared_count&) = delete;
+  shared_count& operator=(const shared_count&) = delete;
+  ~shared_count() { ::munmap(number_, sizeof *number_); }
+  int next() { return ++*number_; }
+  int value() const { return *number_; }
+
+private:
+  std::atomic<int>* number_;
+};
+
+TEST_CASE("a command that is killed while it has a spare process goes on in that, once") {
+  shared_count tries;
+  const ending once = end_of([&] {
+    const spare_process spare;
+    return tries.next() == 1 ? crash(SIGKILL) : 7;
+  });
+  CHECK(once.code == 7);
+  CHECK(once.cleaned == 0);
+  CHECK(once.told == "");
+  CHECK(tries.value() == 2);
+  const ending twice = end_of([&] {
+    const spare_process spare;
+    const risky_step step("reading", "export it again", 60);
+    tries.next();
+    return crash(SIGKILL);
+  });
+  CHECK(twice.code == exit_failure);
+  CHECK(twice.cleaned == 1);
+  CHECK(twice.told == "dovetail: reading was killed, perhaps for want of memory\n");
+  CHECK(tries.value() == 4);
+}
+
+TEST_CASE("a spare process does not go on where its command ends otherwise, or has passed that place") {
+  shared_count tries;
+  const ending crashed = end_of([&] {
+    const spare_process spare;
+    tries.next();
+    return crash(SIGSEGV);
+  });
+  CHECK(crashed.code == exit_failure);
+  const ending stopped = end_of([&] {
+    const spare_process spare;
+    tries.next();
+    ::kill(::getppid(), SIGTERM);
+    work(30);
+    return 0;
+  });
+  CHECK(stopped.code == exit_stopped);
+  const ending past = end_of([&] {
+    { const spare_process spare; }
+    tries.next();
+    return crash(SIGKILL);
+  });
+  CHECK(past.code == exit_failure);
+  CHECK(tries.value() == 3);
 }
 
 /// Until the stack is used up.

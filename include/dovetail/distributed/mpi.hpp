@@ -28,18 +28,22 @@ namespace dovetail::parallel {
 /// `world` together, when nothing is under way: best once in a program.
 class mpi {
 public:
-  explicit mpi(const boost::mpi::communicator& world = {}, std::size_t chunk_bytes = std::size_t{1} << 28)
-      : world_(world, boost::mpi::comm_duplicate), chunk_bytes_(std::max(chunk_bytes, sizeof(header))) {}
+  /// `patience`: the longest wait, in `abandon` and in the destructor, for others to take what was sent.
+  explicit mpi(const boost::mpi::communicator& world = {}, std::size_t chunk_bytes = std::size_t{1} << 28,
+               std::chrono::milliseconds patience = std::chrono::seconds(2))
+      : world_(world, boost::mpi::comm_duplicate), chunk_bytes_(std::max(chunk_bytes, sizeof(header))),
+        patience_(patience) {}
 
   mpi(mpi&&) = default;
   mpi& operator=(mpi&&) = default;
   ~mpi() {
-    if (reason_.empty())
-      finish_sending();
+    if (reason_.empty() && !has_abandoned_)
+      await_sent([](const pending&) { return true; });
     if (!sent_.empty())                         // nobody receives them; MPI still has the bytes
       new std::list<pending>(std::move(sent_)); // NOLINT
-    if (coming_ && !has_come())
-      new incoming(*std::move(coming_)); // NOLINT
+    for (std::optional<incoming>* coming : {&coming_, &farewell_})
+      if (*coming && !has_come(**coming))
+        new incoming(std::move(**coming)); // NOLINT
   }
 
   int rank() const { return world_.rank(); }
@@ -51,9 +55,10 @@ public:
   }
 
   std::optional<rank_message> receive() {
+    hear_farewell();
     require_all();
     drop_sent();
-    while (is_coming() && comes_soon()) {
+    while (is_coming(coming_, message_tag) && comes_soon()) {
       const int from = coming_->from;
       const byte_buffer chunk = std::move(coming_->chunk);
       coming_.reset();
@@ -63,11 +68,7 @@ public:
       bytes.insert(bytes.end(), chunk.begin() + sizeof head, chunk.end());
       if (bytes.size() < head.size)
         continue;
-      rank_message whole{from, head.tag, std::exchange(bytes, {})};
-      if (whole.tag != abandoned)
-        return whole;
-      reason_ = "rank " + std::to_string(from) + ": " + byte_reader(whole.bytes).text();
-      require_all();
+      return rank_message{from, head.tag, std::exchange(bytes, {})};
     }
     return std::nullopt;
   }
@@ -76,7 +77,8 @@ public:
     using clock = std::chrono::steady_clock;
     const auto end = clock::now() + at_most;
     auto pause = std::chrono::microseconds(20);
-    while (clock::now() < end && !(is_coming() && has_come())) {
+    while (clock::now() < end && !(is_coming(coming_, message_tag) && has_come(*coming_))) {
+      hear_farewell();
       require_all();
       drop_sent();
       std::this_thread::sleep_for(pause);
@@ -86,15 +88,17 @@ public:
   int descriptor() const { return -1; }
   bool shares_process() const { return false; }
 
-  /// Tells the others, and waits until they were told, at most two seconds.
+  /// Tells the others, once, and waits until they were told. Who knows it takes no other message any more.
   void abandon(const std::string& reason) {
+    if (std::exchange(has_abandoned_, true))
+      return;
     byte_writer text;
     text.text(reason);
     const byte_buffer bytes = text.take();
     for (int r = 0; r < size(); ++r)
       if (r != rank())
-        post(r, abandoned, bytes);
-    finish_sending();
+        start(r, farewell_tag, bytes);
+    await_sent([](const pending& one) { return one.is_farewell; });
   }
 
 private:
@@ -106,6 +110,7 @@ private:
   struct pending {
     byte_buffer bytes;
     boost::mpi::request request;
+    bool is_farewell;
   };
   /// A chunk on its way. Who waited for it would never return when its sender dies before it has all.
   struct incoming {
@@ -114,29 +119,34 @@ private:
     boost::mpi::request request;
     bool has_come = false;
   };
-  static constexpr int mpi_tag = 1;
-  static constexpr std::int32_t abandoned = -1;
+  static constexpr int message_tag = 1;
+  static constexpr int farewell_tag = 2; ///< which overtakes what is long on its way
 
-  bool is_coming() {
-    if (coming_)
+  /// Into a place that is free, or already taken by what came before.
+  bool is_coming(std::optional<incoming>& place, int mpi_tag) {
+    if (place)
       return true;
     const auto found = world_.iprobe(boost::mpi::any_source, mpi_tag);
     if (!found)
       return false;
-    coming_.emplace(incoming{
+    place.emplace(incoming{
         found->source(), byte_buffer(static_cast<std::size_t>(found->count<char>().value_or(0))), {}});
-    coming_->request = world_.irecv(coming_->from, mpi_tag, reinterpret_cast<char*>(coming_->chunk.data()),
-                                    static_cast<int>(coming_->chunk.size()));
+    place->request = world_.irecv(place->from, mpi_tag, reinterpret_cast<char*>(place->chunk.data()),
+                                  static_cast<int>(place->chunk.size()));
     return true;
   }
-  bool has_come() {
-    coming_->has_come = coming_->has_come || coming_->request.test().has_value();
-    return coming_->has_come;
+  static bool has_come(incoming& message) {
+    message.has_come = message.has_come || message.request.test().has_value();
+    return message.has_come;
+  }
+  void hear_farewell() {
+    if (reason_.empty() && is_coming(farewell_, farewell_tag) && has_come(*farewell_))
+      reason_ = "rank " + std::to_string(farewell_->from) + ": " + byte_reader(farewell_->chunk).text();
   }
   /// A long chunk moves only while MPI is asked about it.
   bool comes_soon() {
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(2);
-    while (!has_come() && std::chrono::steady_clock::now() < until)
+    while (!has_come(*coming_) && std::chrono::steady_clock::now() < until)
       std::this_thread::yield();
     return coming_->has_come;
   }
@@ -146,22 +156,25 @@ private:
     do {
       const std::size_t part = std::min(bytes.size() - at, chunk_bytes_);
       const header head{tag, bytes.size()};
-      pending& next = sent_.emplace_back();
-      next.bytes.resize(sizeof head + part);
-      std::memcpy(next.bytes.data(), &head, sizeof head);
+      byte_buffer chunk(sizeof head + part);
+      std::memcpy(chunk.data(), &head, sizeof head);
       if (part > 0)
-        std::memcpy(next.bytes.data() + sizeof head, bytes.data() + at, part);
-      next.request = world_.isend(to, mpi_tag, reinterpret_cast<const char*>(next.bytes.data()),
-                                  static_cast<int>(next.bytes.size()));
+        std::memcpy(chunk.data() + sizeof head, bytes.data() + at, part);
+      start(to, message_tag, std::move(chunk));
       at += part;
     } while (at < bytes.size());
   }
-  /// Waits until the others have what was sent, at most two seconds: asking MPI may take long on a busy
-  /// machine.
-  void finish_sending() {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+  void start(int to, int mpi_tag, byte_buffer bytes) {
+    pending& next = sent_.emplace_back(pending{std::move(bytes), {}, mpi_tag == farewell_tag});
+    next.request = world_.isend(to, mpi_tag, reinterpret_cast<const char*>(next.bytes.data()),
+                                static_cast<int>(next.bytes.size()));
+  }
+  /// Waits until the others have what is `awaited`: asking MPI may take long on a busy machine.
+  template <class Awaited>
+  void await_sent(const Awaited& awaited) {
+    const auto until = std::chrono::steady_clock::now() + patience_;
     drop_sent();
-    while (!sent_.empty() && std::chrono::steady_clock::now() < until) {
+    while (std::any_of(sent_.begin(), sent_.end(), awaited) && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       drop_sent();
     }
@@ -176,8 +189,11 @@ private:
 
   boost::mpi::communicator world_;
   std::size_t chunk_bytes_;
+  std::chrono::milliseconds patience_;
+  bool has_abandoned_ = false;
   std::list<pending> sent_;
   std::optional<incoming> coming_;
+  std::optional<incoming> farewell_;
   std::map<int, byte_buffer> incomplete_; ///< by sender
   std::string reason_;                    ///< why there is nobody to go on with
 };
