@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <random>
 
@@ -110,7 +111,8 @@ TEST_CASE("integers and expansions have the same sign where both can be used") {
   for (int i = 0; i < 2000; ++i) {
     std::array<double, 12> a{}, b{};
     for (double& value : a)
-      value = (1 + std::uniform_int_distribution<int>(-3, 3)(engine)) * 0x1p-20 * (1 + 0x1p-30 * std::uniform_int_distribution<int>(0, 3)(engine));
+      value = (1 + std::uniform_int_distribution<int>(-3, 3)(engine)) * 0x1p-20 *
+              (1 + 0x1p-30 * std::uniform_int_distribution<int>(0, 3)(engine));
     for (std::size_t k = 0; k < 12; ++k)
       b[k] = k < 3 ? 0x1p-20 * std::uniform_int_distribution<int>(0, 4)(engine) : b[k - 3];
     std::array<detail::wide_integer<1>, 12> integers;
@@ -121,6 +123,12 @@ TEST_CASE("integers and expansions have the same sign where both can be used") {
     for (std::size_t k = 0; k < 12; ++k)
       expansions[k] = detail::exact_difference(a[k], b[k]);
     REQUIRE(detail::sphere_determinant(integers).sign() == detail::sphere_determinant(expansions).sign());
+    a[engine() % 12] *= 1 + 0x1p-52; // too fine for one word
+    std::array<detail::wide_integer<2>, 12> wider;
+    REQUIRE(detail::integer_differences(a, b, wider));
+    for (std::size_t k = 0; k < 12; ++k)
+      expansions[k] = detail::exact_difference(a[k], b[k]);
+    REQUIRE(detail::sphere_determinant(wider).sign() == detail::sphere_determinant(expansions).sign());
   }
   CHECK(used > 1000);
 }
@@ -135,10 +143,20 @@ TEST_CASE("integers as wide as they can get do not overflow") {
     for (std::size_t k = 0; k < 12; ++k)
       expansions[k] = detail::exact_difference(a[k], 0);
     CHECK(detail::sphere_determinant(integers).sign() == detail::sphere_determinant(expansions).sign());
+    std::array<detail::wide_integer<2>, 12> wider;
+    for (double& value : a)
+      value = std::copysign(1 - 0x1p-53, value);
+    std::array<double, 12> b{};
+    for (std::size_t k = 0; k < 12; ++k) {
+      b[k] = -0x1p-53 * a[k]; // their difference is rounded up
+      expansions[k] = detail::exact_difference(a[k], b[k]);
+    }
+    REQUIRE(detail::integer_differences(a, b, wider));
+    CHECK(detail::sphere_determinant(wider).sign() == detail::sphere_determinant(expansions).sign());
   }
   std::array<detail::wide_integer<1>, 1> integer;
-  CHECK_FALSE(detail::integer_differences<1>({1.0}, {1e-30}, integer)); // their difference is rounded
-  CHECK(detail::integer_differences<1>({0.25}, {0.25}, integer));
+  CHECK_FALSE(detail::integer_differences<1, 1>({1.0}, {1e-30}, integer)); // their difference is rounded
+  CHECK(detail::integer_differences<1, 1>({0.25}, {0.25}, integer));
   CHECK(integer[0].sign() == 0);
 }
 

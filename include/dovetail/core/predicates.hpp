@@ -1,7 +1,7 @@
 /// @file
 /// Orientation, in-circle and in-sphere tests with the exact sign: a floating-point filter, then integers of
-/// some words where the differences of coordinates are integers of a common unit (points of lattices, most
-/// points close to each other), then exact expansions.
+/// some words where the differences of coordinates are multiples of a common unit (nearly always), then exact
+/// expansions.
 ///
 /// The filters' error bounds and the arithmetic of expansions are those of J. R. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", doi 10.1007/PL00009321. Exact
@@ -137,6 +137,9 @@ double exact_sign(const std::array<double, N>& a, const std::array<double, N>& b
   std::array<wide_integer<1>, N> integers;
   if (integer_differences(a, b, integers))
     return determinant(integers).sign();
+  std::array<wide_integer<2>, N> wider_integers;
+  if (integer_differences(a, b, wider_integers))
+    return determinant(wider_integers).sign();
   std::array<expansion<2>, N> expansions;
   for (std::size_t i = 0; i < N; ++i)
     expansions[i] = exact_difference(a[i], b[i]);
@@ -205,8 +208,8 @@ inline double in_circle(vec2 a, vec2 b, vec2 c, vec2 d) {
   return std::abs(value) > bound ? value : detail::in_circle_exact(a, b, c, d);
 }
 
-/// Positive when e lies inside the sphere through a, b, c, d (a positively oriented tetrahedron), zero when on
-/// it, exactly.
+/// Positive when e lies inside the sphere through a, b, c, d (a positively oriented tetrahedron), zero when
+/// on it, exactly.
 inline double in_sphere(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
   const vec3 ae = a - e, be = b - e, ce = c - e, de = d - e;
   const double value = detail::sphere_determinant<double>(

@@ -12,6 +12,7 @@
 namespace dovetail::detail {
 
 __extension__ using two_words = unsigned __int128;
+__extension__ using signed_two_words = __int128;
 
 /// Two's complement, least significant word first. Sums wrap around: whoever adds knows that they fit.
 template <std::size_t Words>
@@ -82,31 +83,51 @@ constexpr wide_integer<A + B> operator*(const wide_integer<A>& a, const wide_int
   return product;
 }
 
-/// The differences a[i] - b[i] as multiples, below 2^61, of a unit of their own: the sign of a homogeneous
-/// polynomial of them is that of the same polynomial of the integers. False when rounding would be needed.
-template <std::size_t N>
+/// The integer that a double is, if it is one below 2^(64 Words - 1).
+template <std::size_t Words>
+wide_integer<Words> whole_number(double value) {
+  wide_integer<Words> result;
+  if constexpr (Words == 1) {
+    result.words[0] = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+  } else {
+    const auto integer = static_cast<two_words>(static_cast<signed_two_words>(value));
+    result.words[0] = static_cast<std::uint64_t>(integer);
+    result.words[1] = static_cast<std::uint64_t>(integer >> 64U);
+  }
+  return result;
+}
+
+/// The differences a[i] - b[i] as multiples, of at most 61 bits for one word and 124 for two, of a unit of
+/// their own: the sign of a homogeneous polynomial of them is that of the same polynomial of the integers.
+/// False when that would need rounding.
+template <std::size_t Words, std::size_t N>
 bool integer_differences(const std::array<double, N>& a, const std::array<double, N>& b,
-                         std::array<wide_integer<1>, N>& integers) {
-  std::array<double, N> differences;
+                         std::array<wide_integer<Words>, N>& integers) {
+  static_assert(Words == 1 || Words == 2);
+  std::array<double, N> differences, rests;
   double largest = 0;
-  bool exact = true;
   for (std::size_t i = 0; i < N; ++i) {
     const double difference = a[i] - b[i];
     const double virtual_part = a[i] - difference;
-    exact = exact && (a[i] - (difference + virtual_part)) + (virtual_part - b[i]) == 0;
     differences[i] = difference;
+    rests[i] = (a[i] - (difference + virtual_part)) + (virtual_part - b[i]);
     largest = std::abs(difference) > largest ? std::abs(difference) : largest;
   }
   constexpr double least = 1e-200, most = 1e200; // far from where the unit is no normal number
-  if (!exact || !(largest < most) || (largest < least && largest != 0))
+  if (!(largest < most) || (largest < least && largest != 0))
     return false;
+  constexpr std::uint64_t bits = Words == 1 ? 60 : 123;
   const std::uint64_t exponent = largest == 0 ? 1023 : std::bit_cast<std::uint64_t>(largest) >> 52U;
-  const auto scale = std::bit_cast<double>((std::uint64_t{2 * 1023 + 60} - exponent) << 52U);
+  const auto scale = std::bit_cast<double>((2 * 1023 + bits - exponent) << 52U);
+  const auto is_whole = [](double value) { // one of 2^53 and more always is
+    constexpr double no_fraction = 0x1p53;
+    return std::abs(value) >= no_fraction || static_cast<double>(static_cast<std::int64_t>(value)) == value;
+  };
+  bool exact = true;
   for (std::size_t i = 0; i < N; ++i) {
-    const double scaled = differences[i] * scale;
-    const auto integer = static_cast<std::int64_t>(scaled);
-    exact = exact && static_cast<double>(integer) == scaled;
-    integers[i].words[0] = static_cast<std::uint64_t>(integer);
+    const double scaled = differences[i] * scale, rest = rests[i] * scale;
+    exact = exact && is_whole(scaled) && is_whole(rest);
+    integers[i] = whole_number<Words>(scaled) + whole_number<Words>(rest);
   }
   return exact;
 }
