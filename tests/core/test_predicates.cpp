@@ -115,7 +115,7 @@ TEST_CASE("integers and expansions have the same sign where both can be used") {
               (1 + 0x1p-30 * std::uniform_int_distribution<int>(0, 3)(engine));
     for (std::size_t k = 0; k < 12; ++k)
       b[k] = k < 3 ? 0x1p-20 * std::uniform_int_distribution<int>(0, 4)(engine) : b[k - 3];
-    std::array<detail::wide_integer<1>, 12> integers;
+    std::array<detail::fixed_integer<1>, 12> integers;
     if (!detail::integer_differences(a, b, integers))
       continue;
     ++used;
@@ -124,7 +124,7 @@ TEST_CASE("integers and expansions have the same sign where both can be used") {
       expansions[k] = detail::exact_difference(a[k], b[k]);
     REQUIRE(detail::sphere_determinant(integers).sign() == detail::sphere_determinant(expansions).sign());
     a[engine() % 12] *= 1 + 0x1p-52; // too fine for one word
-    std::array<detail::wide_integer<2>, 12> wider;
+    std::array<detail::fixed_integer<2>, 12> wider;
     REQUIRE(detail::integer_differences(a, b, wider));
     for (std::size_t k = 0; k < 12; ++k)
       expansions[k] = detail::exact_difference(a[k], b[k]);
@@ -136,14 +136,14 @@ TEST_CASE("integers and expansions have the same sign where both can be used") {
 TEST_CASE("integers as wide as they can get do not overflow") {
   const double most = 0x1p61 - 0x1p8; // the largest double below 2^61
   for (const double s : {1.0, -1.0}) {
-    std::array<detail::wide_integer<1>, 12> integers;
+    std::array<detail::fixed_integer<1>, 12> integers;
     std::array<double, 12> a{s * most, most, most, most, -most, most, -most, most, most, most, most, -most};
     REQUIRE(detail::integer_differences(a, {}, integers));
     std::array<detail::expansion<2>, 12> expansions;
     for (std::size_t k = 0; k < 12; ++k)
       expansions[k] = detail::exact_difference(a[k], 0);
     CHECK(detail::sphere_determinant(integers).sign() == detail::sphere_determinant(expansions).sign());
-    std::array<detail::wide_integer<2>, 12> wider;
+    std::array<detail::fixed_integer<2>, 12> wider;
     for (double& value : a)
       value = std::copysign(1 - 0x1p-53, value);
     std::array<double, 12> b{};
@@ -154,7 +154,7 @@ TEST_CASE("integers as wide as they can get do not overflow") {
     REQUIRE(detail::integer_differences(a, b, wider));
     CHECK(detail::sphere_determinant(wider).sign() == detail::sphere_determinant(expansions).sign());
   }
-  std::array<detail::wide_integer<1>, 1> integer;
+  std::array<detail::fixed_integer<1>, 1> integer;
   CHECK_FALSE(detail::integer_differences<1, 1>({1.0}, {1e-30}, integer)); // their difference is rounded
   CHECK(detail::integer_differences<1, 1>({0.25}, {0.25}, integer));
   CHECK(integer[0].sign() == 0);

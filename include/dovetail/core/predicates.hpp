@@ -13,7 +13,7 @@
 #endif
 
 #include "dovetail/core/vector.hpp"
-#include "dovetail/core/wide_integer.hpp"
+#include "dovetail/core/fixed_integer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -134,10 +134,10 @@ auto sphere_determinant(const std::array<Number, 12>& n) {
 template <std::size_t N, class Determinant>
 double exact_sign(const std::array<double, N>& a, const std::array<double, N>& b,
                   const Determinant& determinant) {
-  std::array<wide_integer<1>, N> integers;
+  std::array<fixed_integer<1>, N> integers;
   if (integer_differences(a, b, integers))
     return determinant(integers).sign();
-  std::array<wide_integer<2>, N> wider_integers;
+  std::array<fixed_integer<2>, N> wider_integers;
   if (integer_differences(a, b, wider_integers))
     return determinant(wider_integers).sign();
   std::array<expansion<2>, N> expansions;

@@ -16,7 +16,7 @@ __extension__ using signed_two_words = __int128;
 
 /// Two's complement, least significant word first. Sums wrap around: whoever adds knows that they fit.
 template <std::size_t Words>
-struct wide_integer {
+struct fixed_integer {
   std::array<std::uint64_t, Words> words{};
 
   constexpr bool negative() const { return words[Words - 1] >> 63U != 0; }
@@ -29,8 +29,8 @@ struct wide_integer {
     return 0;
   }
 
-  friend constexpr wide_integer operator+(const wide_integer& a, const wide_integer& b) {
-    wide_integer sum;
+  friend constexpr fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
+    fixed_integer sum;
     two_words carry = 0;
     for (std::size_t i = 0; i < Words; ++i) {
       carry += two_words{a.words[i]} + b.words[i];
@@ -39,8 +39,8 @@ struct wide_integer {
     }
     return sum;
   }
-  friend constexpr wide_integer operator-(const wide_integer& a, const wide_integer& b) {
-    wide_integer difference;
+  friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
+    fixed_integer difference;
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < Words; ++i) {
       const two_words value = two_words{a.words[i]} - b.words[i] - borrow;
@@ -53,7 +53,7 @@ struct wide_integer {
 
 /// Subtracts `b` shifted by whole words, from `Shift` on.
 template <std::size_t Shift, std::size_t N, std::size_t B>
-constexpr void subtract_shifted(wide_integer<N>& from, const wide_integer<B>& b) {
+constexpr void subtract_shifted(fixed_integer<N>& from, const fixed_integer<B>& b) {
   std::uint64_t borrow = 0;
   for (std::size_t i = 0; i < B && Shift + i < N; ++i) {
     const two_words value = two_words{from.words[Shift + i]} - b.words[i] - borrow;
@@ -65,8 +65,8 @@ constexpr void subtract_shifted(wide_integer<N>& from, const wide_integer<B>& b)
 /// The exact product. A negative factor, read as if it had no sign, is larger by 2^(64 words): the other
 /// factor, shifted, is taken off again.
 template <std::size_t A, std::size_t B>
-constexpr wide_integer<A + B> operator*(const wide_integer<A>& a, const wide_integer<B>& b) {
-  wide_integer<A + B> product;
+constexpr fixed_integer<A + B> operator*(const fixed_integer<A>& a, const fixed_integer<B>& b) {
+  fixed_integer<A + B> product;
   for (std::size_t i = 0; i < A; ++i) {
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < B; ++j) {
@@ -85,8 +85,8 @@ constexpr wide_integer<A + B> operator*(const wide_integer<A>& a, const wide_int
 
 /// The integer that a double is, if it is one below 2^(64 Words - 1).
 template <std::size_t Words>
-wide_integer<Words> whole_number(double value) {
-  wide_integer<Words> result;
+fixed_integer<Words> whole_number(double value) {
+  fixed_integer<Words> result;
   if constexpr (Words == 1) {
     result.words[0] = static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
   } else {
@@ -102,7 +102,7 @@ wide_integer<Words> whole_number(double value) {
 /// False when that would need rounding.
 template <std::size_t Words, std::size_t N>
 bool integer_differences(const std::array<double, N>& a, const std::array<double, N>& b,
-                         std::array<wide_integer<Words>, N>& integers) {
+                         std::array<fixed_integer<Words>, N>& integers) {
   static_assert(Words == 1 || Words == 2);
   std::array<double, N> differences, rests;
   double largest = 0;
