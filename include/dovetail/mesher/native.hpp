@@ -22,14 +22,12 @@ namespace dovetail::mesher {
 
 /// A model of `boundary_keeping_mesher<3>` that needs no library and runs in threads.
 ///
-/// Points of a lattice graded by the sizes are inserted together with those of the boundary; what the Delaunay
-/// tetrahedrization lacks of the boundary is recovered by flips. Elements are not improved: slivers are left
-/// to the improver.
+/// Points of a lattice graded by the sizes are inserted together with those of the boundary; what the
+/// Delaunay tetrahedrization lacks of the boundary is recovered by flips. Elements are not improved: slivers
+/// are left to the improver.
 struct native {
-  static constexpr mesher_traits traits{.keeps_boundary = true,
-                                        .thread_safe = true,
-                                        .accepts_non_manifold = true,
-                                        .repeats_in_process = true};
+  static constexpr mesher_traits traits{
+      .keeps_boundary = true, .thread_safe = true, .accepts_non_manifold = true, .repeats_in_process = true};
   /// Elements made per unit of the integral of h^-3.
   static constexpr double elements_per_inverse_cubed_size = 9.5;
 
@@ -83,8 +81,8 @@ inline mesher_result<3> native::operator()(const mesher_input<3>& input, const a
   detail::require_distinct_vertices(input.boundary, made.same_as);
   const recovery_counts recovered = recover_boundary(made.triangulation, span_of(input.boundary.elements));
   mesher_result<3> result;
-  result.mesh = inside_elements(made.triangulation, span_of(input.boundary.elements),
-                                input.boundary.points.size());
+  result.mesh =
+      inside_elements(made.triangulation, span_of(input.boundary.elements), input.boundary.points.size());
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
   check_mesher_result(input, result.mesh);
 

@@ -44,6 +44,12 @@ public:
     return static_cast<local_id>(mesh_.points.size()) - 1;
   }
 
+  /// Takes back the points from number `count` on, which no element has.
+  void drop_points(std::size_t count) {
+    mesh_.points.resize(count);
+    element_at_.resize(count);
+  }
+
   /// Visits living elements from those at vertex `v` on, each once, and goes from an element across side i
   /// where `crosses(element, i)`. Elements at `v` are all visited.
   template <class Visit, class Crosses>
@@ -139,7 +145,8 @@ public:
 
   /// Whether the tetrahedron is positively oriented and has no infinite vertex.
   bool is_positive(const simplex<3>& v) const {
-    return (v[0] | v[1] | v[2] | v[3]) >= 0 && orient3d(point(v[0]), point(v[1]), point(v[2]), point(v[3])) > 0;
+    return (v[0] | v[1] | v[2] | v[3]) >= 0 &&
+           orient3d(point(v[0]), point(v[1]), point(v[2]), point(v[3])) > 0;
   }
 
 private:

@@ -3,15 +3,16 @@
 ///
 /// A Delaunay tetrahedrization lacks few of them when points inside keep away from the boundary. What is in
 /// the way of one is taken away by flips, as by P. L. George, H. Borouchaki and E. Saltel, "'Ultimate'
-/// robustness in meshing an arbitrary polyhedron", doi 10.1002/nme.808, and J. Chen et al., "Three-dimensional
-/// constrained boundary recovery with an enhanced Steiner point suppression procedure",
-/// doi 10.1016/j.compstruc.2010.11.016 (where removal of an edge is a shell transformation); where that fails,
-/// points are put inside elements that are in the way, so that there is more to flip. None is ever on the
-/// boundary.
+/// robustness in meshing an arbitrary polyhedron", doi 10.1002/nme.808, and J. Chen et al.,
+/// "Three-dimensional constrained boundary recovery with an enhanced Steiner point suppression procedure",
+/// doi 10.1016/j.compstruc.2010.11.016 (where removal of an edge is a shell transformation); where that
+/// fails, points are put inside elements that are in the way, so that there is more to flip. None is ever on
+/// the boundary.
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/mesher/native/cavity_division.hpp"
 #include "dovetail/mesher/native/recovery_flips.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/triangulation/insertion_order.hpp"
@@ -23,6 +24,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -55,6 +57,7 @@ public:
 private:
   static constexpr int most_steps = 200;         // changes for one target in one go
   static constexpr int most_level_steps = 40;    // those of them after which as much is in the way as before
+  static constexpr int most_depth = 3;           // of removals of edges for the sake of others
   static constexpr std::size_t most_points = 12; // added for one target
 
   std::vector<edge_target> missing_edges() {
@@ -121,10 +124,12 @@ private:
   template <class Target>
   void recover_all(std::vector<Target>& missing) {
     for (std::size_t points = 0; points <= most_points; ++points) {
-      for (std::size_t before = missing.size() + 1; !missing.empty() && missing.size() < before;) {
-        before = missing.size();
-        std::erase_if(missing, [&](const Target& target) { return recover(target); });
-      }
+      for (int depth = 1; depth <= most_depth; ++depth)
+        for (std::size_t before = missing.size() + 1; !missing.empty() && missing.size() < before;) {
+          before = missing.size();
+          std::erase_if(missing, [&](const Target& target) { return recover(target, depth); });
+        }
+      std::erase_if(missing, [&](const Target& target) { return recover_with_points(target); });
       if (missing.empty())
         return;
       if (points < most_points)
@@ -135,7 +140,7 @@ private:
   }
 
   template <class Target>
-  bool recover(const Target& target) {
+  bool recover(const Target& target, int depth) {
     int level_steps = 0;
     for (int step = 0; step < most_steps; ++step) {
       if (target.is_there(changes_))
@@ -149,15 +154,14 @@ private:
                   found_.edges.end());
       std::rotate(found_.sides.begin(), found_.sides.begin() + turn(step, found_.sides.size()),
                   found_.sides.end());
-      if (!improve(target, 0) && !improve_in_two_steps(target))
+      if (!improve(target, 0) && !improve_in_steps(target, depth))
         return false;
     }
     return target.is_there(changes_);
   }
   /// Where to begin, the same in every run.
   static std::ptrdiff_t turn(int step, std::size_t count) {
-    return count == 0 ? 0
-                      : static_cast<std::ptrdiff_t>(scattered(static_cast<std::uint64_t>(step)) % count);
+    return count == 0 ? 0 : static_cast<std::ptrdiff_t>(scattered(static_cast<std::uint64_t>(step)) % count);
   }
 
   /// Makes one change of what is in the way, the least costly first.
@@ -173,12 +177,12 @@ private:
         [&](local_id u, local_id v) { return flips_.remove_edge(target, u, v, allowed_excess); });
   }
   template <class Target>
-  bool improve_in_two_steps(const Target& target) {
+  bool improve_in_steps(const Target& target, int depth) {
     for (const auto& [u, v] : found_.edges)
-      if (flips_.remove_edge_after_others(target, u, v, -1))
+      if (flips_.remove_edge_after_others(target, u, v, -1, depth))
         return true;
     return for_each_edge_of_sides(
-        [&](local_id u, local_id v) { return flips_.remove_edge_after_others(target, u, v, -1); });
+        [&](local_id u, local_id v) { return flips_.remove_edge_after_others(target, u, v, -1, depth); });
   }
   template <class F>
   bool for_each_edge_of_sides(const F& f) {
@@ -196,6 +200,26 @@ private:
     }
     return std::any_of(side_edges_.begin(), side_edges_.end(),
                        [&](const std::array<local_id, 2>& edge) { return f(edge[0], edge[1]); });
+  }
+
+  /// Makes the target with points where there is a place for them that is known to do.
+  bool recover_with_points(const edge_target& target) {
+    if (target.is_there(changes_))
+      return true;
+    find_obstacles(changes_, target, found_);
+    const auto divide = [&](local_id u, local_id v) {
+      return flips_.divide_ring(target, u, v, counts_.added_points);
+    };
+    for (const auto& [u, v] : found_.edges)
+      if (divide(u, v))
+        return true;
+    return for_each_edge_of_sides(divide);
+  }
+  bool recover_with_points(const triangle_target& target) {
+    if (target.is_there(changes_))
+      return true;
+    find_obstacles(changes_, target, found_);
+    return cavity_division(changes_, kept_, target.corners, found_.elements).run(counts_.added_points);
   }
 
   /// Puts a point into the largest of the elements in the way, or, in later attempts, into the next ones.
@@ -236,7 +260,8 @@ private:
   }
   std::string place_of(const triangle_target& target) const {
     return "triangle " + place_text(changes_.point(target.corners[0])) + ", " +
-           place_text(changes_.point(target.corners[1])) + ", " + place_text(changes_.point(target.corners[2]));
+           place_text(changes_.point(target.corners[1])) + ", " +
+           place_text(changes_.point(target.corners[2]));
   }
   template <class Target>
   [[noreturn]] void throw_unrecovered(const std::vector<Target>& missing) const {

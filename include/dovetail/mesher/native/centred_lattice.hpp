@@ -88,9 +88,7 @@ private:
   bool is_clear(vec3 p, double distance) const {
     bool clear = true;
     tree_.for_each(
-        [&](const box3& box, std::size_t) {
-          return clear && distance_squared(box, p) < distance * distance;
-        },
+        [&](const box3& box, std::size_t) { return clear && distance_squared(box, p) < distance * distance; },
         [&](local_id t) {
           const auto& v = boundary_.elements[static_cast<std::size_t>(t)];
           const vec3 a = boundary_.points[static_cast<std::size_t>(v[0])],

@@ -52,8 +52,9 @@ private:
     if (known == where)
       return;
     if (known != place::unknown)
-      throw mesher_error("an element is inside and outside of the boundary at once; check that it is closed and "
-                         "that its triangles are oriented outwards");
+      throw mesher_error(
+          "an element is inside and outside of the boundary at once; check that it is closed and "
+          "that its triangles are oriented outwards");
     known = where;
     front_.push_back(e);
   }
@@ -103,9 +104,9 @@ private:
 } // namespace detail
 
 /// The elements inside of `triangles`, which are all sides of elements, are oriented outwards of the inside
-/// and have their vertices among the first `given_points`; a triangle inside is listed in both directions. All of
-/// these points come first in the result, then the others that are used, in their order. Linear. Throws
-/// `mesher_error` when a triangle is missing or the boundary contradicts itself.
+/// and have their vertices among the first `given_points`; a triangle inside is listed in both directions.
+/// All of these points come first in the result, then the others that are used, in their order. Linear.
+/// Throws `mesher_error` when a triangle is missing or the boundary contradicts itself.
 inline simplicial_mesh<3> inside_elements(const triangulation<3>& t, std::span<const simplex<2>> triangles,
                                           std::size_t given_points) {
   const boundary_sides boundary(triangles);

@@ -4,6 +4,7 @@
 
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
+#include "dovetail/mesher/native/star_points.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
 
 #include <algorithm>
@@ -93,29 +94,62 @@ public:
     int before = target.weight(changes_, p, q);
     for (const local_id v : r)
       before += target.weight(changes_, p, q, v);
-    if (best_ring_weight(target, p, q) > before + allowed_excess)
+    if (best_weight(target, p, q, r) > before + allowed_excess)
       return false;
     fresh_.clear();
-    add_triangles(p, q, 0, r.size() - 1);
+    add_triangles(p, q, r, 0, r.size() - 1);
     changes_.replace(ring_.elements, fresh_);
     return true;
   }
 
-  /// Removes the edge (p, q) after edges beside it, whose removal makes the ring one that can be triangulated.
-  template <class Target>
-  bool remove_edge_after_others(const Target& target, local_id p, local_id q, int allowed_excess) {
+  /// Makes the target the edge between two vertices of the ring around (p, q), with new points in the parts
+  /// of the ring on both sides of it if need be; adds the number of them to `added`.
+  bool divide_ring(const edge_target& target, local_id p, local_id q, std::size_t& added) {
     const local_id e = kept_.has(p, q) ? no_id : changes_.element_with_edge(p, q);
+    if (e == no_id)
+      return false;
+    changes_.find_ring(e, p, q, most_ring, ring_);
+    auto& r = ring_.vertices;
+    if (r.size() < 4 || *std::min_element(r.begin(), r.end()) < 0)
+      return false;
+    const auto first = std::find(r.begin(), r.end(), target.ends[0]);
+    if (first == r.end())
+      return false;
+    std::rotate(r.begin(), first, r.end());
+    const auto second = std::find(r.begin(), r.end(), target.ends[1]);
+    if (second == r.end())
+      return false;
+    const std::vector<local_id> one(r.begin(), second + 1);
+    std::vector<local_id> other(second, r.end());
+    other.push_back(r.front());
+    fresh_.clear();
+    const std::size_t points = changes_.mesh().points.size();
+    std::size_t new_points = 0;
+    if (!fill_part(target, p, q, one, new_points) || !fill_part(target, p, q, other, new_points)) {
+      changes_.drop_points(points);
+      return false;
+    }
+    changes_.replace(ring_.elements, fresh_);
+    added += new_points;
+    return true;
+  }
+
+  /// Removes the edge (p, q), after edges beside it if need be, whose removal makes the ring one that can be
+  /// triangulated; `depth` is how far that goes on. O((2 n)^depth) removals are tried for rings of n.
+  template <class Target>
+  bool remove_edge_after_others(const Target& target, local_id p, local_id q, int allowed_excess, int depth) {
+    if (remove_edge(target, p, q, allowed_excess))
+      return true;
+    const local_id e = depth == 0 || kept_.has(p, q) ? no_id : changes_.element_with_edge(p, q);
     if (e == no_id)
       return false;
     changes_.find_ring(e, p, q, most_ring, ring_);
     const std::vector<local_id> ring = ring_.vertices;
     for (const local_id r : ring)
-      for (const local_id end : {p, q}) {
-        if (!remove_edge(target, end, r, 0))
-          continue;
-        if (remove_edge(target, p, q, allowed_excess))
+      for (const local_id end : {p, q})
+        if (r >= 0 && remove_edge_after_others(target, end, r, 0, depth - 1) &&
+            remove_edge(target, p, q, allowed_excess))
           return true;
-      }
     return false;
   }
 
@@ -123,10 +157,9 @@ private:
   static constexpr std::size_t most_ring = 24;
   static constexpr int impossible = 1 << 28;
 
-  /// Fills the tables of `weight_` and `split_` for the ring; returns the least weight.
+  /// Fills the tables of `weight_` and `split_` for the polygon; returns the least weight.
   template <class Target>
-  int best_ring_weight(const Target& target, local_id p, local_id q) {
-    const auto& r = ring_.vertices;
+  int best_weight(const Target& target, local_id p, local_id q, std::span<const local_id> r) {
     const std::size_t n = r.size();
     for (std::size_t i = 0; i + 1 < n; ++i)
       weight_[i][i + 1] = 0;
@@ -153,15 +186,34 @@ private:
       }
     return weight_[0][n - 1];
   }
-  void add_triangles(local_id p, local_id q, std::size_t i, std::size_t j) {
+  /// Adds the elements on both sides of the best triangulation of the polygon between places i and j.
+  void add_triangles(local_id p, local_id q, std::span<const local_id> r, std::size_t i, std::size_t j) {
     if (j == i + 1)
       return;
-    const auto& r = ring_.vertices;
     const std::size_t k = split_[i][j];
     fresh_.push_back({r[i], r[k], r[j], q});
     fresh_.push_back({r[i], r[j], r[k], p});
-    add_triangles(p, q, i, k);
-    add_triangles(p, q, k, j);
+    add_triangles(p, q, r, i, k);
+    add_triangles(p, q, r, k, j);
+  }
+
+  /// Fills the part of a ring within a polygon: by triangles, or else by a star around a new point, of which
+  /// `added` is then the number. What is filled is undone by no one when it fails.
+  template <class Target>
+  bool fill_part(const Target& target, local_id p, local_id q, std::span<const local_id> polygon,
+                 std::size_t& added) {
+    if (best_weight(target, p, q, polygon) < impossible) {
+      add_triangles(p, q, polygon, 0, polygon.size() - 1);
+      return true;
+    }
+    // An element (p, q, u, v) of the ring becomes (p, s, u, v) and (s, q, u, v): the sides that s sees.
+    std::vector<simplex<2>> sides;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const local_id u = polygon[k], v = polygon[(k + 1) % polygon.size()];
+      sides.push_back({p, v, u});
+      sides.push_back({q, u, v});
+    }
+    return add_star(changes_, sides, fresh_, added);
   }
 
   local_changes& changes_;

@@ -41,9 +41,7 @@ struct edge_target {
   std::array<local_id, 2> ends;
 
   local_id begin() const { return ends[0]; }
-  bool is_there(local_changes& changes) const {
-    return changes.element_with_edge(ends[0], ends[1]) != no_id;
-  }
+  bool is_there(local_changes& changes) const { return changes.element_with_edge(ends[0], ends[1]) != no_id; }
   int weight(const local_changes& c, local_id u, local_id v) const {
     constexpr int edge_weight = 2; // an edge crossed is about as bad as two sides pierced next to it
     return !is_end(u) && !is_end(v) &&
