@@ -12,8 +12,8 @@
 #error "dovetail needs IEEE arithmetic: compile without -ffast-math and its parts (docs/building.md)"
 #endif
 
-#include "dovetail/core/vector.hpp"
 #include "dovetail/core/fixed_integer.hpp"
+#include "dovetail/core/vector.hpp"
 
 #include <algorithm>
 #include <array>
