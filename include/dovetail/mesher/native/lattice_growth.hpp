@@ -103,8 +103,10 @@ private:
     return spot{place, leaf, piece_.size_at(leaf, place)};
   }
 
-  /// In the middle of a leaf with no point near: where growth has not come and may begin.
+  /// In the middle of a leaf with no point in it nor near: where growth has not come and may begin.
   void seed(std::uint32_t leaf) {
+    if (grid_.has_points(leaf))
+      return;
     const vec3 middle = piece_.tree().box(leaf).center();
     const spot at{middle, leaf, piece_.size_at(leaf, middle)};
     grid_.gather(leaf, middle, options_.cell * at.size, gathered_);

@@ -45,6 +45,8 @@ public:
     to.points[to.count++] = {place, id};
   }
 
+  bool has_points(std::size_t leaf) const { return leaves_[leaf].first != none; }
+
   /// The points within `radius` of a place in the leaf, in an order that depends on what was added alone.
   void gather(std::size_t leaf, vec3 place, double radius, std::vector<gathered_point>& to) {
     to.clear();
