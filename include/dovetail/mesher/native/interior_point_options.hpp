@@ -11,7 +11,7 @@ struct interior_point_options {
   /// the mean is 0.9235 of it, which is a little less than the size, for edges to the boundary come out
   /// longer.
   double cell = 1.055;
-  double crowding = 0.65;  ///< least distance between points
+  double crowding = 0.68;  ///< least distance between points
   double capture = 0.42;   ///< places that close that two neighbours expect a point at are the same place
   double clearance = 0.57; ///< least distance from the boundary
   double most_points = 1e8;
