@@ -229,3 +229,25 @@ TEST_CASE("refinement never worsens a partition's standing and keeps its parts c
     CHECK(components_within(given.simplified.graph, given.part).count == 5);
   }
 }
+
+TEST_CASE("a repair ends when as many super-elements were reassigned as may be") {
+  partitioned_mesh given(3, 6, 1.2);
+  auto parts = given.reassignable();
+  random_numbers random(3);
+  disturb(parts, random, 1000);
+  manifold_repair<3> repair(parts);
+  const auto points = repair.defective_points();
+  REQUIRE(points.size() > 10);
+  const auto start = parts.mark();
+  const auto assigned_with = [&](auto... most) {
+    repair.repair(points, most...);
+    const std::size_t assigned = parts.assignments() - start.trail_length;
+    parts.go_back_to(start);
+    return assigned;
+  };
+  const std::size_t all = assigned_with();
+  CHECK(assigned_with(std::size_t{0}) == 0);
+  CHECK(assigned_with(std::size_t{1}) >= 1);
+  CHECK(assigned_with(std::size_t{5}) >= 5);
+  CHECK(assigned_with(std::size_t{5}) < all);
+}

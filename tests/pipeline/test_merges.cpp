@@ -380,12 +380,14 @@ TEST_CASE("Interfaces move away from small angles, but not to where something cr
       });
   const auto stays = given.rounds(0.05).realize_boundaries().value();
   CHECK(stays.summary.get("repartitioned") == 0);
+  CHECK(stays.summary.get("repartition_seconds") == 0);
 
   given.want(24);
   given.given.mesh_surface = {};
   auto rounds = given.rounds(0.05);
   const auto goes = rounds.realize_boundaries().value();
   CHECK(goes.summary.get("repartitioned") > 0);
+  CHECK(goes.summary.get("repartition_seconds") > 0);
   CHECK(goes.subdomain_of_element != stays.subdomain_of_element);
   const auto small_angles = [](const interface_angles& angles) {
     return angles.violations.size() - angles.count(violation_cause::forced);

@@ -18,7 +18,7 @@ namespace {
 constexpr int rounds = 6;
 
 decomposition_state eight_subdomains() {
-  return {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 0.05}, any_sizing(uniform_size(1)), 0, 0, {}};
+  return {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 0.05}, any_sizing(uniform_size(1))};
 }
 
 geometry_topology two_faces() {

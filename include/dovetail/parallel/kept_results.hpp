@@ -20,10 +20,10 @@
 
 namespace dovetail {
 
-/// The results 0 .. count-1 of a batch of tasks, made in one or several calls; each has a member `summary`,
-/// which is what is known of it without loading it. A result that was kept by a
-/// run before, or under another number, is not made again. It may be given up, and a `Note` left in its
-/// place, which `is_whole()` as long as the result is where it says.
+/// The results 0 .. count-1 of a batch of tasks, made in one or several calls. The member `summary` of a
+/// result is what is known of it without loading it. What a run before has kept, or this one under another
+/// number, is not made again. A result may be given up and a `Note` left in its place, which says where it is
+/// now and `is_whole()` as long as it is there.
 template <encodable Result, encodable Note>
 class kept_results {
 public:
@@ -42,8 +42,8 @@ public:
       : store_(std::move(store)), keys_(count) {}
 
   /// Makes result `number(k)` for each k below `count` in a task of `run`, unless it is there: `input(k)` is
-  /// what it is a function of, `key(in)` tells that from others, `make(k, in)` makes it. The receipts are
-  /// those of `map_tasks`, with `brief(summary)` for a summary; those that are there are taken down.
+  /// what it is a function of, `key(in)` tells that from others, `make(k, in)` makes it. Returns what
+  /// `map_tasks` does: per k a receipt, with `brief(summary)` for a summary, or why there is none.
   template <class Number, class Input, class Key, class Make, class Brief>
   std::vector<task_result<receipt>> make(std::size_t count, const any_executor& run, const Number& number,
                                          const Input& input, const Key& key, const Make& make_result,
@@ -53,7 +53,7 @@ public:
         [&](std::size_t k) {
           const auto in = input(k);
           receipt made = make_once(key(in), [&] { return make_result(k, in); });
-          made.summary = brief(made.summary);
+          made.summary = brief(std::move(made.summary));
           return made;
         },
         options);

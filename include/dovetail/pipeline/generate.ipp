@@ -31,8 +31,8 @@ divided_background<D> divide_if_planned(const any_geometry& model, const backgro
   return divide<D>(background.mesh, background.size, background.plan.subdomains, given);
 }
 
-/// What follows the background mesh, which is taken when all went well. `account` is that of the
-/// decompositions before; where this one is given up too, which is nothing, of all.
+/// What follows the background mesh, which is moved into the result. Nothing, and why, where too many
+/// subdomains would have to be merged; `account` then tells of this decomposition too, besides those before.
 template <int D>
 std::optional<generated<D>> generate_once(const any_geometry& model, background_result<D>& background,
                                           const any_parameters<D>& given, report& account,
@@ -55,13 +55,10 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
   result.quality = meshed.quality;
   result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
   result.failures = std::move(meshed.failures);
-  result.summary = {"generate",
-                    0,
-                    {},
-                    {},
-                    {std::move(background.summary), std::move(divided.simplification),
-                     std::move(divided.partition), std::move(skeleton.summary), rounds.intersection(),
-                     std::move(meshed.summary)}};
+  result.summary.name = "generate";
+  result.summary.children = {std::move(background.summary), std::move(divided.simplification),
+                             std::move(divided.partition),  std::move(skeleton.summary),
+                             rounds.intersection(),         std::move(meshed.summary)};
   result.background = std::move(background.mesh);
   return result;
 }

@@ -30,7 +30,7 @@ struct decomposition_state {
   refined_sizing size; ///< the field given, smaller where something crossed
   int refinements = 0;
   local_id merged_after_failure = 0;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = {};
 };
 
 /// One repair: smaller sizes, merges, or the insight that only fewer subdomains would do.

@@ -34,12 +34,9 @@ public:
                        const divided_background<D>& divided, const any_sizing& size,
                        const any_parameters<D>& given, report account = {})
       : model_(model), mesh_(mesh), divided_(divided),
-        given_(given), state_{divided.pieces.part_of_element,
-                              {divided.pieces.parts, given.options.largest_merged_fraction},
-                              size,
-                              0,
-                              0,
-                              {}},
+        given_(given), state_{.subdomain_of_element = divided.pieces.part_of_element,
+                              .merges = {divided.pieces.parts, given.options.largest_merged_fraction},
+                              .size = size},
         repartition_(mesh, divided), made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
         pieces_(std::make_shared<entity_store>(given.options.store)), intersection_(std::move(account)) {
     intersection_.name = "intersection";
