@@ -12,6 +12,7 @@
 #include "dovetail/experiments/baselines/loehner_improvement.hpp"
 #include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/improver/native.hpp"
+#include "dovetail/mesher/native.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/all.hpp"
@@ -104,6 +105,7 @@ std::vector<any_simplification_rule> simplifiers_at(double angle, int dimension)
 
 std::vector<any_mesher<3>> meshers() {
   std::vector<any_mesher<3>> known{{mesher::tetgen{}, "tetgen"}};
+  known.push_back(any_mesher<3>(mesher::native{}, "native").with_fallback(known.front()));
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
   // The others fail on some boundaries that TetGen meshes, such as two parts that touch in an edge.
   known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(known.front()));

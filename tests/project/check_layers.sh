@@ -10,7 +10,7 @@ set -euo pipefail
 cd include/dovetail
 
 declare -A layer=(
-  [core]=1 [mesh]=1 [graph]=1 [geometry]=1 [sizing]=1
+  [core]=1 [mesh]=1 [graph]=1 [geometry]=1 [sizing]=1 [triangulation]=1
   [partition]=2 [remesh]=2 [mesher]=2 [improver]=2 [parallel]=2 [meshing]=2
   [background]=3 [simplification]=3 [decomposition]=3 [skeleton]=3 [intersection]=3
   [pipeline]=4

@@ -90,6 +90,7 @@ public:
   std::size_t leaf(std::size_t index) const { return leaves_[index]; }
   std::size_t leaf_index(std::size_t leaf) const { return nodes_[leaf].link; }
 
+  bool is_leaf(std::size_t node) const { return !nodes_[node].inner; }
   /// Child k of an inner node.
   std::size_t child(std::size_t node, std::size_t k) const { return nodes_[node].link + k; }
 

@@ -1,5 +1,7 @@
 /// @file
-/// Orientation and in-circle tests with the exact sign: a floating-point filter, then exact expansions.
+/// Orientation, in-circle and in-sphere tests with the exact sign: a floating-point filter, then integers of
+/// some words where the differences of coordinates are multiples of a common unit (nearly always), then exact
+/// expansions.
 ///
 /// The filters' error bounds and the arithmetic of expansions are those of J. R. Shewchuk, "Adaptive
 /// precision floating-point arithmetic and fast robust geometric predicates", doi 10.1007/PL00009321. Exact
@@ -10,8 +12,10 @@
 #error "dovetail needs IEEE arithmetic: compile without -ffast-math and its parts (docs/building.md)"
 #endif
 
+#include "dovetail/core/fixed_integer.hpp"
 #include "dovetail/core/vector.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +24,9 @@
 namespace dovetail {
 
 namespace detail {
+
+/// No more terms than this can be free of overlap: doubles have so many different exponents.
+inline constexpr std::size_t most_terms = 2100;
 
 /// The exact value of a sum of doubles, kept as non-overlapping terms of increasing magnitude.
 /// `Capacity` bounds the number of terms.
@@ -55,8 +62,8 @@ void add_product(expansion<N>& to, double a, double b) {
 }
 
 template <std::size_t A, std::size_t B>
-expansion<2 * A * B> operator*(const expansion<A>& a, const expansion<B>& b) {
-  expansion<2 * A * B> result;
+auto operator*(const expansion<A>& a, const expansion<B>& b) {
+  expansion<std::min(2 * A * B, most_terms)> result;
   for (std::size_t i = 0; i < a.size; ++i)
     for (std::size_t j = 0; j < b.size; ++j)
       add_product(result, a.terms[i], b.terms[j]);
@@ -64,8 +71,8 @@ expansion<2 * A * B> operator*(const expansion<A>& a, const expansion<B>& b) {
 }
 
 template <std::size_t A, std::size_t B>
-expansion<A + B> operator+(const expansion<A>& a, const expansion<B>& b) {
-  expansion<A + B> result;
+auto operator+(const expansion<A>& a, const expansion<B>& b) {
+  expansion<std::min(A + B, most_terms)> result;
   for (std::size_t i = 0; i < a.size; ++i)
     result.terms[result.size++] = a.terms[i];
   for (std::size_t j = 0; j < b.size; ++j)
@@ -80,6 +87,11 @@ expansion<A> operator-(expansion<A> a) {
   return a;
 }
 
+template <std::size_t A, std::size_t B>
+auto operator-(const expansion<A>& a, const expansion<B>& b) {
+  return a + -b;
+}
+
 inline expansion<2> exact_difference(double a, double b) {
   expansion<2> result;
   result.add(a);
@@ -89,30 +101,71 @@ inline expansion<2> exact_difference(double a, double b) {
 
 inline constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
 
+/// The determinants, of doubles, of expansions or of integers of some words.
+template <class Number>
+auto plane_determinant(const std::array<Number, 4>& n) {
+  const auto& [bx, by, cx, cy] = n;
+  return bx * cy - by * cx;
+}
+template <class Number>
+auto space_determinant(const std::array<Number, 9>& n) {
+  const auto& [bx, by, bz, cx, cy, cz, dx, dy, dz] = n;
+  return (by * cz - bz * cy) * dx + (bz * cx - bx * cz) * dy + (bx * cy - by * cx) * dz;
+}
+template <class Number>
+auto circle_determinant(const std::array<Number, 6>& n) {
+  const auto& [ax, ay, bx, by, cx, cy] = n;
+  return (ax * ax + ay * ay) * (bx * cy - by * cx) + (bx * bx + by * by) * (cx * ay - cy * ax) +
+         (cx * cx + cy * cy) * (ax * by - ay * bx);
+}
+template <class Number>
+auto sphere_determinant(const std::array<Number, 12>& n) {
+  const auto& [ax, ay, az, bx, by, bz, cx, cy, cz, dx, dy, dz] = n;
+  const auto ab = ax * by - bx * ay, bc = bx * cy - cx * by, cd = cx * dy - dx * cy, da = dx * ay - ax * dy,
+             ac = ax * cy - cx * ay, bd = bx * dy - dx * by;
+  const auto abc = az * bc - bz * ac + cz * ab, bcd = bz * cd - cz * bd + dz * bc,
+             cda = cz * da + dz * ac + az * cd, dab = dz * ab + az * bd + bz * da;
+  const auto a_lift = ax * ax + ay * ay + az * az, b_lift = bx * bx + by * by + bz * bz,
+             c_lift = cx * cx + cy * cy + cz * cz, d_lift = dx * dx + dy * dy + dz * dz;
+  return (a_lift * bcd - b_lift * cda) + (c_lift * dab - d_lift * abc);
+}
+
+/// The exact sign of a determinant of the differences a[i] - b[i].
+template <std::size_t N, class Determinant>
+double exact_sign(const std::array<double, N>& a, const std::array<double, N>& b,
+                  const Determinant& determinant) {
+  std::array<fixed_integer<1>, N> integers;
+  if (integer_differences(a, b, integers))
+    return determinant(integers).sign();
+  std::array<fixed_integer<2>, N> wider_integers;
+  if (integer_differences(a, b, wider_integers))
+    return determinant(wider_integers).sign();
+  std::array<expansion<2>, N> expansions;
+  for (std::size_t i = 0; i < N; ++i)
+    expansions[i] = exact_difference(a[i], b[i]);
+  return determinant(expansions).sign();
+}
+
 inline double orient2d_exact(vec2 a, vec2 b, vec2 c) {
-  const auto abx = exact_difference(b.x, a.x), aby = exact_difference(b.y, a.y);
-  const auto acx = exact_difference(c.x, a.x), acy = exact_difference(c.y, a.y);
-  return (abx * acy + -(aby * acx)).sign();
+  return exact_sign<4>({b.x, b.y, c.x, c.y}, {a.x, a.y, a.x, a.y},
+                       [](const auto& n) { return plane_determinant(n); });
 }
 
 inline double orient3d_exact(vec3 a, vec3 b, vec3 c, vec3 d) {
-  const auto bx = exact_difference(b.x, a.x), by = exact_difference(b.y, a.y),
-             bz = exact_difference(b.z, a.z);
-  const auto cx = exact_difference(c.x, a.x), cy = exact_difference(c.y, a.y),
-             cz = exact_difference(c.z, a.z);
-  const auto dx = exact_difference(d.x, a.x), dy = exact_difference(d.y, a.y),
-             dz = exact_difference(d.z, a.z);
-  const auto nx = by * cz + -(bz * cy), ny = bz * cx + -(bx * cz), nz = bx * cy + -(by * cx);
-  return (nx * dx + ny * dy + nz * dz).sign();
+  return exact_sign<9>({b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z},
+                       {a.x, a.y, a.z, a.x, a.y, a.z, a.x, a.y, a.z},
+                       [](const auto& n) { return space_determinant(n); });
 }
 
 inline double in_circle_exact(vec2 a, vec2 b, vec2 c, vec2 d) {
-  const auto ax = exact_difference(a.x, d.x), ay = exact_difference(a.y, d.y);
-  const auto bx = exact_difference(b.x, d.x), by = exact_difference(b.y, d.y);
-  const auto cx = exact_difference(c.x, d.x), cy = exact_difference(c.y, d.y);
-  const auto a_lift = ax * ax + ay * ay, b_lift = bx * bx + by * by, c_lift = cx * cx + cy * cy;
-  const auto bc = bx * cy + -(by * cx), ca = cx * ay + -(cy * ax), ab = ax * by + -(ay * bx);
-  return (a_lift * bc + b_lift * ca + c_lift * ab).sign();
+  return exact_sign<6>({a.x, a.y, b.x, b.y, c.x, c.y}, {d.x, d.y, d.x, d.y, d.x, d.y},
+                       [](const auto& n) { return circle_determinant(n); });
+}
+
+inline double in_sphere_exact(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
+  return exact_sign<12>({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z},
+                        {e.x, e.y, e.z, e.x, e.y, e.z, e.x, e.y, e.z, e.x, e.y, e.z},
+                        [](const auto& n) { return sphere_determinant(n); });
 }
 
 } // namespace detail
@@ -153,6 +206,23 @@ inline double in_circle(vec2 a, vec2 b, vec2 c, vec2 d) {
                            c_lift * (std::abs(ab) + std::abs(ba));
   const double bound = (10 + 96 * detail::half_ulp) * detail::half_ulp * permanent;
   return std::abs(value) > bound ? value : detail::in_circle_exact(a, b, c, d);
+}
+
+/// Positive when e lies inside the sphere through a, b, c, d (a positively oriented tetrahedron), zero when
+/// on it, exactly.
+inline double in_sphere(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
+  const vec3 ae = a - e, be = b - e, ce = c - e, de = d - e;
+  const double value = detail::sphere_determinant<double>(
+      {ae.x, ae.y, ae.z, be.x, be.y, be.z, ce.x, ce.y, ce.z, de.x, de.y, de.z});
+  const auto crossed = [](vec3 p, vec3 q) { return std::abs(p.x * q.y) + std::abs(q.x * p.y); };
+  const double ab = crossed(ae, be), bc = crossed(be, ce), cd = crossed(ce, de), da = crossed(de, ae),
+               ac = crossed(ae, ce), bd = crossed(be, de);
+  const double az = std::abs(ae.z), bz = std::abs(be.z), cz = std::abs(ce.z), dz = std::abs(de.z);
+  const double permanent =
+      (cd * bz + bd * cz + bc * dz) * dot(ae, ae) + (da * cz + ac * dz + cd * az) * dot(be, be) +
+      (ab * dz + bd * az + da * bz) * dot(ce, ce) + (bc * az + ac * bz + ab * cz) * dot(de, de);
+  const double bound = (16 + 224 * detail::half_ulp) * detail::half_ulp * permanent;
+  return std::abs(value) > bound ? value : detail::in_sphere_exact(a, b, c, d, e);
 }
 
 } // namespace dovetail

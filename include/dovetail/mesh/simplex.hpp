@@ -8,12 +8,13 @@
 #include "dovetail/core/ids.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace dovetail {
 
 /// Vertex ids of a D-simplex; a positively oriented tetrahedron (a, b, c, d) has (b-a) x (c-a) . (d-a) > 0.
 template <int D>
-using simplex = std::array<local_id, D + 1>;
+using simplex = std::array<local_id, static_cast<std::size_t>(D) + 1>;
 
 namespace numbering {
 

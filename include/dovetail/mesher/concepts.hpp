@@ -93,8 +93,8 @@ concept piece_mesher = std::copy_constructible<M> &&
 ///
 /// Failure: as `piece_mesher`.
 ///
-/// Models: native_surface, cgal_surface, gmsh_surface for D = 2; tetgen, gmsh_hxt, gmsh_delaunay, netgen for
-/// D = 3.
+/// Models: native_surface, cgal_surface, gmsh_surface for D = 2; native, tetgen, gmsh_hxt, gmsh_delaunay,
+/// netgen for D = 3.
 template <class M, int D>
 concept boundary_keeping_mesher = piece_mesher<M, D> && M::traits.keeps_boundary;
 

@@ -20,7 +20,7 @@ namespace dovetail {
 ///
 /// Failure: none.
 ///
-/// Models: tetgen, gmsh_hxt, gmsh_delaunay, netgen.
+/// Models: native, tetgen, gmsh_hxt, gmsh_delaunay, netgen.
 template <class M>
 concept calibrated_mesher = requires {
   typename std::bool_constant<(M::elements_per_inverse_cubed_size > 0)>;

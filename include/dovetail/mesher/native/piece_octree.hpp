@@ -1,0 +1,251 @@
+/// @file
+/// An octree of a piece: what is inside, which boundary triangles are near, and the sizes.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/octree.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/inside_surface.hpp"
+#include "dovetail/mesher/native/corner_sizes.hpp"
+#include "dovetail/sizing/checked_size.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// A boundary triangle as new points see it.
+class near_triangle {
+public:
+  near_triangle(vec3 a, vec3 b, vec3 c, double size) : a_(a), b_(b), c_(c), size_(size) {
+    middle_ = (a + b + c) / 3.0;
+    radius_ = std::sqrt(
+        std::max({norm_squared(a - middle_), norm_squared(b - middle_), norm_squared(c - middle_)}));
+    find_ball();
+  }
+
+  double size() const { return size_; }
+  vec3 middle() const { return middle_; }
+  /// Where points are that the triangle has a say about: as far from it as the size there.
+  box3 reach() const {
+    box3 box;
+    for (const vec3 p : {a_, b_, c_})
+      box.include(p);
+    return inflated(box, size_);
+  }
+  /// Is p nearer than `clearance`, or in the smallest ball with the triangle's corners on it and near it?
+  bool forbids(vec3 p, double clearance) const {
+    const double far = std::max(clearance, size_);
+    if (norm_squared(p - middle_) > (radius_ + far) * (radius_ + far))
+      return false;
+    const bool in_ball = norm_squared(p - ball_center_) < ball_radius_squared_;
+    const double forbidden = in_ball ? far : clearance;
+    return distance_squared_to(p) < forbidden * forbidden;
+  }
+
+private:
+  double distance_squared_to(vec3 p) const {
+    const auto w = nearest_on_triangle(a_, b_, c_, p);
+    return norm_squared(w[0] * a_ + w[1] * b_ + w[2] * c_ - p);
+  }
+  /// A flat triangle has none.
+  void find_ball() {
+    const vec3 ab = b_ - a_;
+    const vec3 ac = c_ - a_;
+    const vec3 normal = cross(ab, ac);
+    const double divisor = 2 * norm_squared(normal);
+    if (!(divisor > 0))
+      return;
+    const vec3 to_center =
+        (norm_squared(ac) * cross(normal, ab) + norm_squared(ab) * cross(ac, normal)) / divisor;
+    ball_center_ = a_ + to_center;
+    ball_radius_squared_ = norm_squared(to_center);
+  }
+
+  vec3 a_, b_, c_;
+  vec3 middle_, ball_center_;
+  double size_;
+  double radius_ = 0; ///< of the ball about the middle that the triangle is in
+  double ball_radius_squared_ = 0;
+};
+
+/// Cubes about as wide as one to two sizes where the piece is, large ones elsewhere. O((n + m) log n) for n
+/// leaves and m triangles; a field is asked about once for each leaf and once for each triangle. Built once,
+/// then const and thread-safe.
+class piece_octree {
+public:
+  /// Throws `sizing_error` when a size is not positive and finite, `geometry_error` when the boundary is
+  /// open, `mesher_error` when about `most_points` or more points were to be made.
+  piece_octree(const simplicial_mesh<2>& boundary, const any_sizing& size, double most_points)
+      : inside_(boundary), tree_(cube_around(inside_.bounds())) {
+    collect_triangles(boundary, size);
+    corner_sizes sizes(tree_, inside_.bounds(), size);
+    refine(size, sizes, most_points);
+  }
+
+  const octree& tree() const { return tree_; }
+  /// Is the size the same wherever it was asked?
+  bool is_uniform() const {
+    const auto has_first = [&](double size) { return size == uniform_size(); };
+    return std::all_of(cells_.begin(), cells_.end(), [&](const cell& at) {
+      return at.place == place::outside || (at.is_constant && has_first(at.sizes[0]) && has_first(at.least));
+    });
+  }
+  /// The size anywhere, where `is_uniform()`.
+  double uniform_size() const { return triangles_.front().size(); }
+  box3 bounds() const { return inside_.bounds(); }
+  bool is_outside(std::size_t leaf) const { return cells_[leaf].place == place::outside; }
+  /// At a point of the leaf, linear along its edges.
+  double size_at(std::size_t leaf, vec3 p) const {
+    const cell& at = cells_[leaf];
+    const auto& h = at.sizes;
+    if (at.is_constant)
+      return h[0];
+    const vec3 t = at.per_width * (p - at.lower);
+    const auto along_x = [&](std::size_t k) { return h[k] + t.x * (h[k + 1] - h[k]); };
+    const double y0 = along_x(0) + t.y * (along_x(2) - along_x(0));
+    const double y1 = along_x(4) + t.y * (along_x(6) - along_x(4));
+    return y0 + t.z * (y1 - y0);
+  }
+  double least_size(std::size_t leaf) const { return cells_[leaf].least; }
+  double greatest_size(std::size_t leaf) const {
+    return *std::max_element(cells_[leaf].sizes.begin(), cells_[leaf].sizes.end());
+  }
+  /// Is a point of the leaf inside, no triangle nearer than `clearance`, and p in the ball of none?
+  bool is_free(std::size_t leaf, vec3 p, double clearance) const {
+    if (cells_[leaf].place != place::at_boundary)
+      return cells_[leaf].place == place::inside;
+    for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k)
+      if (triangles_[static_cast<std::size_t>(near_[k])].forbids(p, clearance))
+        return false;
+    return inside_(p);
+  }
+
+private:
+  enum class place : std::uint8_t { outside, inside, at_boundary };
+  struct cell {
+    std::array<double, 8> sizes{}; ///< at the corners, as `octree` numbers them
+    vec3 lower;
+    double per_width = 0;
+    double least = 0;
+    std::size_t first = 0, end = 0; ///< of a leaf at the boundary: its triangles in `near_`
+    detail::piece_octree::place place = place::outside;
+    bool is_constant = false;
+  };
+  /// A node in work, with the triangles that reach into it.
+  struct open_node {
+    std::size_t node;
+    std::vector<local_id> triangles;
+  };
+  static constexpr double widest_leaf = 3; ///< in sizes; sizes within a leaf are interpolated
+
+  void collect_triangles(const simplicial_mesh<2>& boundary, const any_sizing& size) {
+    triangles_.reserve(boundary.elements.size());
+    for (const auto& t : boundary.elements) {
+      const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
+      const double h = checked_size(size, (at(0) + at(1) + at(2)) / 3.0);
+      triangles_.emplace_back(at(0), at(1), at(2), h);
+      reaches_.push_back(triangles_.back().reach());
+    }
+  }
+
+  /// Level by level, so that the number of points can be foreseen before the next one is made.
+  void refine(const any_sizing& size, corner_sizes& sizes, double most_points) {
+    std::vector<local_id> all(triangles_.size());
+    std::iota(all.begin(), all.end(), local_id{0});
+    cells_.resize(1);
+    std::vector<open_node> level;
+    level.push_back({0, std::move(all)});
+    cells_[0].place = place::at_boundary;
+    while (!level.empty()) {
+      std::vector<open_node> next;
+      double points = 0;
+      for (open_node& one : level) {
+        measure(one, size, sizes);
+        points += points_in(one.node);
+        if (!(points < most_points))
+          throw mesher_error("the sizes ask for more than " + number_text(most_points) +
+                             " points inside; make them larger");
+        if (is_too_wide(one.node))
+          split(one, next);
+        else
+          keep(one);
+      }
+      level.swap(next);
+    }
+    reaches_ = {};
+  }
+
+  double width_of(std::size_t node) const {
+    const box3 box = tree_.box(node);
+    return box.upper.x - box.lower.x;
+  }
+  bool is_too_wide(std::size_t node) const { return width_of(node) > widest_leaf * cells_[node].least; }
+  /// A lower estimate of the points that a node will hold.
+  double points_in(std::size_t node) const {
+    const double sizes_across = width_of(node) / greatest_size(node);
+    return cells_[node].place == place::inside ? sizes_across * sizes_across * sizes_across : 0.0;
+  }
+
+  void measure(const open_node& one, const any_sizing& size, corner_sizes& sizes) {
+    cell& at = cells_[one.node];
+    const box3 box = tree_.box(one.node);
+    for (std::uint32_t k = 0; k < 8; ++k)
+      at.sizes[k] = sizes.at(tree_.corner_key(one.node, k));
+    const auto [least, greatest] = std::minmax_element(at.sizes.begin(), at.sizes.end());
+    at.is_constant = *least == *greatest;
+    at.lower = box.lower;
+    at.per_width = 1 / (box.upper.x - box.lower.x);
+    at.least = *least;
+    if (const double bound = smallest_size_in(size, box); bound > 0)
+      at.least = std::min(at.least, bound);
+    for (const local_id t : one.triangles)
+      if (const near_triangle& triangle = triangles_[static_cast<std::size_t>(t)];
+          contains(box, triangle.middle()))
+        at.least = std::min(at.least, triangle.size());
+  }
+
+  void split(const open_node& one, std::vector<open_node>& next) {
+    tree_.split(one.node);
+    cells_.resize(tree_.node_count());
+    auto lists = items_by_octant(tree_.box(one.node), span_of(one.triangles), [&](local_id t) {
+      return
+          [reach = reaches_[static_cast<std::size_t>(t)]](const box3& part) { return reach.overlaps(part); };
+    });
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t child = tree_.child(one.node, k);
+      cells_[child].place = place_of(cells_[one.node].place, child, lists[k].empty());
+      if (cells_[child].place != place::outside)
+        next.push_back({child, std::move(lists[k])});
+    }
+  }
+  place place_of(place parent, std::size_t child, bool is_clear) const {
+    if (parent != place::at_boundary || !is_clear)
+      return parent;
+    return inside_(tree_.box(child).center()) ? place::inside : place::outside;
+  }
+
+  void keep(const open_node& one) {
+    cell& at = cells_[one.node];
+    at.first = near_.size();
+    near_.insert(near_.end(), one.triangles.begin(), one.triangles.end());
+    at.end = near_.size();
+  }
+
+  inside_surface inside_;
+  octree tree_;
+  std::vector<near_triangle> triangles_;
+  std::vector<box3> reaches_; ///< while building
+  std::vector<cell> cells_;   ///< per node of the octree
+  std::vector<local_id> near_;
+};
+
+} // namespace dovetail::detail

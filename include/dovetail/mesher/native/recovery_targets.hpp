@@ -1,0 +1,135 @@
+/// @file
+/// What is in the way of an edge or a triangle that shall become one of a tetrahedrization.
+#pragma once
+
+#include "dovetail/core/predicates.hpp"
+#include "dovetail/triangulation/local_changes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Whether the line through a and b passes through the inside of the triangle (u, v, w).
+inline bool line_pierces(vec3 a, vec3 b, vec3 u, vec3 v, vec3 w) {
+  const double first = orient3d(a, b, u, v);
+  if (first == 0)
+    return false;
+  const double second = orient3d(a, b, v, w), third = orient3d(a, b, w, u);
+  return first > 0 ? second > 0 && third > 0 : second < 0 && third < 0;
+}
+
+/// Whether the segments cross in a point inside of both.
+inline bool segments_cross(vec3 a, vec3 b, vec3 u, vec3 v) {
+  if (orient3d(a, b, u, v) != 0)
+    return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flat = [axis](vec3 p) { return vec2{p[(axis + 1) % 3], p[(axis + 2) % 3]}; };
+    const double su = orient2d(flat(a), flat(b), flat(u)), sv = orient2d(flat(a), flat(b), flat(v));
+    if (su == 0 || sv == 0)
+      continue;
+    const double sa = orient2d(flat(u), flat(v), flat(a)), sb = orient2d(flat(u), flat(v), flat(b));
+    return (su > 0) != (sv > 0) && sa != 0 && sb != 0 && (sa > 0) != (sb > 0);
+  }
+  return false;
+}
+
+/// A target is present, or there are edges and sides of elements in its way. Each weighs something; a change
+/// is good when what it makes weighs less than what it takes away.
+struct edge_target {
+  std::array<local_id, 2> ends;
+
+  local_id begin() const { return ends[0]; }
+  bool is_there(local_changes& changes) const { return changes.element_with_edge(ends[0], ends[1]) != no_id; }
+  int weight(const local_changes& c, local_id u, local_id v) const {
+    constexpr int edge_weight = 2; // an edge crossed is about as bad as two sides pierced next to it
+    return !is_end(u) && !is_end(v) &&
+                   segments_cross(c.point(ends[0]), c.point(ends[1]), c.point(u), c.point(v))
+               ? edge_weight
+               : 0;
+  }
+  int weight(const local_changes& c, local_id u, local_id v, local_id w) const {
+    if (is_end(u) || is_end(v) || is_end(w))
+      return 0;
+    const vec3 a = c.point(ends[0]), b = c.point(ends[1]), pu = c.point(u), pv = c.point(v), pw = c.point(w);
+    const double sa = orient3d(pu, pv, pw, a), sb = orient3d(pu, pv, pw, b);
+    return sa != 0 && sb != 0 && (sa > 0) != (sb > 0) && line_pierces(a, b, pu, pv, pw);
+  }
+
+private:
+  bool is_end(local_id v) const { return v == ends[0] || v == ends[1]; }
+};
+
+/// A triangle whose edges are there: edges pass through its inside.
+struct triangle_target {
+  simplex<2> corners;
+
+  local_id begin() const { return corners[0]; }
+  bool is_there(local_changes& changes) const {
+    return changes.has_triangle(corners[0], corners[1], corners[2]);
+  }
+  int weight(const local_changes& c, local_id u, local_id v) const {
+    for (const local_id corner : corners)
+      if (u == corner || v == corner)
+        return 0;
+    const vec3 pa = c.point(corners[0]), pb = c.point(corners[1]), pc = c.point(corners[2]), pu = c.point(u),
+               pv = c.point(v);
+    const double su = orient3d(pa, pb, pc, pu), sv = orient3d(pa, pb, pc, pv);
+    return su != 0 && sv != 0 && (su > 0) != (sv > 0) && line_pierces(pu, pv, pa, pb, pc);
+  }
+  int weight(const local_changes&, local_id, local_id, local_id) const { return 0; }
+};
+
+/// The edges and sides in the way of a target.
+struct obstacles {
+  std::vector<std::array<local_id, 2>> edges; ///< each once, lower vertex first
+  std::vector<local_id> sides;                ///< one of the two sides
+  std::vector<local_id> elements;             ///< those at them
+};
+
+/// Finds what is in the way of a target: goes along it from its first vertex.
+template <class Target>
+void find_obstacles(local_changes& changes, const Target& target, obstacles& found) {
+  found.edges.clear();
+  found.sides.clear();
+  found.elements.clear();
+  const auto& mesh = changes.mesh();
+  const auto side_vertex = [&](local_id e, std::size_t i, std::size_t k) {
+    return mesh[e].vertices[static_cast<std::size_t>(numbering::sides<3>[i][k])];
+  };
+  const auto crosses = [&](local_id e, std::size_t i) {
+    if (mesh.is_ghost(e))
+      return false;
+    const local_id u = side_vertex(e, i, 0), v = side_vertex(e, i, 1), w = side_vertex(e, i, 2);
+    return target.weight(changes, u, v, w) > 0 || target.weight(changes, u, v) > 0 ||
+           target.weight(changes, v, w) > 0 || target.weight(changes, w, u) > 0;
+  };
+  const auto visit = [&](local_id e) {
+    if (mesh.is_ghost(e))
+      return;
+    bool touched = false;
+    for (const auto& ridge : numbering::ridges<3>) {
+      local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
+               v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
+      if (target.weight(changes, u, v) == 0)
+        continue;
+      found.edges.push_back(u < v ? std::array{u, v} : std::array{v, u});
+      touched = true;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (target.weight(changes, side_vertex(e, i, 0), side_vertex(e, i, 1), side_vertex(e, i, 2)) == 0)
+        continue;
+      const local_id side = triangulation<3>::side_of(e, static_cast<local_id>(i));
+      found.sides.push_back(std::min(side, mesh.across(side)));
+      touched = true;
+    }
+    if (touched)
+      found.elements.push_back(e);
+  };
+  changes.spread_from(target.begin(), visit, crosses);
+  sort_unique(found.edges);
+  sort_unique(found.sides);
+}
+
+} // namespace dovetail::detail

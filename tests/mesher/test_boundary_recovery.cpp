@@ -1,0 +1,196 @@
+#include "dovetail/mesher/native.hpp"
+#include "mesher/shapes.hpp"
+#include "triangulation/triangulation_checks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+struct recovered_piece {
+  recovery_counts counts;
+  simplicial_mesh<3> mesh;
+};
+
+/// Recovers a boundary with no other points than its own, and checks all that is promised.
+recovered_piece recover_and_check(const shapes::surface& boundary, const std::vector<vec3>& inner = {}) {
+  std::vector<vec3> points = boundary.points;
+  append(points, inner);
+  detail::append_far_corners(points);
+  auto made = triangulate_points<3>(points);
+  recovered_piece piece;
+  piece.counts = recover_boundary(made.triangulation, boundary.elements);
+  dovetail_test::check_structure(made.triangulation);
+  CHECK(made.triangulation.points.size() >= points.size());
+  CHECK(std::equal(points.begin(), points.end(), made.triangulation.points.begin()));
+  piece.mesh = inside_elements(made.triangulation, boundary.elements, boundary.points.size());
+  piece.mesh.tags.assign(piece.mesh.elements.size(), 3);
+  CHECK_NOTHROW(check_mesher_result({boundary, 3}, piece.mesh));
+  return piece;
+}
+
+/// A prism whose upper polygon is turned; its other diagonals lie outside when it is turned backwards.
+shapes::surface twisted_prism(int n, double angle) {
+  shapes::surface s;
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n + level * angle;
+      s.points.push_back({std::cos(a), std::sin(a), double(level)});
+    }
+  for (int i = 1; i + 1 < n; ++i) {
+    s.elements.push_back({0, i + 1, i});
+    s.elements.push_back({n, n + i, n + i + 1});
+  }
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    s.elements.push_back({i, j, n + i});
+    s.elements.push_back({j, n + j, n + i});
+  }
+  return s;
+}
+
+std::vector<vec3> random_directions(std::size_t count, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<vec3> directions(count);
+  for (vec3& d : directions)
+    for (int k = 0; k < 3; ++k)
+      d[k] = unit(engine);
+  return directions;
+}
+
+} // namespace
+
+TEST_CASE("a boundary that is Delaunay needs nothing") {
+  const auto piece = recover_and_check(shapes::sphere(2));
+  CHECK(piece.counts.missing_edges == 0);
+  CHECK(piece.counts.missing_triangles == 0);
+  CHECK(piece.counts.added_points == 0);
+}
+
+TEST_CASE("diagonals of squares are turned by flips") {
+  for (const auto& boundary : {shapes::cube(5), shapes::cube(4, 1e-3, {1e3, -1e3, 500})}) {
+    const auto piece = recover_and_check(boundary);
+    CHECK(piece.counts.missing_edges > 0);
+  }
+}
+
+TEST_CASE("Schoenhardt's polyhedron gets a point inside") {
+  const auto piece = recover_and_check(twisted_prism(3, -0.4));
+  CHECK(piece.counts.missing_edges > 0);
+  CHECK(piece.counts.added_points >= 1);
+  CHECK(piece.mesh.points.size() > 6);
+  for (const int n : {4, 5, 7, 9})
+    for (const double angle : {-0.2, -0.5, 0.3}) {
+      CAPTURE(n);
+      CAPTURE(angle);
+      recover_and_check(twisted_prism(n, angle));
+    }
+}
+
+TEST_CASE("rough, flat and sheared surfaces with random points inside are recovered") {
+  std::size_t edges = 0, triangles = 0;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    CAPTURE(seed);
+    auto boundary = shapes::torus(10);
+    const auto directions = random_directions(boundary.points.size(), seed);
+    for (std::size_t v = 0; v < directions.size(); ++v)
+      boundary.points[v] += 0.03 * directions[v];
+    std::vector<vec3> inner; // along the middle of the tube
+    for (int i = 0; i < 20; ++i)
+      inner.push_back({std::cos(0.3 * i), std::sin(0.3 * i), 0.01 * i - 0.1});
+    const auto piece = recover_and_check(boundary, inner);
+    edges += piece.counts.missing_edges;
+    triangles += piece.counts.missing_triangles;
+  }
+  CHECK(edges > 0);
+  auto flat = shapes::torus(10);
+  for (vec3& p : flat.points)
+    p.x *= 0.05;
+  triangles += recover_and_check(flat).counts.missing_triangles;
+  auto sheared = shapes::cube(4);
+  for (vec3& p : sheared.points)
+    p = {p.x + 0.7 * p.y, p.y, 0.1 * p.z + 0.3 * p.x * p.x};
+  recover_and_check(sheared);
+  CHECK(triangles > 0);
+}
+
+TEST_CASE("a cavity is divided by a triangle that an edge pierces, or left as it is") {
+  // A triangle between two points above and below that see each other through it.
+  shapes::surface cut;
+  cut.points = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.2}, {0, 0, -0.2}};
+  cut.elements = {{0, 1, 2}, {0, 2, 1}};
+  auto points = cut.points;
+  detail::append_far_corners(points);
+  detail::local_changes changes(triangulate_points<3>(points).triangulation);
+  const detail::kept_entities kept(cut.elements);
+  const detail::triangle_target target{{0, 1, 2}};
+  REQUIRE_FALSE(target.is_there(changes));
+  detail::obstacles found;
+  detail::find_obstacles(changes, target, found);
+  REQUIRE(found.edges == std::vector<std::array<local_id, 2>>{{3, 4}});
+  CHECK(found.elements.size() == 3);
+  std::size_t added = 0;
+  const std::vector<local_id> some(found.elements.begin(), found.elements.begin() + 2);
+  CHECK_FALSE(detail::cavity_division(changes, kept, target.corners, some).run(added));
+  CHECK(added == 0);
+  CHECK(detail::cavity_division(changes, kept, target.corners, found.elements).run(added));
+  CHECK(added == 2);
+  CHECK(target.is_there(changes));
+  CHECK_FALSE(changes.element_with_edge(3, 4) != no_id);
+  dovetail_test::check_structure(changes.mesh());
+}
+
+TEST_CASE("what cannot be recovered is named: a triangle through another, a point on an edge or a triangle") {
+  auto crossing = shapes::cube(2);
+  shapes::append(crossing, shapes::cube(2, 0.8, {0.31, 0.17, -0.43}));
+  auto touching = shapes::cube(1);
+  touching.points.push_back({0.5, 0.5, 1}); // on the diagonal of a side, used by a void
+  const auto tip = static_cast<local_id>(touching.points.size()) - 1;
+  for (const vec3 p : {vec3{0.2, 0.2, 0.3}, vec3{0.2, 0.6, 0.3}, vec3{0.6, 0.2, 0.3}})
+    touching.points.push_back(p);
+  for (const simplex<2>& t : {simplex<2>{tip, tip + 1, tip + 2}, simplex<2>{tip, tip + 2, tip + 3},
+                              simplex<2>{tip, tip + 3, tip + 1}, simplex<2>{tip + 1, tip + 3, tip + 2}})
+    touching.elements.push_back(t);
+  for (const auto& boundary : {crossing, touching}) {
+    auto points = boundary.points;
+    detail::append_far_corners(points);
+    auto made = triangulate_points<3>(points);
+    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary.elements),
+                         doctest::Contains("could not be recovered: edge ("), mesher_error);
+  }
+}
+
+TEST_CASE("recovery gives the same mesh every time") {
+  const auto boundary = twisted_prism(9, -0.5);
+  const auto first = recover_and_check(boundary), second = recover_and_check(boundary);
+  CHECK(first.mesh.points == second.mesh.points);
+  CHECK(first.mesh.elements == second.mesh.elements);
+}
+
+TEST_CASE("no boundary, and elements inside of a boundary that is none") {
+  auto made = triangulate_points<3>(shapes::cube(2).points);
+  const auto before = made.triangulation.cells.size();
+  CHECK(recover_boundary(made.triangulation, {}).missing_edges == 0);
+  CHECK(made.triangulation.cells.size() == before);
+  auto boundary = shapes::cube(2);
+  auto points = boundary.points;
+  detail::append_far_corners(points);
+  made = triangulate_points<3>(points);
+  recover_boundary(made.triangulation, boundary.elements);
+  boundary.elements.pop_back(); // open
+  CHECK_THROWS_AS(inside_elements(made.triangulation, boundary.elements, boundary.points.size()),
+                  mesher_error);
+  boundary.elements = {{0, 1, 25}}; // no side of an element
+  CHECK_THROWS_AS(inside_elements(made.triangulation, boundary.elements, boundary.points.size()),
+                  mesher_error);
+}
