@@ -319,7 +319,10 @@ TEST_CASE("Triangles much larger and much smaller than the size") {
   CHECK(coarse.size() > 100);
   check_clear(shapes::cube(1), uniform(0.1), coarse, 0.57);
   const auto fine = shapes::sphere(4);
-  const auto few = interior_points(fine, uniform(0.5));
+  const auto graded = interior_points(fine, uniform(0.5)); // from the triangles' own size
+  CHECK(graded.size() > 200);
+  CHECK(graded.size() < 1000);
+  const auto few = interior_points(fine, uniform(0.5), {.steepest = 1e9});
   CHECK(few.size() > 0);
   CHECK(few.size() < 40);
   check_clear(fine, uniform(0.5), few, 0.57);

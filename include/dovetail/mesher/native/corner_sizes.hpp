@@ -21,22 +21,31 @@ public:
   corner_sizes(const octree& tree, const box3& domain, const any_sizing& size)
       : tree_(tree), domain_(domain), size_(size), slots_(64) {}
 
-  /// Throws `sizing_error` when the size there is not positive and finite.
-  double at(const octree::key& corner) {
-    if (2 * (used_ + 1) > slots_.size())
+  /// The number of a corner, from 0 in the order of first use. Throws `sizing_error` when the size there is
+  /// not positive and finite.
+  std::uint32_t number_of(const octree::key& corner) {
+    if (2 * (sizes_.size() + 1) > slots_.size())
       grow();
     slot& found = place_of(packed(corner));
     if (found.key == 0) {
-      found = {packed(corner), checked_size(size_, in_domain(tree_.corner_point(corner)))};
-      ++used_;
+      sizes_.push_back(checked_size(size_, in_domain(tree_.corner_point(corner))));
+      found = {packed(corner), static_cast<std::uint32_t>(sizes_.size() - 1)};
     }
-    return found.size;
+    return found.number;
+  }
+  double operator[](std::uint32_t number) const { return sizes_[number]; }
+  /// Makes a size smaller if it is not; true when it was larger.
+  bool lower(std::uint32_t number, double bound) {
+    if (!(bound < sizes_[number]))
+      return false;
+    sizes_[number] = bound;
+    return true;
   }
 
 private:
   struct slot {
     std::uint64_t key = 0; ///< 0: free
-    double size = 0;
+    std::uint32_t number = 0;
   };
 
   /// Never 0: coordinates are at most 2^largest_depth, so 21 bits each.
@@ -74,7 +83,7 @@ private:
   box3 domain_;
   const any_sizing& size_;
   std::vector<slot> slots_;
-  std::size_t used_ = 0;
+  std::vector<double> sizes_;
 };
 
 } // namespace dovetail::detail

@@ -14,6 +14,9 @@ struct interior_point_options {
   double crowding = 0.68;  ///< least distance between points
   double capture = 0.42;   ///< places that close that two neighbours expect a point at are the same place
   double clearance = 0.57; ///< least distance from the boundary
+  /// Sizes that grow by more per length, also away from boundary triangles, are made smaller: no lattice can
+  /// follow them.
+  double steepest = 0.4;
   double most_points = 1e8;
 };
 

@@ -16,7 +16,7 @@ namespace dovetail {
 DOVETAIL_INLINE std::vector<vec3> interior_points(const simplicial_mesh<2>& boundary, const any_sizing& size,
                                                   const interior_point_options& options) {
   require_enclosing(boundary);
-  const detail::piece_octree piece(boundary, size, options.most_points);
+  const detail::piece_octree piece(boundary, size, options);
   if (piece.is_uniform())
     return detail::straight_lattice(piece, options);
   detail::lattice_growth growth(piece, options);

@@ -3,15 +3,16 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/octree.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/mesher/native/corner_sizes.hpp"
-#include "dovetail/sizing/checked_size.hpp"
+#include "dovetail/mesher/native/interior_point_options.hpp"
+#include "dovetail/mesher/native/near_triangle.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,73 +23,20 @@
 
 namespace dovetail::detail {
 
-/// A boundary triangle as new points see it.
-class near_triangle {
-public:
-  near_triangle(vec3 a, vec3 b, vec3 c, double size) : a_(a), b_(b), c_(c), size_(size) {
-    middle_ = (a + b + c) / 3.0;
-    radius_ = std::sqrt(
-        std::max({norm_squared(a - middle_), norm_squared(b - middle_), norm_squared(c - middle_)}));
-    find_ball();
-  }
-
-  double size() const { return size_; }
-  vec3 middle() const { return middle_; }
-  /// Where points are that the triangle has a say about: as far from it as the size there.
-  box3 reach() const {
-    box3 box;
-    for (const vec3 p : {a_, b_, c_})
-      box.include(p);
-    return inflated(box, size_);
-  }
-  /// Is p nearer than `clearance`, or in the smallest ball with the triangle's corners on it and near it?
-  bool forbids(vec3 p, double clearance) const {
-    const double far = std::max(clearance, size_);
-    if (norm_squared(p - middle_) > (radius_ + far) * (radius_ + far))
-      return false;
-    const bool in_ball = norm_squared(p - ball_center_) < ball_radius_squared_;
-    const double forbidden = in_ball ? far : clearance;
-    return distance_squared_to(p) < forbidden * forbidden;
-  }
-
-private:
-  double distance_squared_to(vec3 p) const {
-    const auto w = nearest_on_triangle(a_, b_, c_, p);
-    return norm_squared(w[0] * a_ + w[1] * b_ + w[2] * c_ - p);
-  }
-  /// A flat triangle has none.
-  void find_ball() {
-    const vec3 ab = b_ - a_;
-    const vec3 ac = c_ - a_;
-    const vec3 normal = cross(ab, ac);
-    const double divisor = 2 * norm_squared(normal);
-    if (!(divisor > 0))
-      return;
-    const vec3 to_center =
-        (norm_squared(ac) * cross(normal, ab) + norm_squared(ab) * cross(ac, normal)) / divisor;
-    ball_center_ = a_ + to_center;
-    ball_radius_squared_ = norm_squared(to_center);
-  }
-
-  vec3 a_, b_, c_;
-  vec3 middle_, ball_center_;
-  double size_;
-  double radius_ = 0; ///< of the ball about the middle that the triangle is in
-  double ball_radius_squared_ = 0;
-};
-
 /// Cubes about as wide as one to two sizes where the piece is, large ones elsewhere. O((n + m) log n) for n
 /// leaves and m triangles; a field is asked about once for each leaf and once for each triangle. Built once,
 /// then const and thread-safe.
 class piece_octree {
 public:
   /// Throws `sizing_error` when a size is not positive and finite, `geometry_error` when the boundary is
-  /// open, `mesher_error` when about `most_points` or more points were to be made.
-  piece_octree(const simplicial_mesh<2>& boundary, const any_sizing& size, double most_points)
+  /// open, `mesher_error` when about as many points as the options
+  /// allow, or more, were to be made.
+  piece_octree(const simplicial_mesh<2>& boundary, const any_sizing& size,
+               const interior_point_options& options)
       : inside_(boundary), tree_(cube_around(inside_.bounds())) {
     collect_triangles(boundary, size);
     corner_sizes sizes(tree_, inside_.bounds(), size);
-    refine(size, sizes, most_points);
+    build(size, sizes, options);
   }
 
   const octree& tree() const { return tree_; }
@@ -135,7 +83,7 @@ private:
     std::array<double, 8> sizes{}; ///< at the corners, as `octree` numbers them
     vec3 lower;
     double per_width = 0;
-    double least = 0;
+    double least = 0;               ///< of the field in the leaf, as far as it is known, and of `sizes`
     std::size_t first = 0, end = 0; ///< of a leaf at the boundary: its triangles in `near_`
     detail::piece_octree::place place = place::outside;
     bool is_constant = false;
@@ -151,25 +99,37 @@ private:
     triangles_.reserve(boundary.elements.size());
     for (const auto& t : boundary.elements) {
       const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
-      const double h = checked_size(size, (at(0) + at(1) + at(2)) / 3.0);
-      triangles_.emplace_back(at(0), at(1), at(2), h);
+      triangles_.emplace_back(std::array{at(0), at(1), at(2)}, size);
       reaches_.push_back(triangles_.back().reach());
     }
   }
 
-  /// Level by level, so that the number of points can be foreseen before the next one is made.
-  void refine(const any_sizing& size, corner_sizes& sizes, double most_points) {
+  /// Sizes that had to be made smaller want smaller leaves, where the field is asked anew.
+  void build(const any_sizing& size, corner_sizes& sizes, const interior_point_options& options) {
     std::vector<local_id> all(triangles_.size());
     std::iota(all.begin(), all.end(), local_id{0});
     cells_.resize(1);
-    std::vector<open_node> level;
-    level.push_back({0, std::move(all)});
+    corners_.resize(1);
     cells_[0].place = place::at_boundary;
+    std::vector<open_node> open;
+    open.push_back({0, std::move(all)});
+    while (!open.empty()) {
+      for (open_node& one : open)
+        measure(one, size, sizes);
+      refine(std::move(open), size, sizes, options.most_points);
+      limit_growth(sizes, options.steepest);
+      open = leaves_too_wide();
+    }
+    reaches_ = {};
+    corners_ = {};
+  }
+
+  /// Level by level, so that the number of points can be foreseen before the next one is made.
+  void refine(std::vector<open_node> level, const any_sizing& size, corner_sizes& sizes, double most_points) {
     while (!level.empty()) {
       std::vector<open_node> next;
       double points = 0;
       for (open_node& one : level) {
-        measure(one, size, sizes);
         points += points_in(one.node);
         if (!(points < most_points))
           throw mesher_error("the sizes ask for more than " + number_text(most_points) +
@@ -179,9 +139,65 @@ private:
         else
           keep(one);
       }
+      for (const open_node& one : next)
+        measure(one, size, sizes);
       level.swap(next);
     }
-    reaches_ = {};
+  }
+
+  /// Lowers sizes at corners until none is more than the growth allows above a triangle's or another's.
+  void limit_growth(corner_sizes& sizes, double steepest) {
+    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
+      lower_at_triangles(tree_.leaf(n), sizes, steepest);
+    const auto lower = [&](std::size_t leaf) {
+      return cells_[leaf].place != place::outside && lower_within(leaf, sizes, steepest);
+    };
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
+        changed = lower(tree_.leaf(n)) || changed;
+      for (std::size_t n = tree_.leaf_count(); n-- > 0;)
+        changed = lower(tree_.leaf(n)) || changed;
+    }
+    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
+      take_sizes(tree_.leaf(n), sizes);
+  }
+  void lower_at_triangles(std::size_t leaf, corner_sizes& sizes, double steepest) {
+    for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k) {
+      const near_triangle& triangle = triangles_[static_cast<std::size_t>(near_[k])];
+      for (unsigned c = 0; c < 8; ++c)
+        sizes.lower(corners_[leaf][c],
+                    triangle.size() + steepest * distance(triangle.middle(), corner(leaf, c)));
+    }
+  }
+  bool lower_within(std::size_t leaf, corner_sizes& sizes, double steepest) {
+    const double width = width_of(leaf);
+    bool changed = false;
+    for (unsigned c = 0; c < 8; ++c)
+      for (unsigned other = 0; other < 8; ++other) {
+        const double reach = std::sqrt(static_cast<double>(std::popcount(c ^ other))) * width;
+        changed = sizes.lower(corners_[leaf][c], sizes[corners_[leaf][other]] + steepest * reach) || changed;
+      }
+    return changed;
+  }
+  void take_sizes(std::size_t leaf, const corner_sizes& sizes) {
+    cell& at = cells_[leaf];
+    for (std::size_t c = 0; c < 8; ++c)
+      at.sizes[c] = sizes[corners_[leaf][c]];
+    const auto [least, greatest] = std::minmax_element(at.sizes.begin(), at.sizes.end());
+    at.is_constant = *least == *greatest;
+    at.least = std::min(at.least, *least);
+    at.lower = tree_.box(leaf).lower;
+    at.per_width = 1 / width_of(leaf);
+  }
+  std::vector<open_node> leaves_too_wide() const {
+    std::vector<open_node> found;
+    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
+      if (const std::size_t leaf = tree_.leaf(n); cells_[leaf].place != place::outside && is_too_wide(leaf))
+        found.push_back({leaf,
+                         {near_.begin() + static_cast<std::ptrdiff_t>(cells_[leaf].first),
+                          near_.begin() + static_cast<std::ptrdiff_t>(cells_[leaf].end)}});
+    return found;
   }
 
   double width_of(std::size_t node) const {
@@ -195,16 +211,18 @@ private:
     return cells_[node].place == place::inside ? sizes_across * sizes_across * sizes_across : 0.0;
   }
 
+  vec3 corner(std::size_t node, std::uint32_t k) const {
+    return tree_.corner_point(tree_.corner_key(node, k));
+  }
+
   void measure(const open_node& one, const any_sizing& size, corner_sizes& sizes) {
     cell& at = cells_[one.node];
     const box3 box = tree_.box(one.node);
-    for (std::uint32_t k = 0; k < 8; ++k)
-      at.sizes[k] = sizes.at(tree_.corner_key(one.node, k));
-    const auto [least, greatest] = std::minmax_element(at.sizes.begin(), at.sizes.end());
-    at.is_constant = *least == *greatest;
-    at.lower = box.lower;
-    at.per_width = 1 / (box.upper.x - box.lower.x);
-    at.least = *least;
+    for (std::uint32_t k = 0; k < 8; ++k) {
+      corners_[one.node][k] = sizes.number_of(tree_.corner_key(one.node, k));
+      at.sizes[k] = sizes[corners_[one.node][k]];
+    }
+    at.least = *std::min_element(at.sizes.begin(), at.sizes.end());
     if (const double bound = smallest_size_in(size, box); bound > 0)
       at.least = std::min(at.least, bound);
     for (const local_id t : one.triangles)
@@ -216,6 +234,7 @@ private:
   void split(const open_node& one, std::vector<open_node>& next) {
     tree_.split(one.node);
     cells_.resize(tree_.node_count());
+    corners_.resize(tree_.node_count());
     auto lists = items_by_octant(tree_.box(one.node), span_of(one.triangles), [&](local_id t) {
       return
           [reach = reaches_[static_cast<std::size_t>(t)]](const box3& part) { return reach.overlaps(part); };
@@ -243,8 +262,9 @@ private:
   inside_surface inside_;
   octree tree_;
   std::vector<near_triangle> triangles_;
-  std::vector<box3> reaches_; ///< while building
-  std::vector<cell> cells_;   ///< per node of the octree
+  std::vector<box3> reaches_;                         ///< while building
+  std::vector<cell> cells_;                           ///< per node of the octree
+  std::vector<std::array<std::uint32_t, 8>> corners_; ///< of each node, while building
   std::vector<local_id> near_;
 };
 
