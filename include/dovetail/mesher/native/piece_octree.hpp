@@ -163,11 +163,14 @@ private:
       take_sizes(tree_.leaf(n), sizes);
   }
   void lower_at_triangles(std::size_t leaf, corner_sizes& sizes, double steepest) {
+    const auto& sizes_there = cells_[leaf].sizes;
+    const double greatest = *std::max_element(sizes_there.begin(), sizes_there.end());
     for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k) {
       const near_triangle& triangle = triangles_[static_cast<std::size_t>(near_[k])];
-      for (unsigned c = 0; c < 8; ++c)
-        sizes.lower(corners_[leaf][c],
-                    triangle.size() + steepest * distance(triangle.middle(), corner(leaf, c)));
+      if (triangle.size() < greatest)
+        for (unsigned c = 0; c < 8; ++c)
+          sizes.lower(corners_[leaf][c],
+                      triangle.size() + steepest * distance(triangle.middle(), corner(leaf, c)));
     }
   }
   bool lower_within(std::size_t leaf, corner_sizes& sizes, double steepest) {
