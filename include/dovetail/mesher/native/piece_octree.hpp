@@ -162,24 +162,32 @@ private:
     for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
       take_sizes(tree_.leaf(n), sizes);
   }
+  /// Each triangle in the leaf that its middle is in: from there its size spreads like any other.
   void lower_at_triangles(std::size_t leaf, corner_sizes& sizes, double steepest) {
-    const auto& sizes_there = cells_[leaf].sizes;
-    const double greatest = *std::max_element(sizes_there.begin(), sizes_there.end());
+    const box3 box = tree_.box(leaf);
     for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k) {
       const near_triangle& triangle = triangles_[static_cast<std::size_t>(near_[k])];
-      if (triangle.size() < greatest)
+      if (contains(box, triangle.middle()))
         for (unsigned c = 0; c < 8; ++c)
           sizes.lower(corners_[leaf][c],
                       triangle.size() + steepest * distance(triangle.middle(), corner(leaf, c)));
     }
   }
   bool lower_within(std::size_t leaf, corner_sizes& sizes, double steepest) {
-    const double width = width_of(leaf);
+    const auto& corners = corners_[leaf];
+    double least = sizes[corners[0]], greatest = least;
+    for (const std::uint32_t one : corners) {
+      least = std::min(least, sizes[one]);
+      greatest = std::max(greatest, sizes[one]);
+    }
+    const double over_edge = steepest * width_of(leaf);
+    if (greatest - least <= over_edge)
+      return false;
     bool changed = false;
     for (unsigned c = 0; c < 8; ++c)
       for (unsigned other = 0; other < 8; ++other) {
-        const double reach = std::sqrt(static_cast<double>(std::popcount(c ^ other))) * width;
-        changed = sizes.lower(corners_[leaf][c], sizes[corners_[leaf][other]] + steepest * reach) || changed;
+        const double edges = std::sqrt(static_cast<double>(std::popcount(c ^ other)));
+        changed = sizes.lower(corners[c], sizes[corners[other]] + over_edge * edges) || changed;
       }
     return changed;
   }
