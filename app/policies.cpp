@@ -104,15 +104,15 @@ std::vector<any_simplification_rule> simplifiers_at(double angle, int dimension)
 }
 
 std::vector<any_mesher<3>> meshers() {
-  std::vector<any_mesher<3>> known{{mesher::tetgen{}, "tetgen"}};
-  known.push_back(any_mesher<3>(mesher::native{}, "native").with_fallback(known.front()));
+  // On some boundaries all but TetGen fail, Gmsh's on two parts that touch in an edge.
+  const any_mesher<3> tetgen{mesher::tetgen{}, "tetgen"};
+  std::vector<any_mesher<3>> known{any_mesher<3>(mesher::native{}, "native").with_fallback(tetgen), tetgen};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  // The others fail on some boundaries that TetGen meshes, such as two parts that touch in an edge.
-  known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(known.front()));
-  known.push_back(any_mesher<3>(mesher::gmsh_delaunay{}, "gmsh-delaunay").with_fallback(known.front()));
+  known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(tetgen));
+  known.push_back(any_mesher<3>(mesher::gmsh_delaunay{}, "gmsh-delaunay").with_fallback(tetgen));
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
-  known.push_back(any_mesher<3>(mesher::netgen{}, "netgen").with_fallback(known.front()));
+  known.push_back(any_mesher<3>(mesher::netgen{}, "netgen").with_fallback(tetgen));
 #endif
   return known;
 }
