@@ -2,6 +2,7 @@
 /// The order in which points are inserted into a Delaunay triangulation.
 #pragma once
 
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/core/hilbert_curve.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/triangulation/space.hpp"
@@ -31,15 +32,6 @@ std::array<std::array<double, static_cast<std::size_t>(D)>, 2> box_of(std::span<
       box[1][k] = value > box[1][k] ? value : box[1][k];
     }
   return box;
-}
-
-/// A number that looks random and is the same for the same index on every machine (the finalizer of
-/// MurmurHash3).
-constexpr std::uint64_t scattered(std::uint64_t index) {
-  std::uint64_t h = index + 0x9e3779b97f4a7c15ULL;
-  h = (h ^ (h >> 33U)) * 0xff51afd7ed558ccdULL;
-  h = (h ^ (h >> 33U)) * 0xc4ceb9fe1a85ec53ULL;
-  return h ^ (h >> 33U);
 }
 
 /// Rounds that grow by 2^D each, drawn at random, and in each round along a Hilbert curve: expected times

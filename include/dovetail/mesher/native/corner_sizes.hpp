@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/octree.hpp"
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
@@ -54,11 +55,6 @@ private:
     return (std::uint64_t{1} << 63) | (std::uint64_t{corner[0]} << 42) | (std::uint64_t{corner[1]} << 21) |
            corner[2];
   }
-  static std::uint64_t mixed(std::uint64_t key) { // the finaliser of MurmurHash3
-    key = (key ^ (key >> 33)) * 0xff51afd7ed558ccdULL;
-    key = (key ^ (key >> 33)) * 0xc4ceb9fe1a85ec53ULL;
-    return key ^ (key >> 33);
-  }
   vec3 in_domain(vec3 p) const {
     for (int k = 0; k < 3; ++k)
       p[k] = std::clamp(p[k], domain_.lower[k], domain_.upper[k]);
@@ -66,7 +62,7 @@ private:
   }
   slot& place_of(std::uint64_t key) {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = static_cast<std::size_t>(mixed(key)) & mask;
+    std::size_t at = static_cast<std::size_t>(scattered(key)) & mask;
     while (slots_[at].key != 0 && slots_[at].key != key)
       at = (at + 1) & mask;
     return slots_[at];

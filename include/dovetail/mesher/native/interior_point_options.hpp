@@ -17,6 +17,9 @@ struct interior_point_options {
   /// Sizes that grow by more per length, also away from boundary triangles, are made smaller: no lattice can
   /// follow them.
   double steepest = 0.4;
+  /// How far places of the lattice are moved, each its own way: Delaunay's test is exact, and slow for points
+  /// that are on one sphere.
+  double jitter = 1e-3;
   double most_points = 1e8;
 };
 

@@ -2,6 +2,7 @@
 /// Points of a body-centred cubic lattice that grows from seeds and stretches with the size.
 #pragma once
 
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/mesher/native/interior_point_options.hpp"
 #include "dovetail/mesher/native/piece_octree.hpp"
 #include "dovetail/mesher/native/point_grid.hpp"
@@ -110,7 +111,7 @@ private:
     const vec3 middle = piece_.tree().box(leaf).center();
     const spot at{middle, leaf, piece_.size_at(leaf, middle)};
     grid_.gather(leaf, middle, options_.cell * at.size, gathered_);
-    if (gathered_.empty() && piece_.is_free(leaf, middle, options_.clearance * at.size))
+    if (gathered_.empty() && is_free(at))
       add(at);
   }
 
@@ -152,10 +153,19 @@ private:
     at = find(mean_expectation(*at));
     if (!at || is_crowded(*at))
       return;
-    const bool is_free = piece_.is_free(at->leaf, at->place, options_.clearance * at->size);
     const std::uint8_t met = meet_expectations(*at);
-    if (is_free)
+    if (is_free(*at))
       add(*at, met);
+  }
+
+  bool is_free(const spot& at) const {
+    const auto shares_clear_space = [&](const gathered_point& one) {
+      const double both = options_.clearance * (at.size + points_[one.id].size);
+      return norm_squared(one.place - at.place) < both * both;
+    };
+    return piece_.is_clear(at.leaf, at.place, options_.clearance * at.size) &&
+           (std::any_of(gathered_.begin(), gathered_.end(), shares_clear_space) ||
+            piece_.is_inside(at.leaf, at.place));
   }
 
   bool is_crowded(const spot& at) const {
@@ -184,7 +194,7 @@ private:
       sum += expected;
       count += 1;
     });
-    return sum / count;
+    return sum / count + options_.jitter * at.size * scattered_vector(points_.size());
   }
   /// What neighbours expect here is here, or cannot be: they need not try. Returns the directions in which
   /// they are.

@@ -67,14 +67,17 @@ public:
   double greatest_size(std::size_t leaf) const {
     return *std::max_element(cells_[leaf].sizes.begin(), cells_[leaf].sizes.end());
   }
-  /// Is a point of the leaf inside, no triangle nearer than `clearance`, and p in the ball of none?
-  bool is_free(std::size_t leaf, vec3 p, double clearance) const {
-    if (cells_[leaf].place != place::at_boundary)
-      return cells_[leaf].place == place::inside;
+  /// Is no triangle nearer to a point of the leaf than `clearance`, and p in the ball of none?
+  bool is_clear(std::size_t leaf, vec3 p, double clearance) const {
     for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k)
       if (triangles_[static_cast<std::size_t>(near_[k])].forbids(p, clearance))
         return false;
-    return inside_(p);
+    return true;
+  }
+  /// Is a point of the leaf inside? So it is, without being asked, when it is clear and nearer to another one
+  /// that is than both their clearances together: a triangle between them would be too near to one of them.
+  bool is_inside(std::size_t leaf, vec3 p) const {
+    return cells_[leaf].place == place::at_boundary ? inside_(p) : cells_[leaf].place == place::inside;
   }
 
 private:
@@ -88,6 +91,11 @@ private:
     detail::piece_octree::place place = place::outside;
     bool is_constant = false;
   };
+  /// A triangle's size, and where it counts.
+  struct seed {
+    vec3 middle;
+    double size;
+  };
   /// A node in work, with the triangles that reach into it.
   struct open_node {
     std::size_t node;
@@ -100,6 +108,7 @@ private:
     for (const auto& t : boundary.elements) {
       const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
       triangles_.emplace_back(std::array{at(0), at(1), at(2)}, size);
+      seeds_.push_back({triangles_.back().middle(), triangles_.back().size()});
       reaches_.push_back(triangles_.back().reach());
     }
   }
@@ -121,6 +130,7 @@ private:
       open = leaves_too_wide();
     }
     reaches_ = {};
+    seeds_ = {};
     corners_ = {};
   }
 
@@ -147,8 +157,8 @@ private:
 
   /// Lowers sizes at corners until none is more than the growth allows above a triangle's or another's.
   void limit_growth(corner_sizes& sizes, double steepest) {
-    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
-      lower_at_triangles(tree_.leaf(n), sizes, steepest);
+    for (const seed& from : seeds_)
+      lower_around(from, sizes, steepest);
     const auto lower = [&](std::size_t leaf) {
       return cells_[leaf].place != place::outside && lower_within(leaf, sizes, steepest);
     };
@@ -162,16 +172,11 @@ private:
     for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
       take_sizes(tree_.leaf(n), sizes);
   }
-  /// Each triangle in the leaf that its middle is in: from there its size spreads like any other.
-  void lower_at_triangles(std::size_t leaf, corner_sizes& sizes, double steepest) {
-    const box3 box = tree_.box(leaf);
-    for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k) {
-      const near_triangle& triangle = triangles_[static_cast<std::size_t>(near_[k])];
-      if (contains(box, triangle.middle()))
-        for (unsigned c = 0; c < 8; ++c)
-          sizes.lower(corners_[leaf][c],
-                      triangle.size() + steepest * distance(triangle.middle(), corner(leaf, c)));
-    }
+  /// In the leaf that its middle is in: from there its size spreads like any other.
+  void lower_around(const seed& from, corner_sizes& sizes, double steepest) const {
+    const std::size_t leaf = tree_.locate(from.middle);
+    for (unsigned c = 0; c < 8; ++c)
+      sizes.lower(corners_[leaf][c], from.size + steepest * distance(from.middle, corner(leaf, c)));
   }
   bool lower_within(std::size_t leaf, corner_sizes& sizes, double steepest) {
     const auto& corners = corners_[leaf];
@@ -237,9 +242,8 @@ private:
     if (const double bound = smallest_size_in(size, box); bound > 0)
       at.least = std::min(at.least, bound);
     for (const local_id t : one.triangles)
-      if (const near_triangle& triangle = triangles_[static_cast<std::size_t>(t)];
-          contains(box, triangle.middle()))
-        at.least = std::min(at.least, triangle.size());
+      if (const seed& from = seeds_[static_cast<std::size_t>(t)]; contains(box, from.middle))
+        at.least = std::min(at.least, from.size);
   }
 
   void split(const open_node& one, std::vector<open_node>& next) {
@@ -273,7 +277,8 @@ private:
   inside_surface inside_;
   octree tree_;
   std::vector<near_triangle> triangles_;
-  std::vector<box3> reaches_;                         ///< while building
+  std::vector<box3> reaches_;                         ///< of each triangle, while building
+  std::vector<seed> seeds_;                           ///< of each triangle, while building
   std::vector<cell> cells_;                           ///< per node of the octree
   std::vector<std::array<std::uint32_t, 8>> corners_; ///< of each node, while building
   std::vector<local_id> near_;

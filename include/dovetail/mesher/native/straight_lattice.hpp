@@ -2,11 +2,13 @@
 /// The points of a body-centred cubic lattice inside a piece with one size.
 #pragma once
 
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/mesher/native/interior_point_options.hpp"
 #include "dovetail/mesher/native/piece_octree.hpp"
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace dovetail::detail {
@@ -37,13 +39,20 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
   // may.
   const double margin = 1.05 * options.clearance * piece.uniform_size();
   const vec3 origin = piece.bounds().lower + vec3{margin, margin, margin};
+  const double clearance = options.clearance * piece.uniform_size();
+  const double jitter = options.jitter * piece.uniform_size();
+  std::uint64_t places = 0;
   for (std::size_t n = 0; n < tree.leaf_count(); ++n) {
     const std::size_t leaf = tree.leaf(n);
     if (piece.is_outside(leaf))
       continue;
+    const auto shares_clear_space = [&](vec3 p) {
+      return !points.empty() && distance(points.back(), p) < 2 * clearance;
+    };
     for_each_lattice_place(tree.box(leaf), origin, options.cell * piece.uniform_size(), [&](vec3 place) {
-      if (piece.is_free(leaf, place, options.clearance * piece.uniform_size()))
-        points.push_back(place);
+      const vec3 p = place + jitter * scattered_vector(places++);
+      if (piece.is_clear(leaf, p, clearance) && (shares_clear_space(p) || piece.is_inside(leaf, p)))
+        points.push_back(p);
     });
   }
   return points;
