@@ -51,6 +51,8 @@ policies_of<D> make_policies_of(const mesh_options& options) {
   if (D == 2 && !options.background_improver.empty())
     throw command_line_error("--background-improver: with --dimension 2 there is no volume to improve");
   auto mesher = make_mesher<D>(options.mesher);
+  if (options.executor == "threads")
+    mesher = mesher.for_threads();
   auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits(),
                                 options.network);
   auto surface_mesher = make_surface_mesher(options.surface_mesher);

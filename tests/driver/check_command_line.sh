@@ -21,7 +21,7 @@ expect_usage_error "nonsense.*metis" mesh --model combustor --partitioner nonsen
 expect_usage_error "nonsense.*native" mesh --model combustor --improver nonsense
 expect_usage_error "nonsense.*processes" mesh --model combustor --executor nonsense
 expect_usage_error "nonsense.*vtu" mesh --model combustor --format nonsense
-expect_usage_error "tetgen.*threads" mesh --model combustor --executor threads
+expect_usage_error "tetgen.*threads" mesh --model combustor --mesher tetgen --executor threads
 expect_usage_error "--workers" mesh --model combustor --workers -1
 expect_usage_error "--workers" mesh --model combustor --workers two
 expect_usage_error "--subdomains" mesh --model combustor --subdomains 0

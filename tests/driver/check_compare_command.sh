@@ -67,7 +67,7 @@ check_drawn_page tetrahedra
 
 # The same figures as a run of that combination has, whatever is shared.
 elements=$(column elements | sed -n 3p)
-expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --format none --report report.json
+expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --mesher tetgen --format none --report report.json
 grep -q "\"elements\": $elements," "$sandbox/work/report.json" || fault "mesh makes other than $elements elements"
 grep -q "\"mesh_hash\": \"${hashes[2]}\"" "$sandbox/work/report.json" || fault "mesh makes another mesh than ${hashes[2]}"
 

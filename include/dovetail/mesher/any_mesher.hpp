@@ -46,6 +46,14 @@ public:
     return extended;
   }
 
+  /// The same without those fallbacks that must not run in several threads of one process.
+  any_mesher for_threads() const {
+    any_mesher reduced = *this;
+    std::erase_if(reduced.fallbacks_,
+                  [](const any_mesher& other) { return !other.actual_traits_.thread_safe; });
+    return reduced;
+  }
+
   /// The mesher for the mesh that is decomposed, with this one and its fallbacks after it; this one when it
   /// has no form for that.
   any_mesher for_background() const {

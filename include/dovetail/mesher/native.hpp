@@ -29,7 +29,7 @@ struct native {
   static constexpr mesher_traits traits{
       .keeps_boundary = true, .thread_safe = true, .accepts_non_manifold = true, .repeats_in_process = true};
   /// Elements made per unit of the integral of h^-3.
-  static constexpr double elements_per_inverse_cubed_size = 10.4;
+  static constexpr double elements_per_inverse_cubed_size = 9.8;
 
   double size_scale = 1.0; ///< multiplies the field
 

@@ -2,8 +2,8 @@
 /// The order in which points are inserted into a Delaunay triangulation.
 #pragma once
 
-#include "dovetail/core/scattered.hpp"
 #include "dovetail/core/hilbert_curve.hpp"
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/triangulation/space.hpp"
 

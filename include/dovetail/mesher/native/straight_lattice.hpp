@@ -13,21 +13,27 @@
 
 namespace dovetail::detail {
 
-/// Calls `visit(place)` for the places of the lattice {(i, j, k) / 2: all even or all odd} x cell from
-/// `origin` that lie in [box.lower, box.upper).
+/// Calls `visit(place)` for the places origin + (i, j, k) step, i, j and k all even or all odd, that lie in
+/// [box.lower, box.upper).
 template <class Visit>
-void for_each_lattice_place(const box3& box, vec3 origin, double cell, Visit&& visit) {
-  const double step = 0.5 * cell;
-  const auto first = [&](int axis) { return std::ceil((box.lower[axis] - origin[axis]) / step); };
+void for_each_lattice_place(const box3& box, vec3 origin, vec3 step, Visit&& visit) {
+  const auto first = [&](int axis) { return std::ceil((box.lower[axis] - origin[axis]) / step[axis]); };
   const auto from = [](double least, bool odd) {
     return least + ((std::fmod(least, 2) != 0) != odd ? 1 : 0);
   };
-  for (double i = first(0); origin.x + step * i < box.upper.x; ++i) {
+  for (double i = first(0); origin.x + step.x * i < box.upper.x; ++i) {
     const bool odd = std::fmod(i, 2) != 0;
-    for (double j = from(first(1), odd); origin.y + step * j < box.upper.y; j += 2)
-      for (double k = from(first(2), odd); origin.z + step * k < box.upper.z; k += 2)
-        visit(origin + step * vec3{i, j, k});
+    for (double j = from(first(1), odd); origin.y + step.y * j < box.upper.y; j += 2)
+      for (double k = from(first(2), odd); origin.z + step.z * k < box.upper.z; k += 2)
+        visit(vec3{origin.x + step.x * i, origin.y + step.y * j, origin.z + step.z * k});
   }
+}
+
+/// About `wanted`, such that a whole number of steps is `length`, where a little more or less does.
+inline double step_that_fits(double wanted, double length) {
+  constexpr double most_change = 1.08;
+  const double fitting = length / std::round(length / wanted);
+  return fitting < most_change * wanted && wanted < most_change * fitting ? fitting : wanted;
 }
 
 /// The lattice's places that are inside and clear of the boundary, leaf by leaf. For a piece that
@@ -35,10 +41,14 @@ void for_each_lattice_place(const box3& box, vec3 origin, double cell, Visit&& v
 inline std::vector<vec3> straight_lattice(const piece_octree& piece, const interior_point_options& options) {
   std::vector<vec3> points;
   const octree& tree = piece.tree();
-  // Faces of the box that the piece fills are often faces of the piece: the first points are as near as they
-  // may.
+  // Faces of the box that the piece fills are often faces of the piece: the first and the last points are as
+  // near as they may.
   const double margin = 1.05 * options.clearance * piece.uniform_size();
-  const vec3 origin = piece.bounds().lower + vec3{margin, margin, margin};
+  const box3 within = inflated(piece.bounds(), -margin);
+  vec3 step;
+  for (int axis = 0; axis < 3; ++axis)
+    step[axis] =
+        step_that_fits(0.5 * options.cell * piece.uniform_size(), within.upper[axis] - within.lower[axis]);
   const double clearance = options.clearance * piece.uniform_size();
   const double jitter = options.jitter * piece.uniform_size();
   std::uint64_t places = 0;
@@ -49,7 +59,7 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
     const auto shares_clear_space = [&](vec3 p) {
       return !points.empty() && distance(points.back(), p) < 2 * clearance;
     };
-    for_each_lattice_place(tree.box(leaf), origin, options.cell * piece.uniform_size(), [&](vec3 place) {
+    for_each_lattice_place(tree.box(leaf), within.lower, step, [&](vec3 place) {
       const vec3 p = place + jitter * scattered_vector(places++);
       if (piece.is_clear(leaf, p, clearance) && (shares_clear_space(p) || piece.is_inside(leaf, p)))
         points.push_back(p);
