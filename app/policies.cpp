@@ -4,7 +4,6 @@
 #include "named_policies.hpp"
 
 #include "dovetail/adapters/metis.hpp"
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
@@ -36,6 +35,9 @@
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_SPECTRA
 #include "dovetail/adapters/spectral.hpp"
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_TETGEN
+#include "dovetail/adapters/tetgen.hpp"
 #endif
 
 #include <algorithm>
@@ -103,16 +105,22 @@ std::vector<any_simplification_rule> simplifiers_at(double angle, int dimension)
   return known;
 }
 
+/// What a mesher fails on, such as two parts that touch in an edge, the native one meshes, and then TetGen.
 std::vector<any_mesher<3>> meshers() {
-  // On some boundaries all but TetGen fail, Gmsh's on two parts that touch in an edge.
-  const any_mesher<3> tetgen{mesher::tetgen{}, "tetgen"};
-  std::vector<any_mesher<3>> known{any_mesher<3>(mesher::native{}, "native").with_fallback(tetgen), tetgen};
+  const any_mesher<3> native(mesher::native{}, "native");
+  std::vector<any_mesher<3>> known{native};
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
-  known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(tetgen));
-  known.push_back(any_mesher<3>(mesher::gmsh_delaunay{}, "gmsh-delaunay").with_fallback(tetgen));
+  known.push_back(any_mesher<3>(mesher::gmsh_hxt{}, "hxt").with_fallback(native));
+  known.push_back(any_mesher<3>(mesher::gmsh_delaunay{}, "gmsh-delaunay").with_fallback(native));
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_NETGEN
-  known.push_back(any_mesher<3>(mesher::netgen{}, "netgen").with_fallback(tetgen));
+  known.push_back(any_mesher<3>(mesher::netgen{}, "netgen").with_fallback(native));
+#endif
+#ifdef DOVETAIL_DRIVER_WITH_TETGEN
+  const any_mesher<3> tetgen(mesher::tetgen{}, "tetgen");
+  for (any_mesher<3>& one : known)
+    one = one.with_fallback(tetgen);
+  known.insert(known.begin() + 1, tetgen);
 #endif
   return known;
 }
