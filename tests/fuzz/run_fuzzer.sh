@@ -1,5 +1,5 @@
 #!/bin/bash
-# Fuzzes one of the readers, from small files that are valid. Prints what it found, and fails when anything was.
+# Fuzzes one of the readers, from small files that are valid, or the native mesher. Prints what it found, and fails when anything was.
 #   run_fuzzer.sh <fuzzer> <reader> <seconds> [folder for what is found]
 set -euo pipefail
 fuzzer=$1 kind=$2 seconds=$3
@@ -86,14 +86,25 @@ svg)
 txt)
   printf '# c\npolygon a\n0 0\n9 0\n9 9\n\nline b\n1 1\n2 1\n' >text
   ;;
+mesher)
+  for shape in 00 01 02 03 80 81 82 83; do bytes "$shape" 01 10 20 30 >"$shape"; done
+  { bytes 00; bytes fe 00 01 02; } >wall
+  ;;
 *)
   echo "there is no reader of $kind" >&2
   exit 2
   ;;
 esac
 
+reader=--reader=$kind
+timeout=5
+if [[ $kind == mesher ]]; then
+  reader=""
+  timeout=60 # what is hopeless takes a second, or ten times as long with sanitizers
+fi
+
 # Small inputs, a second each and half a gigabyte at most: what takes more has found a way to hang or to fill the memory.
-if ! TMPDIR=$scratch "$fuzzer" "--reader=$kind" "$scratch/new" "$scratch/corpus" -max_total_time="$seconds" -timeout=5 \
+if ! TMPDIR=$scratch "$fuzzer" ${reader:+"$reader"} "$scratch/new" "$scratch/corpus" -max_total_time="$seconds" -timeout="$timeout" \
   -rss_limit_mb=1024 -malloc_limit_mb=512 -max_len=4096 -artifact_prefix="$found/" >"$scratch/log" 2>&1; then
   tail -n 60 "$scratch/log"
   echo "the input that does it: $(ls "$found")"

@@ -23,8 +23,8 @@ namespace dovetail::mesher {
 /// A model of `boundary_keeping_mesher<3>` that needs no library and runs in threads.
 ///
 /// Points of a lattice graded by the sizes are inserted together with those of the boundary; what the
-/// Delaunay tetrahedrization lacks of the boundary is recovered by flips. Elements are not improved: slivers
-/// are left to the improver.
+/// Delaunay tetrahedrization lacks of the boundary is recovered by flips and a few points more. Elements are
+/// not improved: slivers are left to the improver.
 struct native {
   static constexpr mesher_traits traits{
       .keeps_boundary = true, .thread_safe = true, .accepts_non_manifold = true, .repeats_in_process = true};
@@ -92,7 +92,10 @@ inline mesher_result<3> native::operator()(const mesher_input<3>& input, const a
   result.summary.set("points", static_cast<double>(result.mesh.points.size()));
   result.summary.set("missing_edges", static_cast<double>(recovered.missing_edges));
   result.summary.set("missing_triangles", static_cast<double>(recovered.missing_triangles));
-  result.summary.set("recovery_points", static_cast<double>(recovered.added_points));
+  result.summary.set("recovery_splits", static_cast<double>(recovered.splits));
+  result.summary.set("recovery_points",
+                     static_cast<double>(recovered.added_points - recovered.removed_points));
+  result.summary.set("recovery_points_removed", static_cast<double>(recovered.removed_points));
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -51,7 +52,7 @@ public:
   }
 
   /// Visits living elements from those at vertex `v` on, each once, and goes from an element across side i
-  /// where `crosses(element, i)`. Elements at `v` are all visited.
+  /// where `crosses(element, i)`. Elements at `v` are all visited, unless `visit` returns true: that ends it.
   template <class Visit, class Crosses>
   void spread_from(local_id v, const Visit& visit, const Crosses& crosses) {
     front_.clear();
@@ -61,7 +62,11 @@ public:
     push(element_at_[at(v)]);
     for (std::size_t next = 0; next < front_.size(); ++next) {
       const local_id e = front_[next];
-      visit(e);
+      ++work_;
+      if constexpr (std::is_void_v<decltype(visit(e))>)
+        visit(e);
+      else if (visit(e))
+        return;
       for (std::size_t i = 0; i < 4; ++i) {
         const bool across_star = has_vertex(e, v) && mesh_[e].vertices[i] != v;
         if (across_star || crosses(e, i))
@@ -70,18 +75,63 @@ public:
     }
   }
 
+  /// Of a vertex that may have been removed.
+  bool is_in_element(local_id v) const { return element_at_[at(v)] != no_id; }
+  /// The elements at a vertex; none when it is in no element.
+  void find_star(local_id v, std::vector<local_id>& elements) {
+    elements.clear();
+    spread_from(
+        v,
+        [&](local_id e) {
+          if (has_vertex(e, v))
+            elements.push_back(e);
+        },
+        [](local_id, std::size_t) { return false; });
+  }
+  /// The vertices of side i of an element, oriented outwards of it.
+  simplex<2> side_vertices(local_id e, std::size_t i) const {
+    const auto& v = mesh_[e].vertices;
+    const auto& local = numbering::sides<3>[i];
+    return {v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
+            v[static_cast<std::size_t>(local[2])]};
+  }
+  /// The sides of a region of elements, oriented outwards of it, and the elements beyond.
+  void find_rim(std::span<const local_id> elements, std::vector<simplex<2>>& sides,
+                std::vector<local_id>* beyond = nullptr) {
+    sides.clear();
+    work_ += elements.size();
+    if (beyond != nullptr)
+      beyond->clear();
+    ++stamp_;
+    for (const local_id e : elements)
+      seen_[at(e)] = stamp_;
+    for (const local_id e : elements)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const local_id other = triangulation<3>::element_of(mesh_[e].across[i]);
+        if (seen_[at(other)] == stamp_)
+          continue;
+        sides.push_back(side_vertices(e, i));
+        if (beyond != nullptr)
+          beyond->push_back(other);
+      }
+  }
+
   /// An element with both vertices, `no_id` when there is none. Linear in the elements at `p`.
   local_id element_with_edge(local_id p, local_id q) {
     local_id found = no_id;
     spread_from(
-        p, [&](local_id e) { found = has_vertex(e, q) && has_vertex(e, p) ? e : found; },
+        p,
+        [&](local_id e) {
+          found = has_vertex(e, q) && has_vertex(e, p) ? e : no_id;
+          return found != no_id;
+        },
         [](local_id, std::size_t) { return false; });
     return found;
   }
   bool has_triangle(local_id a, local_id b, local_id c) {
     bool found = false;
     spread_from(
-        a, [&](local_id e) { found = found || (has_vertex(e, b) && has_vertex(e, c)); },
+        a, [&](local_id e) { return found = has_vertex(e, a) && has_vertex(e, b) && has_vertex(e, c); },
         [](local_id, std::size_t) { return false; });
     return found;
   }
@@ -125,8 +175,12 @@ public:
       for (const local_id side : mesh_[e].across)
         if (seen_[at(triangulation<3>::element_of(side))] != stamp_)
           add_face(side);
-    for (const local_id e : old)
+    for (const local_id e : old) {
+      for (const local_id v : mesh_[e].vertices)
+        if (v >= 0)
+          element_at_[at(v)] = no_id; // unless one of the fresh has it
       mesh_.remove(e);
+    }
     for (const simplex<3>& vertices : fresh) {
       const local_id e = mesh_.add();
       seen_.resize(mesh_.cells.size(), 0);
@@ -143,11 +197,24 @@ public:
     }
   }
 
+  /// Positive when the finite side (u, v, w), oriented outwards, is seen by `p` from inside.
+  double orientation(vec3 p, local_id u, local_id v, local_id w) const {
+    ++work_;
+    return orient3d(p, point(u), point(v), point(w));
+  }
   /// Whether the tetrahedron is positively oriented and has no infinite vertex.
   bool is_positive(const simplex<3>& v) const {
+    ++work_;
     return (v[0] | v[1] | v[2] | v[3]) >= 0 &&
            orient3d(point(v[0]), point(v[1]), point(v[2]), point(v[3])) > 0;
   }
+
+  /// Elements visited and places compared so far: a measure of time that is the same in every run.
+  std::size_t work() const { return work_; }
+  void count_work(std::size_t more = 1) const { work_ += more; }
+  /// From when on `is_spent`: for callers that shall give up then.
+  void limit_work(std::size_t most) { most_work_ = most; }
+  bool is_spent() const { return work_ > most_work_; }
 
 private:
   struct face {
@@ -185,10 +252,7 @@ private:
     return inversions % 2 == 0 ? v[k] : v[l];
   }
   void add_face(local_id side) {
-    const auto& v = mesh_[triangulation<3>::element_of(side)].vertices;
-    const auto& local = numbering::sides<3>[at(triangulation<3>::place_of(side))];
-    simplex<2> key{v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
-                   v[static_cast<std::size_t>(local[2])]};
+    simplex<2> key = side_vertices(triangulation<3>::element_of(side), at(triangulation<3>::place_of(side)));
     sort_all(key);
     faces_.push_back({key, side});
   }
@@ -199,6 +263,8 @@ private:
   std::uint32_t stamp_ = 0;
   std::vector<local_id> front_;
   std::vector<face> faces_;
+  mutable std::size_t work_ = 0;
+  std::size_t most_work_ = static_cast<std::size_t>(-1);
 };
 
 } // namespace dovetail::detail

@@ -5,14 +5,18 @@
 /// the way of one is taken away by flips, as by P. L. George, H. Borouchaki and E. Saltel, "'Ultimate'
 /// robustness in meshing an arbitrary polyhedron", doi 10.1002/nme.808, and J. Chen et al.,
 /// "Three-dimensional constrained boundary recovery with an enhanced Steiner point suppression procedure",
-/// doi 10.1016/j.compstruc.2010.11.016 (where removal of an edge is a shell transformation); where that
-/// fails, points are put inside elements that are in the way, so that there is more to flip. None is ever on
-/// the boundary.
+/// doi 10.1016/j.compstruc.2010.11.016 (where removal of an edge is a shell transformation). What flips do
+/// not reach is divided by points (`boundary_splits`), which are on the boundary only until all of it is
+/// there.
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/mesher/native/boundary_splits.hpp"
 #include "dovetail/mesher/native/cavity_division.hpp"
+#include "dovetail/mesher/native/kept_entities.hpp"
+#include "dovetail/mesher/native/missing_parts.hpp"
+#include "dovetail/mesher/native/point_removal.hpp"
 #include "dovetail/mesher/native/recovery_flips.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/triangulation/insertion_order.hpp"
@@ -33,122 +37,181 @@ namespace dovetail {
 struct recovery_counts {
   std::size_t missing_edges = 0;     ///< of the boundary, in the tetrahedrization given
   std::size_t missing_triangles = 0; ///< once the edges were there
-  std::size_t added_points = 0;      ///< at the end of the points
+  std::size_t splits = 0;            ///< edges and triangles divided for a while
+  std::size_t added_points = 0;      ///< at the end of the points, with those that are in no element again
+  std::size_t removed_points = 0;    ///< that are in no element again
 };
 
 namespace detail {
 
+/// How one attempt at a recovery differs from others. What fails in one order is nearly always done in
+/// another.
+struct recovery_attempt {
+  int level_steps = 5;           ///< changes for one target after which as much is in its way as before
+  bool last_first = false;       ///< begins with the last edges
+  std::size_t work = 20'000'000; ///< that is allowed, and some more for each triangle: about half a second
+};
+
 /// Makes edges and triangles parts of the mesh one after the other.
 class boundary_recovery {
 public:
-  boundary_recovery(local_changes& changes, std::span<const simplex<2>> triangles)
-      : changes_(changes), triangles_(triangles), kept_(triangles), flips_(changes, kept_) {}
+  boundary_recovery(local_changes& changes, std::span<const simplex<2>> triangles,
+                    const recovery_attempt& attempt)
+      : changes_(changes), attempt_(attempt), kept_(triangles), flips_(changes, kept_),
+        splits_(changes, kept_), removal_(changes, kept_),
+        given_points_(static_cast<local_id>(changes.mesh().points.size())),
+        all_work_(changes.work() + attempt.work + work_per_triangle * triangles.size()) {
+    changes_.limit_work(all_work_);
+  }
 
   recovery_counts run() {
-    std::vector<edge_target> edges = missing_edges();
+    std::vector<edge_target> edges = missing_edges_of(changes_.mesh(), kept_);
     counts_.missing_edges = edges.size();
-    recover_all(edges);
-    std::vector<triangle_target> sides = missing_triangles();
-    counts_.missing_triangles = sides.size();
-    recover_all(sides);
+    if (attempt_.last_first)
+      std::reverse(edges.begin(), edges.end());
+    for (bool first = true;; first = false) {
+      recover_all(edges);
+      std::vector<triangle_target> triangles = missing_triangles_of(changes_, kept_);
+      if (first)
+        counts_.missing_triangles = triangles.size();
+      recover_by_flips(triangles);
+      if (triangles.empty())
+        break;
+      divide_all(triangles, edges);
+    }
+    if (splits_.undo_all([&](local_id v) { return removal_.remove_edges(v); }) > 0)
+      throw mesher_error("the boundary could not be recovered: " + splits_.place_of_last() +
+                         " stays divided");
+    remove_points();
     return counts_;
   }
+  /// Whether parts of the boundary pass through each other or all work is spent, so that no other attempt is
+  /// worth it.
+  bool is_hopeless() const { return is_hopeless_; }
 
 private:
-  static constexpr int most_steps = 200;         // changes for one target in one go
-  static constexpr int most_level_steps = 40;    // those of them after which as much is in the way as before
-  static constexpr int most_depth = 3;           // of removals of edges for the sake of others
-  static constexpr std::size_t most_points = 12; // added for one target
+  static constexpr std::size_t target_work = 30'000; // for one target in one go, before it is divided
+  static constexpr std::size_t work_per_triangle = 2000;
+  static constexpr int most_steps = 100; // changes for one target in one go
+  static constexpr int most_depth = 2;   // of removals of edges for the sake of others
 
-  std::vector<edge_target> missing_edges() {
-    std::vector<char> found(kept_.edges().size(), 0);
-    const auto& mesh = changes_.mesh();
-    for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e) {
-      if (!mesh.is_alive(e))
-        continue;
-      for (const auto& ridge : numbering::ridges<3>) {
-        const local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
-                       v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
-        if (u < 0 || v < 0 || !is_given(u) || !is_given(v))
-          continue;
-        const std::array edge{std::min(u, v), std::max(u, v)};
-        const auto place = std::lower_bound(kept_.edges().begin(), kept_.edges().end(), edge);
-        if (place != kept_.edges().end() && *place == edge)
-          found[static_cast<std::size_t>(place - kept_.edges().begin())] = 1;
-      }
+  /// Makes edges part of the mesh, if need be in pieces.
+  void recover_all(std::vector<edge_target>& missing) {
+    recover_by_flips(missing);
+    while (!missing.empty()) {
+      std::vector<edge_target> pieces;
+      divide_all(missing, pieces);
+      missing = std::move(pieces);
+      recover_by_flips(missing);
     }
-    std::vector<edge_target> missing;
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k] == 0)
-        missing.push_back({kept_.edges()[k]});
-    return missing;
   }
 
-  std::vector<triangle_target> missing_triangles() {
-    std::vector<char> found(kept_.triangles().entries().size(), 0);
-    const auto& mesh = changes_.mesh();
-    for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e) {
-      if (!mesh.is_alive(e))
-        continue;
-      for (const auto& local : numbering::sides<3>) {
-        simplex<2> side{};
-        bool given = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-          side[k] = mesh[e].vertices[static_cast<std::size_t>(local[k])];
-          given = given && side[k] >= 0 && is_given(side[k]);
-        }
-        if (!given)
-          continue;
-        if (const auto match = kept_.triangles().find(side))
-          found[at(match.entry)] = 1;
-      }
-    }
-    std::vector<triangle_target> missing;
-    for (const auto& triangle : triangles_)
-      if (char& known = found[at(kept_.triangles().find(triangle).entry)]; known == 0) {
-        known = 1; // one listed in both directions is looked for once
-        missing.push_back({triangle});
-      }
-    return missing;
-  }
-  bool is_given(local_id v) const { return v <= kept_.edges().back()[0] || v <= highest(); }
-  local_id highest() const {
-    if (highest_ == no_id)
-      for (const auto& edge : kept_.edges())
-        highest_ = std::max(highest_, edge[1]);
-    return highest_;
-  }
-
-  /// Goes over the targets as long as some are reached, since one may be in the way of another; then adds
-  /// points. Throws `mesher_error` with the places of those that are not reached.
+  /// Goes over the targets as long as some are reached, since one may be in the way of another. Throws
+  /// `mesher_error` when parts of the boundary pass through each other, naming them.
   template <class Target>
-  void recover_all(std::vector<Target>& missing) {
-    for (std::size_t points = 0; points <= most_points; ++points) {
-      for (int depth = 1; depth <= most_depth; ++depth)
-        for (std::size_t before = missing.size() + 1; !missing.empty() && missing.size() < before;) {
-          before = missing.size();
-          std::erase_if(missing, [&](const Target& target) { return recover(target, depth); });
-        }
-      std::erase_if(missing, [&](const Target& target) { return recover_with_points(target); });
-      if (missing.empty())
-        return;
-      if (points < most_points)
-        for (const Target& target : missing)
-          add_point_in_the_way(target, points);
+  void recover_by_flips(std::vector<Target>& missing) {
+    require_no_conflict(missing); // what is there already tells at once of most that pass through each other
+    for (int depth = 0; depth <= most_depth; ++depth) {
+      for (std::size_t before = missing.size() + 1; !missing.empty() && missing.size() < before;) {
+        before = missing.size();
+        std::erase_if(missing, [&](const Target& target) { return recover(target, depth); });
+      }
+      if (changes_.is_spent() && !missing.empty())
+        give_up_for_work(missing);
+      if (depth == 0)
+        require_no_conflict(missing);
     }
-    throw_unrecovered(missing);
+    std::erase_if(missing, [&](const Target& target) { return recover_with_points(target); });
+  }
+
+  /// Divides each target, or clears it of points that may go; what is to be recovered then is added to
+  /// `edges`. Throws `mesher_error` with the places of those for which neither is possible.
+  template <class Target>
+  void divide_all(std::vector<Target>& missing, std::vector<edge_target>& edges) {
+    std::vector<Target> stuck;
+    for (const Target& target : missing) {
+      if (changes_.is_spent())
+        give_up_for_work(missing);
+      if (target.is_there(changes_))
+        continue;
+      find_obstacles(changes_, target, found_);
+      if (splits_.split(target, found_, edges))
+        ++counts_.splits;
+      else if (clear(target))
+        keep_for_later(target, edges);
+      else
+        stuck.push_back(target);
+    }
+    if (stuck.size() == missing.size())
+      throw_unrecovered(stuck, "");
+    for (const Target& target : stuck)
+      keep_for_later(target, edges);
+  }
+  static void keep_for_later(const edge_target& target, std::vector<edge_target>& edges) {
+    edges.push_back(target);
+  }
+  static void keep_for_later(const triangle_target&, std::vector<edge_target>&) {
+  } // those are looked for again
+
+  /// Removes vertices that are none of the boundary from the inside of a target.
+  template <class Target>
+  bool clear(const Target& target) {
+    bool any = false;
+    for (const local_id v : vertices_within(changes_, target))
+      any = (!kept_.is_of_boundary(v) && !splits_.has_point(v) && removal_.remove(v)) || any;
+    return any;
+  }
+
+  /// Two parts of the boundary cannot pass through each other.
+  template <class Target>
+  void require_no_conflict(const std::vector<Target>& missing) {
+    if (splits_.count() > 0)
+      return; // points on edges are there but for rounding
+    std::vector<std::string> conflicts;
+    for (const Target& target : missing) {
+      if (conflicts.size() == most_named)
+        break;
+      if (const std::string what = conflict_of(target); !what.empty())
+        conflicts.push_back(place_of(target) + ", which passes through " + what);
+    }
+    if (!conflicts.empty())
+      give_up_for_conflicts(conflicts);
+  }
+  template <class Target>
+  std::string conflict_of(const Target& target) {
+    find_obstacles(changes_, target, found_);
+    for (const auto& [u, v] : found_.edges)
+      if (kept_.has(u, v))
+        return place_of(edge_target{{u, v}});
+    for (const local_id side : found_.sides) {
+      const auto t =
+          changes_.side_vertices(triangulation<3>::element_of(side), at(triangulation<3>::place_of(side)));
+      if (kept_.has(t[0], t[1], t[2]))
+        return place_of(triangle_target{t});
+    }
+    for (const local_id v : vertices_within(changes_, target))
+      if (kept_.is_of_boundary(v))
+        return "point " + place_text(changes_.point(v));
+    return "";
   }
 
   template <class Target>
   bool recover(const Target& target, int depth) {
+    changes_.limit_work(std::min(all_work_, changes_.work() + target_work));
+    const bool is_there = recover_in_steps(target, depth);
+    changes_.limit_work(all_work_);
+    return is_there;
+  }
+  template <class Target>
+  bool recover_in_steps(const Target& target, int depth) {
     int level_steps = 0;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_steps && !changes_.is_spent(); ++step) {
       if (target.is_there(changes_))
         return true;
       find_obstacles(changes_, target, found_);
       if (improve(target, -1))
         continue;
-      if (level_steps++ >= most_level_steps)
+      if (level_steps++ >= attempt_.level_steps)
         return false;
       std::rotate(found_.edges.begin(), found_.edges.begin() + turn(step, found_.edges.size()),
                   found_.edges.end());
@@ -207,9 +270,7 @@ private:
     if (target.is_there(changes_))
       return true;
     find_obstacles(changes_, target, found_);
-    const auto divide = [&](local_id u, local_id v) {
-      return flips_.divide_ring(target, u, v, counts_.added_points);
-    };
+    const auto divide = [&](local_id u, local_id v) { return flips_.divide_ring(target, u, v); };
     for (const auto& [u, v] : found_.edges)
       if (divide(u, v))
         return true;
@@ -219,39 +280,21 @@ private:
     if (target.is_there(changes_))
       return true;
     find_obstacles(changes_, target, found_);
-    return cavity_division(changes_, kept_, target.corners, found_.elements).run(counts_.added_points);
+    return cavity_division(changes_, kept_, target.corners, found_.elements).run();
   }
 
-  /// Puts a point into the largest of the elements in the way, or, in later attempts, into the next ones.
-  template <class Target>
-  void add_point_in_the_way(const Target& target, std::size_t attempt) {
-    find_obstacles(changes_, target, found_);
-    auto& elements = found_.elements;
-    if (elements.empty())
-      return;
-    const auto volume = [&](local_id e) {
-      const auto p = changes_.mesh().points_of(e);
-      return signed_volume(p[0], p[1], p[2], p[3]);
-    };
-    std::sort(elements.begin(), elements.end(), [&](local_id a, local_id b) {
-      const double va = volume(a), vb = volume(b);
-      return va != vb ? va > vb : a < b;
-    });
-    const local_id e = elements[attempt % elements.size()];
-    const auto p = changes_.mesh().points_of(e);
-    const vec3 middle = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const local_id v = changes_.add_point(middle);
-    const auto old = changes_.mesh()[e].vertices;
-    std::array<simplex<3>, 4> fresh{old, old, old, old};
-    bool fits = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-      fresh[i][i] = v;
-      fits = fits && changes_.is_positive(fresh[i]);
+  /// Removes what was added, as far as possible.
+  void remove_points() {
+    for (std::size_t before = counts_.removed_points + 1; before != counts_.removed_points;) {
+      before = counts_.removed_points;
+      for (local_id v = given_points_; v < static_cast<local_id>(changes_.mesh().points.size()); ++v)
+        if (changes_.is_in_element(v) && !changes_.is_spent())
+          removal_.remove(v);
+      counts_.removed_points = 0;
+      for (local_id v = given_points_; v < static_cast<local_id>(changes_.mesh().points.size()); ++v)
+        counts_.removed_points += !changes_.is_in_element(v);
     }
-    if (!fits)
-      return; // it stays a point of no element
-    changes_.replace(std::array{e}, fresh);
-    ++counts_.added_points;
+    counts_.added_points = changes_.mesh().points.size() - at(given_points_);
   }
 
   std::string place_of(const edge_target& target) const {
@@ -264,39 +307,69 @@ private:
            place_text(changes_.point(target.corners[2]));
   }
   template <class Target>
-  [[noreturn]] void throw_unrecovered(const std::vector<Target>& missing) const {
-    constexpr std::size_t most_named = 5;
-    std::string places;
+  [[noreturn]] void throw_unrecovered(const std::vector<Target>& missing, const std::string& how) const {
+    std::string text;
     for (std::size_t k = 0; k < std::min(missing.size(), most_named); ++k)
-      places += (k == 0 ? "" : "; ") + place_of(missing[k]);
-    throw mesher_error(std::to_string(missing.size()) + " parts of the boundary could not be recovered: " +
-                       places + (missing.size() > most_named ? "; ..." : ""));
+      text += (k == 0 ? "" : "; ") + place_of(missing[k]);
+    throw mesher_error(std::to_string(missing.size()) + " parts of the boundary could not be recovered" +
+                       how + ": " + text + (missing.size() > most_named ? "; ..." : ""));
   }
+  /// Throws when another attempt could not help.
+  template <class Target>
+  [[noreturn]] void give_up_for_work(const std::vector<Target>& missing) {
+    is_hopeless_ = true;
+    throw_unrecovered(missing, " with the work that is allowed");
+  }
+  [[noreturn]] void give_up_for_conflicts(const std::vector<std::string>& conflicts) {
+    is_hopeless_ = true;
+    std::string text;
+    for (const std::string& conflict : conflicts)
+      text += (text.empty() ? "" : "; ") + conflict;
+    throw mesher_error("parts of the boundary could not be recovered: " + text);
+  }
+  static constexpr std::size_t most_named = 5;
 
   local_changes& changes_;
-  std::span<const simplex<2>> triangles_;
+  recovery_attempt attempt_;
   kept_entities kept_;
   recovery_flips flips_;
+  boundary_splits splits_;
+  point_removal removal_;
+  local_id given_points_;
+  std::size_t all_work_;
   recovery_counts counts_;
+  bool is_hopeless_ = false;
   obstacles found_;
-  std::vector<std::array<local_id, 2>> side_edges_;
-  mutable local_id highest_ = no_id;
+  std::vector<vertex_pair> side_edges_;
 };
 
 } // namespace detail
 
 /// Changes a tetrahedrization, in which all vertices of `triangles` are, until each of these is a side of an
-/// element. Points that had to be added are behind the others and inside of elements. `triangles` may be
-/// listed in both directions. Throws `mesher_error` naming the places when some could not be recovered.
+/// element. Points that had to be added are behind the others and inside of elements, or in none at all when
+/// they could be removed again. `triangles` may be listed in both directions. Throws `mesher_error`, and the
+/// tetrahedrization is as it was, naming the places when some could not be recovered: those that pass through
+/// others, or what was missing when the work was spent that is allowed, which is about a second's and some
+/// more for each triangle.
 ///
 /// Linear in the elements, and about 20 us for each edge or triangle that was missing.
 inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles) {
   if (triangles.empty())
     return {};
-  detail::local_changes changes(std::move(mesh));
-  const recovery_counts counts = detail::boundary_recovery(changes, triangles).run();
-  mesh = changes.take();
-  return counts;
+  constexpr std::array attempts{detail::recovery_attempt{}, detail::recovery_attempt{40, true, 10'000'000},
+                                detail::recovery_attempt{15, false, 10'000'000}};
+  for (std::size_t k = 0;; ++k) {
+    detail::local_changes changes(mesh);
+    detail::boundary_recovery recovery(changes, triangles, attempts[k]);
+    try {
+      const recovery_counts counts = recovery.run();
+      mesh = changes.take();
+      return counts;
+    } catch (const mesher_error&) {
+      if (recovery.is_hopeless() || k + 1 == attempts.size())
+        throw;
+    }
+  }
 }
 
 } // namespace dovetail

@@ -26,20 +26,22 @@ public:
 
   /// Exchanges the elements for a star on each side of the triangle. False, and nothing has changed, when the
   /// region is not of that kind, holds something that is kept, or no two points see all of their sides.
-  bool run(std::size_t& added) {
+  bool run() {
     find_rim();
     if (!keeps_all() || !divide())
       return false;
     const std::size_t points = changes_.mesh().points.size();
-    std::size_t new_points = 0;
     std::vector<simplex<3>> fresh;
-    for (const auto& part : parts_)
-      if (!add_star(changes_, part, fresh, new_points)) {
+    star_centers centers(changes_);
+    for (const auto& part : parts_) {
+      const star_center center = centers.best(part);
+      if (center.clearance == 0) {
         changes_.drop_points(points);
         return false;
       }
+      centers.add_star(center, part, fresh);
+    }
     changes_.replace(elements_, fresh);
-    added += new_points;
     return true;
   }
 

@@ -2,7 +2,7 @@
 /// The changes that make room for an edge or a triangle: removal of edges and of sides.
 #pragma once
 
-#include "dovetail/mesher/boundary_sides.hpp"
+#include "dovetail/mesher/native/kept_entities.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/mesher/native/star_points.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
@@ -16,37 +16,12 @@
 
 namespace dovetail::detail {
 
-/// The edges and triangles that no change may take away.
-class kept_entities {
-public:
-  explicit kept_entities(std::span<const simplex<2>> triangles) : triangles_(triangles) {
-    for (const auto& triangle : triangles)
-      for (const auto& local : numbering::sides<2>) {
-        const local_id u = triangle[static_cast<std::size_t>(local[0])],
-                       v = triangle[static_cast<std::size_t>(local[1])];
-        edges_.push_back({std::min(u, v), std::max(u, v)});
-      }
-    sort_unique(edges_);
-  }
-  /// Lower vertex first, in growing order.
-  const std::vector<std::array<local_id, 2>>& edges() const { return edges_; }
-  const boundary_sides& triangles() const { return triangles_; }
-
-  bool has(local_id u, local_id v) const {
-    return std::binary_search(edges_.begin(), edges_.end(), std::array{std::min(u, v), std::max(u, v)});
-  }
-  bool has(local_id u, local_id v, local_id w) const { return bool(triangles_.find({u, v, w})); }
-
-private:
-  boundary_sides triangles_;
-  std::vector<std::array<local_id, 2>> edges_;
-};
-
 /// Changes that are made when what is in the target's way weighs less afterwards, or, where `allowed_excess`
 /// says so, not much more.
 class recovery_flips {
 public:
-  recovery_flips(local_changes& changes, const kept_entities& kept) : changes_(changes), kept_(kept) {}
+  recovery_flips(local_changes& changes, const kept_entities& kept)
+      : changes_(changes), kept_(kept), centers_(changes) {}
 
   /// Exchanges side (u, v, w) between two elements for an edge between their other vertices.
   template <class Target>
@@ -103,8 +78,8 @@ public:
   }
 
   /// Makes the target the edge between two vertices of the ring around (p, q), with new points in the parts
-  /// of the ring on both sides of it if need be; adds the number of them to `added`.
-  bool divide_ring(const edge_target& target, local_id p, local_id q, std::size_t& added) {
+  /// of the ring on both sides of it if need be.
+  bool divide_ring(const edge_target& target, local_id p, local_id q) {
     const local_id e = kept_.has(p, q) ? no_id : changes_.element_with_edge(p, q);
     if (e == no_id)
       return false;
@@ -124,13 +99,11 @@ public:
     other.push_back(r.front());
     fresh_.clear();
     const std::size_t points = changes_.mesh().points.size();
-    std::size_t new_points = 0;
-    if (!fill_part(target, p, q, one, new_points) || !fill_part(target, p, q, other, new_points)) {
+    if (!fill_part(target, p, q, one) || !fill_part(target, p, q, other)) {
       changes_.drop_points(points);
       return false;
     }
     changes_.replace(ring_.elements, fresh_);
-    added += new_points;
     return true;
   }
 
@@ -140,7 +113,8 @@ public:
   bool remove_edge_after_others(const Target& target, local_id p, local_id q, int allowed_excess, int depth) {
     if (remove_edge(target, p, q, allowed_excess))
       return true;
-    const local_id e = depth == 0 || kept_.has(p, q) ? no_id : changes_.element_with_edge(p, q);
+    const local_id e =
+        depth == 0 || kept_.has(p, q) || changes_.is_spent() ? no_id : changes_.element_with_edge(p, q);
     if (e == no_id)
       return false;
     changes_.find_ring(e, p, q, most_ring, ring_);
@@ -197,11 +171,10 @@ private:
     add_triangles(p, q, r, k, j);
   }
 
-  /// Fills the part of a ring within a polygon: by triangles, or else by a star around a new point, of which
-  /// `added` is then the number. What is filled is undone by no one when it fails.
+  /// Fills the part of a ring within a polygon: by triangles, or else by a star. What is filled is undone by
+  /// no one when it fails.
   template <class Target>
-  bool fill_part(const Target& target, local_id p, local_id q, std::span<const local_id> polygon,
-                 std::size_t& added) {
+  bool fill_part(const Target& target, local_id p, local_id q, std::span<const local_id> polygon) {
     if (best_weight(target, p, q, polygon) < impossible) {
       add_triangles(p, q, polygon, 0, polygon.size() - 1);
       return true;
@@ -213,11 +186,15 @@ private:
       sides.push_back({p, v, u});
       sides.push_back({q, u, v});
     }
-    return add_star(changes_, sides, fresh_, added);
+    const star_center center = centers_.best(sides);
+    if (center.clearance > 0)
+      centers_.add_star(center, sides, fresh_);
+    return center.clearance > 0;
   }
 
   local_changes& changes_;
   const kept_entities& kept_;
+  star_centers centers_;
   edge_ring ring_;
   std::vector<simplex<3>> fresh_;
   std::array<std::array<int, most_ring>, most_ring> weight_{};

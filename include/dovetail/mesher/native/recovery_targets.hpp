@@ -3,8 +3,10 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -22,6 +24,11 @@ inline bool line_pierces(vec3 a, vec3 b, vec3 u, vec3 v, vec3 w) {
 
 /// Whether the segments cross in a point inside of both.
 inline bool segments_cross(vec3 a, vec3 b, vec3 u, vec3 v) {
+  // Far from each other, as nearly all are that lie in one plane, which is where orientations are dear.
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::max(a[axis], b[axis]) < std::min(u[axis], v[axis]) ||
+        std::max(u[axis], v[axis]) < std::min(a[axis], b[axis]))
+      return false;
   if (orient3d(a, b, u, v) != 0)
     return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -35,14 +42,48 @@ inline bool segments_cross(vec3 a, vec3 b, vec3 u, vec3 v) {
   return false;
 }
 
+/// Whether `p` lies between the ends of the segment.
+inline bool is_on_segment(vec3 a, vec3 b, vec3 p) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flat = [axis](vec3 q) { return vec2{q[(axis + 1) % 3], q[(axis + 2) % 3]}; };
+    if (orient2d(flat(a), flat(b), flat(p)) != 0)
+      return false;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (a[axis] != b[axis])
+      return std::min(a[axis], b[axis]) < p[axis] && p[axis] < std::max(a[axis], b[axis]);
+  return false;
+}
+
+/// Whether `p` lies inside of a triangle that has an area.
+inline bool is_in_triangle(vec3 a, vec3 b, vec3 c, vec3 p) {
+  if (orient3d(a, b, c, p) != 0)
+    return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flat = [axis](vec3 q) { return vec2{q[(axis + 1) % 3], q[(axis + 2) % 3]}; };
+    const double whole = orient2d(flat(a), flat(b), flat(c));
+    if (whole == 0)
+      continue;
+    const double u = orient2d(flat(a), flat(b), flat(p)), v = orient2d(flat(b), flat(c), flat(p)),
+                 w = orient2d(flat(c), flat(a), flat(p));
+    return whole > 0 ? u > 0 && v > 0 && w > 0 : u < 0 && v < 0 && w < 0;
+  }
+  return false;
+}
+
 /// A target is present, or there are edges and sides of elements in its way. Each weighs something; a change
 /// is good when what it makes weighs less than what it takes away.
 struct edge_target {
   std::array<local_id, 2> ends;
 
   local_id begin() const { return ends[0]; }
+  vec3 middle(const local_changes& c) const { return midpoint(c.point(ends[0]), c.point(ends[1])); }
   bool is_there(local_changes& changes) const { return changes.element_with_edge(ends[0], ends[1]) != no_id; }
+  bool passes_through(const local_changes& c, local_id v) const {
+    return !is_end(v) && is_on_segment(c.point(ends[0]), c.point(ends[1]), c.point(v));
+  }
   int weight(const local_changes& c, local_id u, local_id v) const {
+    c.count_work();
     constexpr int edge_weight = 2; // an edge crossed is about as bad as two sides pierced next to it
     return !is_end(u) && !is_end(v) &&
                    segments_cross(c.point(ends[0]), c.point(ends[1]), c.point(u), c.point(v))
@@ -50,6 +91,7 @@ struct edge_target {
                : 0;
   }
   int weight(const local_changes& c, local_id u, local_id v, local_id w) const {
+    c.count_work();
     if (is_end(u) || is_end(v) || is_end(w))
       return 0;
     const vec3 a = c.point(ends[0]), b = c.point(ends[1]), pu = c.point(u), pv = c.point(v), pw = c.point(w);
@@ -66,10 +108,18 @@ struct triangle_target {
   simplex<2> corners;
 
   local_id begin() const { return corners[0]; }
+  vec3 middle(const local_changes& c) const {
+    return (c.point(corners[0]) + c.point(corners[1]) + c.point(corners[2])) / 3;
+  }
   bool is_there(local_changes& changes) const {
     return changes.has_triangle(corners[0], corners[1], corners[2]);
   }
+  bool passes_through(const local_changes& c, local_id v) const {
+    return v != corners[0] && v != corners[1] && v != corners[2] &&
+           is_in_triangle(c.point(corners[0]), c.point(corners[1]), c.point(corners[2]), c.point(v));
+  }
   int weight(const local_changes& c, local_id u, local_id v) const {
+    c.count_work();
     for (const local_id corner : corners)
       if (u == corner || v == corner)
         return 0;
@@ -88,37 +138,43 @@ struct obstacles {
   std::vector<local_id> elements;             ///< those at them
 };
 
-/// Finds what is in the way of a target: goes along it from its first vertex.
+/// Goes along a target from its first vertex and calls `f` with each element there that is no ghost.
+template <class Target, class F>
+void for_each_along(local_changes& changes, const Target& target, const F& f) {
+  const auto crosses = [&](local_id e, std::size_t i) {
+    if (changes.mesh().is_ghost(e))
+      return false;
+    const auto [u, v, w] = changes.side_vertices(e, i);
+    return target.weight(changes, u, v, w) > 0 || target.weight(changes, u, v) > 0 ||
+           target.weight(changes, v, w) > 0 || target.weight(changes, w, u) > 0;
+  };
+  const auto visit = [&](local_id e) {
+    if (!changes.mesh().is_ghost(e))
+      f(e);
+  };
+  changes.spread_from(target.begin(), visit, crosses);
+}
+
+/// Finds what is in the way of a target.
 template <class Target>
 void find_obstacles(local_changes& changes, const Target& target, obstacles& found) {
   found.edges.clear();
   found.sides.clear();
   found.elements.clear();
   const auto& mesh = changes.mesh();
-  const auto side_vertex = [&](local_id e, std::size_t i, std::size_t k) {
-    return mesh[e].vertices[static_cast<std::size_t>(numbering::sides<3>[i][k])];
-  };
-  const auto crosses = [&](local_id e, std::size_t i) {
-    if (mesh.is_ghost(e))
-      return false;
-    const local_id u = side_vertex(e, i, 0), v = side_vertex(e, i, 1), w = side_vertex(e, i, 2);
-    return target.weight(changes, u, v, w) > 0 || target.weight(changes, u, v) > 0 ||
-           target.weight(changes, v, w) > 0 || target.weight(changes, w, u) > 0;
-  };
-  const auto visit = [&](local_id e) {
-    if (mesh.is_ghost(e))
-      return;
+  for_each_along(changes, target, [&](local_id e) {
     bool touched = false;
     for (const auto& ridge : numbering::ridges<3>) {
-      local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
-               v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
+      const local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
+                     v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
       if (target.weight(changes, u, v) == 0)
         continue;
-      found.edges.push_back(u < v ? std::array{u, v} : std::array{v, u});
+      found.edges.push_back({std::min(u, v), std::max(u, v)});
       touched = true;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      if (target.weight(changes, side_vertex(e, i, 0), side_vertex(e, i, 1), side_vertex(e, i, 2)) == 0)
+      const auto [u, v, w] = changes.side_vertices(e, i);
+      if (target.weight(changes, u, v, w) == 0)
         continue;
       const local_id side = triangulation<3>::side_of(e, static_cast<local_id>(i));
       found.sides.push_back(std::min(side, mesh.across(side)));
@@ -126,10 +182,22 @@ void find_obstacles(local_changes& changes, const Target& target, obstacles& fou
     }
     if (touched)
       found.elements.push_back(e);
-  };
-  changes.spread_from(target.begin(), visit, crosses);
+  });
   sort_unique(found.edges);
   sort_unique(found.sides);
+}
+
+/// The vertices that a target passes through, in growing order.
+template <class Target>
+std::vector<local_id> vertices_within(local_changes& changes, const Target& target) {
+  std::vector<local_id> result;
+  for_each_along(changes, target, [&](local_id e) {
+    for (const local_id v : changes.mesh()[e].vertices)
+      if (target.passes_through(changes, v))
+        result.push_back(v);
+  });
+  sort_unique(result);
+  return result;
 }
 
 } // namespace dovetail::detail

@@ -1,0 +1,103 @@
+/// @file
+/// The edges and triangles that recovery makes part of a tetrahedrization and that no change may take away.
+#pragma once
+
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// The vertices of an edge, the lower one first.
+using vertex_pair = std::array<local_id, 2>;
+
+inline vertex_pair sorted_pair(local_id u, local_id v) {
+  return {std::min(u, v), std::max(u, v)};
+}
+
+/// Those of a boundary, less some of them and with others that take their place for a while.
+class kept_entities {
+public:
+  explicit kept_entities(std::span<const simplex<2>> triangles) : sides_(triangles) {
+    for (const auto& triangle : triangles)
+      for (const auto& local : numbering::sides<2>)
+        edges_.push_back(sorted_pair(triangle[static_cast<std::size_t>(local[0])],
+                                     triangle[static_cast<std::size_t>(local[1])]));
+    sort_unique(edges_);
+    std::vector<char> known(sides_.entries().size(), 0);
+    for (const auto& triangle : triangles)
+      if (char& is_known = known[static_cast<std::size_t>(sides_.find(triangle).entry)]; is_known == 0) {
+        is_known = 1; // one listed in both directions is one
+        triangles_.push_back(triangle);
+      }
+    for (const auto& edge : edges_)
+      vertices_ = std::max(vertices_, edge[1] + 1);
+  }
+
+  /// Of the boundary, in growing order.
+  const std::vector<vertex_pair>& edges() const { return edges_; }
+  /// Of the boundary, each once.
+  const std::vector<simplex<2>>& triangles() const { return triangles_; }
+  const boundary_sides& sides() const { return sides_; }
+  /// Whether a vertex is no higher than those of the boundary, which come first.
+  bool is_of_boundary(local_id v) const { return v >= 0 && v < vertices_; }
+
+  bool has(local_id u, local_id v) const {
+    const vertex_pair edge = sorted_pair(u, v);
+    if (!changed_edges_.empty())
+      if (const auto changed = changed_edges_.find(edge); changed != changed_edges_.end())
+        return changed->second;
+    return std::binary_search(edges_.begin(), edges_.end(), edge);
+  }
+  bool has(local_id u, local_id v, local_id w) const {
+    if (!changed_triangles_.empty())
+      if (const auto changed = changed_triangles_.find(sorted_vertices(simplex<2>{u, v, w}));
+          changed != changed_triangles_.end())
+        return changed->second.kept;
+    return bool(sides_.find({u, v, w}));
+  }
+
+  void set_edge(local_id u, local_id v, bool kept) { changed_edges_[sorted_pair(u, v)] = kept; }
+  void set_triangle(const simplex<2>& t, bool kept) { changed_triangles_[sorted_vertices(t)] = {t, kept}; }
+
+  /// Calls `f` with each triangle that is kept and none of the boundary's.
+  template <class F>
+  void for_each_new_triangle(const F& f) const {
+    for (const auto& [key, changed] : changed_triangles_)
+      if (changed.kept && !sides_.find(changed.triangle))
+        f(changed.triangle);
+  }
+  /// Those kept at an edge that is kept. Linear in the triangles.
+  std::vector<simplex<2>> triangles_at(local_id u, local_id v) const {
+    std::vector<simplex<2>> result;
+    const auto has_vertex = [](const simplex<2>& t, local_id w) {
+      return t[0] == w || t[1] == w || t[2] == w;
+    };
+    const auto take = [&](const simplex<2>& t) {
+      if (has_vertex(t, u) && has_vertex(t, v) && has(t[0], t[1], t[2]))
+        result.push_back(t);
+    };
+    std::for_each(triangles_.begin(), triangles_.end(), take);
+    for_each_new_triangle(take);
+    return result;
+  }
+
+private:
+  struct changed_triangle {
+    simplex<2> triangle;
+    bool kept;
+  };
+  boundary_sides sides_;
+  std::vector<vertex_pair> edges_;
+  std::vector<simplex<2>> triangles_;
+  local_id vertices_ = 0;
+  std::map<vertex_pair, bool> changed_edges_; // whether they are kept now
+  std::map<simplex<2>, changed_triangle> changed_triangles_;
+};
+
+} // namespace dovetail::detail
