@@ -64,14 +64,15 @@ public:
     changes_.limit_work(all_work_);
   }
 
-  recovery_counts run() {
-    std::vector<edge_target> edges = missing_edges_of(changes_.mesh(), kept_);
+  /// `lacking`: the triangles that are no sides of elements.
+  recovery_counts run(const std::vector<triangle_target>& lacking) {
+    std::vector<edge_target> edges = missing_edges_of(changes_, lacking);
     counts_.missing_edges = edges.size();
     if (attempt_.last_first)
       std::reverse(edges.begin(), edges.end());
     for (bool first = true;; first = false) {
       recover_all(edges);
-      std::vector<triangle_target> triangles = missing_triangles_of(changes_, kept_);
+      std::vector<triangle_target> triangles = still_missing(changes_, lacking, kept_);
       if (first)
         counts_.missing_triangles = triangles.size();
       recover_by_flips(triangles);
@@ -352,9 +353,10 @@ private:
 /// others, or what was missing when the work was spent that is allowed, which is about a second's and some
 /// more for each triangle.
 ///
-/// Linear in the elements, and about 20 us for each edge or triangle that was missing.
+/// Linear in the elements, and where something was missing about 20 us for each edge or triangle.
 inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles) {
-  if (triangles.empty())
+  const auto lacking = detail::missing_triangles(mesh, detail::kept_entities(triangles));
+  if (lacking.empty())
     return {};
   constexpr std::array attempts{detail::recovery_attempt{}, detail::recovery_attempt{40, true, 10'000'000},
                                 detail::recovery_attempt{15, false, 10'000'000}};
@@ -362,7 +364,7 @@ inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const 
     detail::local_changes changes(mesh);
     detail::boundary_recovery recovery(changes, triangles, attempts[k]);
     try {
-      const recovery_counts counts = recovery.run();
+      const recovery_counts counts = recovery.run(lacking);
       mesh = changes.take();
       return counts;
     } catch (const mesher_error&) {

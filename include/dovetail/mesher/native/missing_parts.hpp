@@ -2,6 +2,7 @@
 /// What of a boundary a tetrahedrization lacks.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesher/native/kept_entities.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
@@ -12,50 +13,61 @@
 
 namespace dovetail::detail {
 
-/// The edges of a boundary that are none of a tetrahedrization. Linear.
-inline std::vector<edge_target> missing_edges_of(const triangulation<3>& mesh, const kept_entities& kept) {
-  const auto& edges = kept.edges();
-  std::vector<char> found(edges.size(), 0);
-  for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e) {
-    if (!mesh.is_alive(e))
-      continue;
-    for (const auto& ridge : numbering::ridges<3>) {
-      const local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
-                     v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
-      if (!kept.is_of_boundary(u) || !kept.is_of_boundary(v))
-        continue;
-      const auto edge = sorted_pair(u, v);
-      const auto place = std::lower_bound(edges.begin(), edges.end(), edge);
-      if (place != edges.end() && *place == edge)
-        found[static_cast<std::size_t>(place - edges.begin())] = 1;
-    }
-  }
-  std::vector<edge_target> missing;
-  for (std::size_t k = 0; k < found.size(); ++k)
-    if (found[k] == 0)
-      missing.push_back({edges[k]});
-  return missing;
-}
-
-/// The triangles kept that are no sides of elements. Linear.
-inline std::vector<triangle_target> missing_triangles_of(local_changes& changes, const kept_entities& kept) {
+/// The triangles of the boundary that are no sides of elements. Linear.
+inline std::vector<triangle_target> missing_triangles(const triangulation<3>& mesh,
+                                                      const kept_entities& kept) {
   std::vector<char> found(kept.sides().entries().size(), 0);
-  const auto& mesh = changes.mesh();
-  for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e)
-    for (std::size_t i = 0; i < 4 && mesh.is_alive(e); ++i) {
-      const auto side = changes.side_vertices(e, i);
+  for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e) {
+    const auto& v = mesh[e].vertices;
+    const int on_boundary = kept.is_of_boundary(v[0]) + kept.is_of_boundary(v[1]) +
+                            kept.is_of_boundary(v[2]) + kept.is_of_boundary(v[3]);
+    if (on_boundary < 3 || !mesh.is_alive(e))
+      continue;
+    for (const auto& local : numbering::sides<3>) {
+      const simplex<2> side{v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
+                            v[static_cast<std::size_t>(local[2])]};
       if (kept.is_of_boundary(side[0]) && kept.is_of_boundary(side[1]) && kept.is_of_boundary(side[2]))
         if (const auto match = kept.sides().find(side))
           found[at(match.entry)] = 1;
     }
+  }
   std::vector<triangle_target> missing;
   for (const auto& t : kept.triangles())
-    if (found[at(kept.sides().find(t).entry)] == 0 && kept.has(t[0], t[1], t[2]))
+    if (found[at(kept.sides().find(t).entry)] == 0)
       missing.push_back({t});
+  return missing;
+}
+
+/// Those of `lacking`, and of the triangles that take the place of others, that are kept and no sides of
+/// elements; what is kept and there is not taken away. Linear in them.
+inline std::vector<triangle_target> still_missing(local_changes& changes,
+                                                  const std::vector<triangle_target>& lacking,
+                                                  const kept_entities& kept) {
+  std::vector<triangle_target> missing;
+  for (const triangle_target& target : lacking)
+    if (const auto& t = target.corners; kept.has(t[0], t[1], t[2]) && !target.is_there(changes))
+      missing.push_back(target);
   kept.for_each_new_triangle([&](const simplex<2>& t) {
     if (const triangle_target target{t}; !target.is_there(changes))
       missing.push_back(target);
   });
+  return missing;
+}
+
+/// The edges of these triangles that are none of the tetrahedrization, in growing order: all that are missing
+/// of a boundary of which these are, for where an edge is missing its triangles are.
+inline std::vector<edge_target> missing_edges_of(local_changes& changes,
+                                                 const std::vector<triangle_target>& triangles) {
+  std::vector<vertex_pair> edges;
+  for (const auto& [t] : triangles)
+    for (const auto& local : numbering::sides<2>)
+      edges.push_back(
+          sorted_pair(t[static_cast<std::size_t>(local[0])], t[static_cast<std::size_t>(local[1])]));
+  sort_unique(edges);
+  std::vector<edge_target> missing;
+  for (const vertex_pair& edge : edges)
+    if (const edge_target target{edge}; !target.is_there(changes))
+      missing.push_back(target);
   return missing;
 }
 
