@@ -76,7 +76,7 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
   const auto background = make_background<3>(given.model, keep_bounds(scaled(given.size, scale)), policies);
   const auto divided = divide<3>(background.mesh, background.size, background.plan.subdomains, policies);
   const stopwatch clock;
-  decomposition_rounds<3> rounds(given.model, background.mesh, divided, background.size, policies);
+  decomposition_rounds rounds(given.model, background.mesh, divided, background.size, policies);
   const report skeleton = rounds.realize_boundaries().summary;
   const double seconds = clock.seconds();
   const interface_angles angles = rounds.take_fine_angles();
