@@ -77,7 +77,7 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
   const auto divided = divide<3>(background.mesh, background.size, background.plan.subdomains, policies);
   const stopwatch clock;
   decomposition_rounds rounds(given.model, background.mesh, divided, background.size, policies);
-  const report skeleton = rounds.realize_boundaries().summary;
+  const report skeleton = rounds.realize_boundaries().value().summary;
   const double seconds = clock.seconds();
   const interface_angles angles = rounds.take_fine_angles();
   std::array<std::size_t, 2> small{};
