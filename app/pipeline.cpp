@@ -10,8 +10,8 @@ namespace dovetail::app {
 
 template <int D>
 any_parameters<D> composed(const policies_of<D>& policies, const generate_options& options) {
-  any_parameters<D> given(policies.mesher, policies.partitioner, policies.improver, policies.executor,
-                          options, policies.simplifier);
+  any_parameters<D> given{policies.mesher, policies.partitioner, policies.improver, policies.executor,
+                          options,         policies.simplifier};
   given.mesh_surface = policies.surface_mesher;
   if (policies.background_improver)
     given.improve_background = policies.background_improver;

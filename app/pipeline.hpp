@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
+#include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/generate.hpp"
 
 namespace dovetail::app {

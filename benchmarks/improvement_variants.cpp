@@ -12,6 +12,7 @@
 #include "dovetail/distributed/improve_pieces.hpp"
 #include "dovetail/experiments/baselines/ito_improvement.hpp"
 #include "dovetail/experiments/baselines/loehner_improvement.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/improver/native.hpp"
 
 #include <cstdio>

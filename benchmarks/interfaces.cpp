@@ -76,8 +76,8 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
   const auto background = make_background<3>(given.model, keep_bounds(scaled(given.size, scale)), policies);
   const auto divided = divide<3>(background.mesh, background.size, background.plan.subdomains, policies);
   const stopwatch clock;
-  decomposition_rounds<3> rounds(given.model, background.mesh, divided, background.size, policies);
-  const report skeleton = rounds.realize_boundaries().summary;
+  decomposition_rounds rounds(given.model, background.mesh, divided, background.size, policies);
+  const report skeleton = rounds.realize_boundaries().value().summary;
   const double seconds = clock.seconds();
   const interface_angles angles = rounds.take_fine_angles();
   std::array<std::size_t, 2> small{};

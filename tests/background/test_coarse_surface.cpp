@@ -103,13 +103,13 @@ TEST_CASE("where a caller wants it finer edges get small, and faces out of reach
   const capped_cylinder model(6);
   const counted_mesher counted;
   background::coarse_surface_parameters parameters;
-  parameters.mesher = counted;
   std::size_t triangles = 0;
   parameters.finer_at = [&](const background::coarse_surface_result& made) {
     const bool first = std::exchange(triangles, made.surface.mesh.elements.size()) == 0;
     return first ? std::vector<size_ball>{{{0, 0, 6}, 0.2, 0.05}} : std::vector<size_ball>{};
   };
-  const auto refined = mesh(model, 0.7, parameters);
+  const auto refined =
+      background::coarse_surface(model, uniform(0.7), parameters, parallel::serial{}, counted);
   CHECK(refined.summary.get("refinement_rounds") == 1);
   CHECK(refined.surface.mesh.elements.size() == triangles);
   CHECK(refined.bounds.back().size == 0.05);

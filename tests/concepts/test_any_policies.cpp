@@ -6,6 +6,7 @@
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 
 #include <doctest/doctest.h>
 

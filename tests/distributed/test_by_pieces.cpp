@@ -4,6 +4,7 @@
 
 #include "dovetail/distributed/any_redistributor.hpp"
 #include "dovetail/distributed/by_pieces.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
 
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 #include "dovetail/distributed/improve_pieces.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"

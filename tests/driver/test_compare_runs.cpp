@@ -4,8 +4,12 @@
 
 #include "concepts/archetypes.hpp"
 
+#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/simplification/any_simplification_rule.hpp"
 
 #include <doctest/doctest.h>
 

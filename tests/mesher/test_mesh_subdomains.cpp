@@ -1,6 +1,8 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/improver/any_improver.hpp"
 #include "dovetail/intersection/offending_facets.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/in_process.hpp"
@@ -301,10 +303,10 @@ struct fan_mesher_for_threads : fan_mesher {
 TEST_CASE("In threads no attempt may be a mesher that must not run there") {
   const any_mesher<3> alone(fan_mesher_for_threads{}, "safe");
   const any_mesher<3> backed = alone.with_fallback({fan_mesher{}, "unsafe"});
-  CHECK_NOTHROW(require_policies<3>(alone, {}, parallel::threads{2}));
-  CHECK_NOTHROW(require_policies<3>(backed, {}, parallel::processes{2}));
-  CHECK_THROWS_WITH_AS(require_policies<3>(backed, {}, parallel::threads{2}), doctest::Contains("'unsafe'"),
-                       usage_error);
+  CHECK_NOTHROW(require_policies(alone, any_improver<3>{}, parallel::threads{2}));
+  CHECK_NOTHROW(require_policies(backed, any_improver<3>{}, parallel::processes{2}));
+  CHECK_THROWS_WITH_AS(require_policies(backed, any_improver<3>{}, parallel::threads{2}),
+                       doctest::Contains("'unsafe'"), usage_error);
 }
 
 struct forking_mesher : fan_mesher {

@@ -41,7 +41,7 @@ struct realized_model {
   any_parameters<3> given;
   background_result<3> background;
   divided_background<3> divided;
-  decomposition_rounds<3> rounds;
+  decomposition_rounds<3, any_parameters<3>> rounds;
   realized<3> made;
   interface_angles angles;
 };

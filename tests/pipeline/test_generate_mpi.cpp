@@ -6,6 +6,7 @@
 #include "dovetail/distributed/mpi.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/serial.hpp"

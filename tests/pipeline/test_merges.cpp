@@ -74,7 +74,7 @@ struct decomposed_shell {
   }
 
   /// The rounds, of which so large a fraction of the subdomains may be merged.
-  decomposition_rounds<3> rounds(double largest_merged_fraction) {
+  decomposition_rounds<3, any_parameters<3>> rounds(double largest_merged_fraction) {
     given.options.largest_merged_fraction = largest_merged_fraction;
     return {model, background.mesh, divided, background.size, given};
   }
@@ -434,8 +434,8 @@ TEST_CASE("A decomposition that is given up leaves its account, and no pieces") 
   CHECK(account.get("rounds") > 0);
 
   given.given.options.store = {};
-  decomposition_rounds<3> next(given.model, given.background.mesh, given.divided, given.background.size,
-                               given.given, account);
+  decomposition_rounds<3, any_parameters<3>> next(given.model, given.background.mesh, given.divided,
+                                                  given.background.size, given.given, account);
   CHECK(next.intersection().get("rounds") == account.get("rounds"));
   next.realize_boundaries();
   CHECK(next.intersection().get("rounds") == 2 * account.get("rounds"));

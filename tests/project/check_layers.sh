@@ -50,6 +50,12 @@ while IFS= read -r place; do
   complain "$place: a stage names bytes"
 done < <(grep -rnE 'byte_(buffer|reader|writer)' "${stages[@]}" || true)
 
+# Its policies are template parameters: what hides one behind one type is a model of its role like others.
+while IFS= read -r place; do
+  complain "$place: a stage names a type-erased policy"
+done < <(grep -rnE 'any_(mesher|improver|partitioner|simplification_rule|surface_mesher)\b' "${stages[@]}" \
+  | grep -vE '^[a-z]+/any_[a-z_]+\.hpp:|:[0-9]+: *///' || true)
+
 # Headers of the standard library have no slash and no dot; POSIX ones are listed.
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|sched\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'
 third_parties='^(adapters/|models/occt|experiments/builtin_models|files/(zlib|json_tree|hdf5)|distributed/mpi)'

@@ -3,6 +3,7 @@
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/remesh/chords.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "mesher/surface_mesher_contract.hpp"

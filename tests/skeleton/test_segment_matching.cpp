@@ -1,6 +1,7 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
 
 #include <doctest/doctest.h>

@@ -4,6 +4,7 @@
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"

@@ -12,7 +12,8 @@
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/mesh_regions.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
@@ -38,17 +39,36 @@ struct coarse_surface_parameters {
   /// Looks at each surface that is whole: the places where it must be finer, such as where two sheets are
   /// near; none when it will do. Faces out of reach of new places are not meshed again.
   std::function<std::vector<size_ball>(const coarse_surface_result&)> finer_at = {};
-  any_surface_mesher mesher = {};
   progress on_progress = {};
 };
+
+namespace detail {
+
+/// Meshes regions of the model at a size.
+using regions_mesher = std::function<meshed_regions(region_set&, const refined_sizing&, region_store&,
+                                                    const mesh_regions_options&)>;
+
+/// `coarse_surface` by such a function.
+coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,
+                                        const coarse_surface_parameters& parameters,
+                                        const regions_mesher& mesh_them);
+
+} // namespace detail
 
 /// Meshes the surface of `model` with edges of about min(`sizing`, curvature bound, diagonal / 4). Triangles
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
 /// what `finer_at` throws.
+template <surface_mesher Mesher = remesh::patch_remesher>
 coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
                                      const coarse_surface_parameters& parameters,
-                                     const any_executor& run_tasks);
+                                     const any_executor& run_tasks, const Mesher& mesher = {}) {
+  const auto mesh_them = [&](region_set& faces, const refined_sizing& size, region_store& store,
+                             const mesh_regions_options& options) {
+    return mesh_regions(model, faces, mesher, size, run_tasks, store, options);
+  };
+  return detail::coarse_surface_by(model, sizing, parameters, mesh_them);
+}
 
 } // namespace dovetail::background
 

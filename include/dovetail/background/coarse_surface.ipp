@@ -26,8 +26,8 @@ namespace detail {
 class coarse_surface_maker {
 public:
   coarse_surface_maker(const any_geometry& model, const any_sizing& sizing,
-                       const coarse_surface_parameters& parameters, const any_executor& run_tasks)
-      : model_(model), parameters_(parameters), run_tasks_(run_tasks), topology_(model.topology()),
+                       const coarse_surface_parameters& parameters, const regions_mesher& mesh_them)
+      : model_(model), parameters_(parameters), mesh_them_(mesh_them), topology_(model.topology()),
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
         }),
@@ -95,11 +95,11 @@ private:
   /// Faces are kept apart from each other when each is right: what is done about the others moves points.
   void mesh() {
     const auto mesh_missing = [&](int chords) {
-      meshed_ = mesh_regions(model_, faces_, parameters_.mesher, size_, run_tasks_, store_,
-                             {.attempts = {.chords = chords, .folds = 0},
-                              .triangles_per_task = 512,
-                              .on_progress = parameters_.on_progress,
-                              .stage = "coarse surface"});
+      meshed_ = mesh_them_(faces_, size_, store_,
+                           {.attempts = {.chords = chords, .folds = 0},
+                            .triangles_per_task = 512,
+                            .on_progress = parameters_.on_progress,
+                            .stage = "coarse surface"});
       meshes_.assign(face_count(), {});
       meshed_.for_each(store_, [&](std::size_t f, patch_mesh mesh) { meshes_[f] = std::move(mesh); });
     };
@@ -267,7 +267,7 @@ private:
 
   const any_geometry& model_;
   const coarse_surface_parameters& parameters_;
-  const any_executor& run_tasks_;
+  const regions_mesher& mesh_them_;
   const geometry_topology& topology_;
   any_sizing given_;              ///< the caller's field, never above a quarter of the model's diagonal
   std::vector<size_ball> bounds_; ///< of the curvature, and the places refined
@@ -283,12 +283,12 @@ private:
   std::map<std::size_t, std::size_t> folds_before_;
 };
 
-} // namespace detail
-
-DOVETAIL_INLINE coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
-                                                     const coarse_surface_parameters& parameters,
-                                                     const any_executor& run_tasks) {
-  return detail::coarse_surface_maker(model, sizing, parameters, run_tasks).run();
+DOVETAIL_INLINE coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,
+                                                        const coarse_surface_parameters& parameters,
+                                                        const regions_mesher& mesh_them) {
+  return coarse_surface_maker(model, sizing, parameters, mesh_them).run();
 }
+
+} // namespace detail
 
 } // namespace dovetail::background

@@ -26,6 +26,18 @@ struct coarse_volume_result {
   report summary;
 };
 
+namespace detail {
+
+/// Meshes so many pieces of this source.
+using pieces_mesher = std::function<meshing_result(std::size_t count, const subdomain_source& source,
+                                                   const meshing_options& options)>;
+
+/// `coarse_volume` by such a function.
+coarse_volume_result fill_solids(const surface_mesh& surface, const geometry_topology& topology,
+                                 const pieces_mesher& mesh_them, const coarse_volume_options& options);
+
+} // namespace detail
+
 /// Fills all solids of a model with a coarse mesh that has the triangles of `surface` as sides, and improves
 /// it. Solids are meshed together; if neither the mesher nor a fallback can do that, one by one. Every
 /// attempt runs as a task of the executor, so with `processes` a crash of the mesher is survived. Voids need
@@ -33,10 +45,16 @@ struct coarse_volume_result {
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.
+template <boundary_keeping_mesher<3> Mesher, improver<3> Improver>
 coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
-                                   const any_sizing& size, const any_mesher<3>& mesh_it,
-                                   const any_improver<3>& improve, const any_executor& run_tasks,
-                                   const coarse_volume_options& options = {});
+                                   const any_sizing& size, const Mesher& mesh_it, const Improver& improve,
+                                   const any_executor& run_tasks, const coarse_volume_options& options = {}) {
+  const auto mesh_them = [&](std::size_t count, const subdomain_source& source,
+                             const meshing_options& attempt) {
+    return mesh_subdomains(count, source, mesh_it, improve, size, run_tasks, attempt);
+  };
+  return detail::fill_solids(surface, topology, mesh_them, options);
+}
 
 /// For a model that is not decomposed: the solids behind and in front of each surface triangle, or no_id.
 /// Linear but for sorting. Throws `geometry_error` as `coarse_volume`.

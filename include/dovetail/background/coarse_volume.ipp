@@ -143,36 +143,30 @@ inline oriented_boundary closed_boundary(const surface_mesh& surface, const geom
   return boundary;
 }
 
-} // namespace detail
-
-DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
-                                                   const geometry_topology& topology, const any_sizing& size,
-                                                   const any_mesher<3>& mesh_it,
-                                                   const any_improver<3>& improve,
-                                                   const any_executor& run_tasks,
-                                                   const coarse_volume_options& options) {
+DOVETAIL_INLINE coarse_volume_result fill_solids(const surface_mesh& surface,
+                                                 const geometry_topology& topology,
+                                                 const pieces_mesher& mesh_them,
+                                                 const coarse_volume_options& options) {
   const stopwatch clock;
-  const auto boundary = detail::closed_boundary(surface, topology);
+  const auto boundary = closed_boundary(surface, topology);
 
   meshing_options attempt;
   attempt.on_progress = options.on_progress;
   meshing_result made;
   bool one_by_one = topology.solids.size() == 1;
   if (!one_by_one) {
-    const subdomain_source together = [&](local_id) {
-      return detail::piece_of_boundary(surface, boundary, no_id);
-    };
-    made = mesh_subdomains(1, together, mesh_it, improve, size, run_tasks, attempt);
+    const subdomain_source together = [&](local_id) { return piece_of_boundary(surface, boundary, no_id); };
+    made = mesh_them(1, together, attempt);
     one_by_one = !made.failures.empty();
   }
   if (one_by_one) {
     const subdomain_source separately = [&](local_id solid) {
-      return detail::piece_of_boundary(surface, boundary, solid);
+      return piece_of_boundary(surface, boundary, solid);
     };
     attempt.on_failure = options.on_failure;
-    made = mesh_subdomains(topology.solids.size(), separately, mesh_it, improve, size, run_tasks, attempt);
+    made = mesh_them(topology.solids.size(), separately, attempt);
     if (!made.failures.empty())
-      detail::throw_failed(made.failures, topology);
+      throw_failed(made.failures, topology);
   }
 
   coarse_volume_result result;
@@ -191,6 +185,8 @@ DOVETAIL_INLINE coarse_volume_result coarse_volume(const surface_mesh& surface,
   result.summary.children.push_back(std::move(made.summary));
   return result;
 }
+
+} // namespace detail
 
 DOVETAIL_INLINE std::vector<std::array<local_id, 2>>
 solids_beside_surface(const surface_mesh& surface, const geometry_topology& topology) {

@@ -1,5 +1,5 @@
 /// @file
-/// How functions that no policy touches are linked.
+/// How functions that no policy touches are linked, and the pipeline's, instantiated with `any_parameters`.
 ///
 /// `x.hpp` declares them and `x.ipp` beside it defines them. Header-only, the default, x.hpp includes x.ipp.
 /// With DOVETAIL_COMPILED, which the CMake target dovetail::compiled defines, x.hpp ends with its

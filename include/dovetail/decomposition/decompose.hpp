@@ -16,15 +16,19 @@
 ///                                     wanted_angles_of<3>(simplifier::paper{}));
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/fields.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/mesh/require_valid.hpp"
-#include "dovetail/partition/any_partitioner.hpp"
+#include "dovetail/partition/checked_partition.hpp"
+#include "dovetail/partition/concepts.hpp"
+#include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -50,6 +54,57 @@ struct decomposition {
                  &decomposition::non_manifold_edges, &decomposition::summary>;
 };
 
+namespace detail {
+
+/// The super-elements of a mesh as they are partitioned: within materials, each component on its own.
+struct graph_to_partition {
+  csr_graph graph;
+  std::vector<local_id> material_of_super;
+  labelled_components components;
+  std::vector<double> weights; ///< of components
+  std::vector<int> parts;      ///< of components
+};
+
+/// Throws what `decompose` throws of its arguments.
+template <int D>
+graph_to_partition graph_within_materials(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                                          std::span<const local_id> super_of_element,
+                                          const csr_graph& super_graph, std::span<const local_id> material,
+                                          int parts, mesh_state mesh_is);
+
+/// The nodes of each component, growing, and the graph of some nodes.
+compressed_rows<local_id> nodes_of_components(const graph_to_partition& whole);
+csr_graph graph_of_nodes(const csr_graph& graph, std::span<const local_id> nodes);
+
+/// What a partition makes of the mesh, repaired.
+template <int D>
+decomposition decomposition_into(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                                 std::span<const local_id> super_of_element, graph_to_partition whole,
+                                 std::vector<local_id> part_of_super, double imbalance,
+                                 const progress& on_progress);
+
+/// Partitions each component; the parts of one component have consecutive numbers.
+template <graph_partitioner Partitioner>
+std::vector<local_id> partition_components(const graph_to_partition& whole, const Partitioner& partitioner,
+                                           const progress& on_progress) {
+  if (whole.components.count == 1)
+    return checked_partition(partitioner, whole.graph, whole.parts[0]);
+  const auto nodes_of = nodes_of_components(whole);
+  std::vector<local_id> part(whole.graph.node_weights.size(), no_id);
+  local_id first_part = 0;
+  for (std::size_t c = 0; c < nodes_of.size(); ++c) {
+    on_progress.stop_if_requested();
+    const auto local =
+        checked_partition(partitioner, graph_of_nodes(whole.graph, nodes_of[c]), whole.parts[c]);
+    for (std::size_t k = 0; k < local.size(); ++k)
+      part[static_cast<std::size_t>(nodes_of[c][k])] = first_part + local[k];
+    first_part += whole.parts[c];
+  }
+  return part;
+}
+
+} // namespace detail
+
 /// Splits a simplified mesh into about `parts` subdomains (at least one per component of one material).
 ///
 /// `material` has one entry per element, or is empty: `mesh.tags` for D = 3; empty for D = 2 when subsurfaces
@@ -59,12 +114,21 @@ struct decomposition {
 /// mesh is empty or the partitioner fails, `mesh_error` when `require_valid` refuses the mesh, unless it is
 /// known to be valid, `usage_error` when super-elements and materials are not one per element, and
 /// `cancelled` when `on_progress` asks to stop; a partitioner is not interrupted.
-template <int D>
+template <int D, graph_partitioner Partitioner>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
-                        std::span<const local_id> material, const any_partitioner& partitioner, int parts,
+                        std::span<const local_id> material, const Partitioner& partitioner, int parts,
                         double imbalance = 1.05, const progress& on_progress = {},
-                        mesh_state mesh_is = mesh_state::unknown);
+                        mesh_state mesh_is = mesh_state::unknown) {
+  const stopwatch time;
+  auto whole =
+      detail::graph_within_materials<D>(mesh, sides, super_of_element, super_graph, material, parts, mesh_is);
+  auto part_of_super = detail::partition_components(whole, partitioner, on_progress);
+  auto result = detail::decomposition_into<D>(mesh, sides, super_of_element, std::move(whole),
+                                              std::move(part_of_super), imbalance, on_progress);
+  result.summary.seconds = time.seconds();
+  return result;
+}
 
 } // namespace dovetail
 

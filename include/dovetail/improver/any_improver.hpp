@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/improve_on_host.hpp"
 #include "dovetail/improver/surface_host.hpp"
 
 #include <concepts>
@@ -12,21 +13,6 @@
 #include <utility>
 
 namespace dovetail {
-
-/// Improves triangles that lie on `host`. An improver that is no surface improver may move vertices only
-/// where all faces are planes: frozen, flips alone keep them on the surface.
-template <improver<2> I>
-report improve_on_host(const I& improve, simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen,
-                       const any_sizing& size, const surface_host& host) {
-  if constexpr (surface_improver<I>) {
-    return improve(mesh, frozen, size, host);
-  } else {
-    frozen_entities<2> kept = frozen;
-    if (!is_plane_throughout(host, mesh.tags))
-      kept.points = static_cast<local_id>(mesh.points.size());
-    return improve(mesh, kept, size);
-  }
-}
 
 /// Holds any improver of D by value; an improver converts to it. Made by default it holds none and leaves
 /// meshes as they are. A call costs one indirect call.

@@ -8,7 +8,6 @@
 #include "dovetail/remesh/surface_deviation.hpp"
 
 #include <array>
-#include <concepts>
 #include <string>
 
 namespace dovetail::mesher {
@@ -27,8 +26,7 @@ struct by_regions {
   /// As above, and what a mesher behind one type says of the one that it holds.
   mesher_traits actual_traits() const {
     mesher_traits actual = traits;
-    if constexpr (std::same_as<M, any_surface_mesher>)
-      actual.thread_safe = remesher.may_run_in_threads();
+    actual.thread_safe = may_run_in_threads(remesher);
     return actual;
   }
   /// Costs what M does. Throws `mesher_error` naming the face when the lines of a region cross in its
@@ -36,13 +34,12 @@ struct by_regions {
   /// throws.
   mesher_result<2> operator()(const mesher_input<2>& input, const any_sizing& size) const {
     const stopwatch clock;
-    const any_surface_mesher mesh_it(remesher);
     mesher_result<2> result;
     simplicial_mesh<2>& mesh = result.mesh;
     mesh.points = input.boundary.points;
     report deviation;
     for (const surface_region& region : input.regions) {
-      const patch_mesh made = mesh_whole(mesh_it, region, size);
+      const patch_mesh made = mesh_whole(region, size);
       note_deviation(deviation, "face " + std::to_string(region.face),
                      measure_deviation(region.surface, region.boundary, made, size));
       append_region(region, made, mesh.points,
@@ -59,9 +56,8 @@ struct by_regions {
   }
 
 private:
-  static patch_mesh mesh_whole(const any_surface_mesher& mesh_it, const surface_region& region,
-                               const any_sizing& size) try {
-    patch_mesh made = mesh_region(mesh_it, region.surface, region, size, {});
+  patch_mesh mesh_whole(const surface_region& region, const any_sizing& size) const try {
+    patch_mesh made = mesh_region(remesher, region.surface, region, size, {});
     if (!made.crossings.empty() || !made.misplaced.empty())
       throw mesher_error("its boundary lines cross in the parameter plane");
     if (!made.folded.empty())

@@ -76,6 +76,17 @@ constexpr double elements_per_inverse_cubed_size() {
     return 0;
 }
 
+/// The same of one that may hold another behind one type.
+template <class Mesher>
+double elements_per_inverse_cubed_size(const Mesher& mesher) {
+  if constexpr (requires {
+                  { mesher.elements_per_inverse_cubed_size() } -> std::convertible_to<double>;
+                })
+    return mesher.elements_per_inverse_cubed_size();
+  else
+    return elements_per_inverse_cubed_size<Mesher>();
+}
+
 /// The elements of the pieces that a mesher does best with.
 template <class Mesher>
 double elements_per_subdomain(const Mesher& mesher) {

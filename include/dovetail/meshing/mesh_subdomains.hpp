@@ -4,7 +4,9 @@
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
-#include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/policy.hpp"
+#include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
@@ -74,9 +76,39 @@ using meshing_result = meshed_pieces<3>;
 
 /// Throws `usage_error` when no mesher was chosen, or a policy may not run in the executor's threads: what is
 /// known before anything is meshed.
+template <class Mesher, class Improver>
+void require_policies(const Mesher& mesh_it, const Improver& improve, const any_executor& run_tasks) {
+  const std::string why = " must not run in several threads of one process; use worker processes";
+  if (!is_given(mesh_it))
+    throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
+  if (!runs_in_threads(run_tasks))
+    return;
+  for (const Mesher& attempt : with_fallbacks(mesh_it))
+    if (!policy_traits(attempt).thread_safe)
+      throw usage_error(named_policy("mesher", policy_name(attempt)) + why);
+  if (!policy_traits(improve).thread_safe)
+    throw usage_error(named_policy("improver", policy_name(improve)) + why);
+}
+
+namespace detail {
+
+/// The attempts at a piece: so many, each of which makes one from its input and the sizes in it. `so_far` is
+/// what is known of the attempts before. Whoever calls it knows no policy, and is compiled once.
 template <int D>
-void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& improve,
-                      const any_executor& run_tasks);
+struct piece_attempts {
+  std::size_t count = 0;
+  std::function<finished_piece<D>(std::size_t attempt, const piece_failure& so_far,
+                                  const piece_input<D>& input, const any_sizing& size)>
+      make = {};
+};
+
+/// `mesh_subdomains` by these attempts.
+template <int D>
+meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source,
+                                const piece_attempts<D>& attempts, const refined_sizing& size,
+                                const any_executor& run_tasks, const meshing_options& options);
+
+} // namespace detail
 
 /// Meshes subdomains 0 .. count-1. In the worker, right after meshing: the checks of `check_mesher_result`,
 /// improvement, the same checks again, quality, and the write to the store, under a key of the piece's
@@ -91,12 +123,22 @@ void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& impro
 ///
 /// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
-template <int D = 3>
+template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
-                                 const std::type_identity_t<any_mesher<D>>& mesh_it,
-                                 const std::type_identity_t<any_improver<D>>& improve,
-                                 const refined_sizing& size, const any_executor& run_tasks,
-                                 const meshing_options& options = {});
+                                 const Mesher& mesh_it, const Improver& improve, const refined_sizing& size,
+                                 const any_executor& run_tasks, const meshing_options& options = {}) {
+  require_policies(mesh_it, improve, run_tasks);
+  const std::vector<Mesher> meshers = with_fallbacks(mesh_it);
+  // After the mesher's fallbacks the mesher as it is, without improvement: better a raw piece than none.
+  const auto make = [&](std::size_t attempt, const piece_failure& so_far, const piece_input<D>& input,
+                        const any_sizing& sizes) {
+    const bool has_mesher = attempt < meshers.size();
+    return detail::make_piece<D>(so_far.subdomain, input, meshers[has_mesher ? attempt : 0],
+                                 has_mesher ? &improve : nullptr, sizes, so_far.reasons, so_far.timed_out);
+  };
+  const detail::piece_attempts<D> attempts{meshers.size() + (is_given(improve) ? 1 : 0), make};
+  return detail::mesh_in_rounds<D>(count, source, attempts, size, run_tasks, options);
+}
 
 } // namespace dovetail
 

@@ -5,8 +5,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/mesher/any_mesher.hpp"
-#include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/meshing/brief_summary.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/piece_work.hpp"
@@ -37,11 +35,9 @@ using kept_pieces = kept_results<finished_piece<D>, piece_note>;
 template <int D>
 class subdomain_rounds {
 public:
-  subdomain_rounds(std::size_t count, const piece_source<D>& source, const any_mesher<D>& mesh_it,
-                   const any_improver<D>& improve, const refined_sizing& size, const any_executor& run_tasks,
-                   const meshing_options& options)
-      : source_(source), improve_(improve), size_(size), run_tasks_(run_tasks), options_(options),
-        meshers_(with_fallbacks(mesh_it)),
+  subdomain_rounds(std::size_t count, const piece_source<D>& source, const piece_attempts<D>& attempts,
+                   const refined_sizing& size, const any_executor& run_tasks, const meshing_options& options)
+      : source_(source), attempts_(attempts), size_(size), run_tasks_(run_tasks), options_(options),
         skeleton_points_(options.skeleton_points
                              ? options.skeleton_points
                              : [source](local_id s) { return source(s).skeleton_points; }),
@@ -55,7 +51,7 @@ public:
 
   meshed_pieces<D> run() {
     const stopwatch clock;
-    for (std::size_t attempt = 0; attempt < attempt_count() && !pending_.empty(); ++attempt)
+    for (std::size_t attempt = 0; attempt < attempts_.count && !pending_.empty(); ++attempt)
       run_round(attempt);
     report_failures();
     summarize();
@@ -87,17 +83,12 @@ private:
     };
   }
 
-  /// After the mesher's fallbacks the mesher as it is, without improvement: better a raw piece than none.
-  std::size_t attempt_count() const { return meshers_.size() + (improve_ ? 1 : 0); }
   box3 place(const piece_input<D>& input) const { return size_.is_refined() ? place_of(input) : box3{}; }
 
   finished_piece<D> piece_by(const piece_failure& piece, const piece_input<D>& input,
                              std::size_t attempt) const {
-    const bool has_mesher = attempt < meshers_.size();
-    return make_piece<D>(piece.subdomain, input, meshers_[has_mesher ? attempt : 0],
-                         has_mesher ? &improve_ : nullptr,
-                         faster_in(size_.near(place(input)), box_around(input.boundary.boundary.points)),
-                         piece.reasons, piece.timed_out);
+    return attempts_.make(attempt, piece, input,
+                          faster_in(size_.near(place(input)), box_around(input.boundary.boundary.points)));
   }
 
   void run_round(std::size_t attempt) {
@@ -189,59 +180,34 @@ private:
   }
 
   const piece_source<D>& source_;
-  const any_improver<D>& improve_;
+  const piece_attempts<D>& attempts_;
   const refined_sizing& size_;
   const any_executor& run_tasks_;
   const meshing_options& options_;
-  std::vector<any_mesher<D>> meshers_;
   std::function<std::vector<local_id>(local_id)> skeleton_points_;
   std::shared_ptr<kept_pieces<D>> pieces_;
   std::vector<piece_failure> pending_;
   meshed_pieces<D> result_;
 };
 
-} // namespace detail
-
 template <int D>
-void require_policies(const any_mesher<D>& mesh_it, const any_improver<D>& improve,
-                      const any_executor& run_tasks) {
-  const std::string why = " must not run in several threads of one process; use worker processes";
-  if (!mesh_it)
-    throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
-  if (!runs_in_threads(run_tasks))
-    return;
-  for (const any_mesher<D>& attempt : with_fallbacks(mesh_it))
-    if (!attempt.actual_traits().thread_safe)
-      throw usage_error(named_policy("mesher", attempt.name()) + why);
-  if (!improve.actual_traits().thread_safe)
-    throw usage_error(named_policy("improver", improve.name()) + why);
-}
-
-template <int D>
-meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
-                                 const std::type_identity_t<any_mesher<D>>& mesh_it,
-                                 const std::type_identity_t<any_improver<D>>& improve,
-                                 const refined_sizing& size, const any_executor& run_tasks,
-                                 const meshing_options& options) {
-  require_policies(mesh_it, improve, run_tasks);
+meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source,
+                                const piece_attempts<D>& attempts, const refined_sizing& size,
+                                const any_executor& run_tasks, const meshing_options& options) {
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
-  return detail::subdomain_rounds<D>(count, source, mesh_it, improve, size, run_tasks, options).run();
+  return subdomain_rounds<D>(count, source, attempts, size, run_tasks, options).run();
 }
 
+} // namespace detail
+
 #ifdef DOVETAIL_COMPILED
-template void require_policies<2>(const any_mesher<2>& mesh_it, const any_improver<2>& improve,
-                                  const any_executor& run_tasks);
-template void require_policies<3>(const any_mesher<3>& mesh_it, const any_improver<3>& improve,
-                                  const any_executor& run_tasks);
-template meshed_pieces<2> mesh_subdomains<2>(std::size_t count, const piece_source<2>& source,
-                                             const any_mesher<2>& mesh_it, const any_improver<2>& improve,
-                                             const refined_sizing& size, const any_executor& run_tasks,
-                                             const meshing_options& options);
-template meshed_pieces<3> mesh_subdomains<3>(std::size_t count, const piece_source<3>& source,
-                                             const any_mesher<3>& mesh_it, const any_improver<3>& improve,
-                                             const refined_sizing& size, const any_executor& run_tasks,
-                                             const meshing_options& options);
+template meshed_pieces<2> detail::mesh_in_rounds(std::size_t, const piece_source<2>&,
+                                                 const piece_attempts<2>&, const refined_sizing&,
+                                                 const any_executor&, const meshing_options&);
+template meshed_pieces<3> detail::mesh_in_rounds(std::size_t, const piece_source<3>&,
+                                                 const piece_attempts<3>&, const refined_sizing&,
+                                                 const any_executor&, const meshing_options&);
 #endif
 
 } // namespace dovetail

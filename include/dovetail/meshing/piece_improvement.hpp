@@ -3,7 +3,8 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/improve_on_host.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/unused_points.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -67,8 +68,9 @@ inline std::vector<bool> poles_of(const mesher_input<2>& input, std::size_t poin
 }
 
 /// Improves tetrahedra inside their frozen boundary.
-inline report improve_piece(mesher_result<3>& made, const mesher_input<3>& input,
-                            const any_improver<3>& improve, const any_sizing& size) {
+template <improver<3> Improver>
+report improve_piece(mesher_result<3>& made, const mesher_input<3>& input, const Improver& improve,
+                     const any_sizing& size) {
   frozen_entities<3> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
@@ -133,8 +135,9 @@ report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& i
 }
 
 /// Improves triangles inside their frozen lines.
-inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input,
-                            const any_improver<2>& improve, const any_sizing& size) {
+template <improver<2> Improver>
+report improve_piece(mesher_result<2>& made, const mesher_input<2>& input, const Improver& improve,
+                     const any_sizing& size) {
   frozen_entities<2> frozen;
   frozen.points = static_cast<local_id>(input.boundary.points.size());
   frozen.sides = input.boundary.elements;
@@ -144,7 +147,7 @@ inline report improve_piece(mesher_result<2>& made, const mesher_input<2>& input
   const surface_host host = host_of_piece(input, std::move(made.corner_uv));
   report result = improve_without_chords(made.mesh, input, frozen,
                                          [&](simplicial_mesh<2>& mesh, const frozen_entities<2>& kept) {
-                                           return improve(mesh, kept, size, host);
+                                           return improve_on_host(improve, mesh, kept, size, host);
                                          });
   drop_unused_points(made.mesh, of_lines); // an improver leaves gaps before points that it may not renumber
   return result;

@@ -6,13 +6,14 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/core/fields.hpp"
+#include "dovetail/core/policy.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/improver/concepts.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/require_valid.hpp"
-#include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/checks.hpp"
+#include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
@@ -147,9 +148,8 @@ inline void require_boundary(const mesher_input<2>& input) {
 
 /// Meshes a piece and checks the result before anything else looks at it: an improver might hide what is
 /// wrong, or be blamed for it.
-template <int D>
-mesher_result<D> mesh_checked(const mesher_input<D>& input, const any_mesher<D>& mesh_it,
-                              const any_sizing& size) {
+template <int D, boundary_keeping_mesher<D> Mesher>
+mesher_result<D> mesh_checked(const mesher_input<D>& input, const Mesher& mesh_it, const any_sizing& size) {
   auto made = mesh_it(input, size);
   check_mesher_result(input, made.mesh);
   if constexpr (D == 2)
@@ -161,8 +161,8 @@ mesher_result<D> mesh_checked(const mesher_input<D>& input, const any_mesher<D>&
 }
 
 /// Improves a mesh inside its frozen boundary and checks the result again.
-template <int D>
-report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, const any_improver<D>& improve,
+template <int D, improver<D> Improver>
+report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, const Improver& improve,
                        const any_sizing& size) {
   const stopwatch clock;
   report summary = improve_piece(made, input, improve, size);
@@ -177,20 +177,20 @@ report improve_checked(mesher_result<D>& made, const mesher_input<D>& input, con
 /// meshed when `improve` is null, for the last attempt, or holds nothing. Throws what the mesher, the
 /// improver and the checks throw, as `mesher_error` that names the policy, or the boundary where that is at
 /// fault.
-template <int D>
-finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, const any_mesher<D>& mesh_it,
-                             const any_improver<D>* improve, const any_sizing& size,
+template <int D, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
+finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, const Mesher& mesh_it,
+                             const Improver* improve, const any_sizing& size,
                              const std::vector<std::string>& failed, bool stopped_by_clock) {
   const stopwatch clock;
   require_boundary(input.boundary);
-  auto made =
-      by_policy("mesher", mesh_it.name(), [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
+  auto made = by_policy("mesher", policy_name(mesh_it),
+                        [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
   piece_summary summary;
   summary.summary.name = piece_name(subdomain);
   summary.summary.set("attempt", static_cast<double>(failed.size()));
   summary.summary.children.push_back(std::move(made.summary));
-  if (improve != nullptr && *improve)
-    summary.summary.children.push_back(by_policy("improver", improve->name(), [&] {
+  if (improve != nullptr && is_given(*improve))
+    summary.summary.children.push_back(by_policy("improver", policy_name(*improve), [&] {
       return improve_checked<D>(made, input.boundary, *improve, size);
     }));
   if (!failed.empty())

@@ -21,7 +21,7 @@ namespace dovetail {
 ///
 /// Complexity: at most n log n in the nodes and edges, times log(parts) by bisection.
 ///
-/// Failure: throws `partition_error`. Whoever holds one in an `any_partitioner` gets that too for a graph
+/// Failure: throws `partition_error`. `checked_partition`, by which stages call it, does so too for a graph
 /// that is none (`require_valid_graph`), and for a result of another length, with parts out of range or with
 /// an empty one.
 ///

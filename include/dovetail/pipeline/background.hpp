@@ -7,7 +7,7 @@
 #include "dovetail/core/fields.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
-#include "dovetail/pipeline/any_parameters.hpp"
+#include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/prediction.hpp"
@@ -53,13 +53,28 @@ inline erased_sizing enlarged(const erased_sizing& size, const mesh_plan& plan) 
 /// The triangles with a solid on one side only, oriented outwards: they enclose all solids together.
 simplicial_mesh<2> outer_surface(const surface_mesh& surface, const geometry_topology& topology);
 
+namespace detail {
+
+/// `surface_without_crossings` by a function that makes the surface mesh.
+background::coarse_surface_result surface_without_crossings_by(
+    const any_geometry& model,
+    const std::function<background::coarse_surface_result(const background::coarse_surface_parameters&)>&
+        make,
+    const any_executor& run, int refinement_rounds, const progress& on_progress);
+
+} // namespace detail
+
 /// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
 /// `intersection_error` naming the two CAD faces when that does not help.
-background::coarse_surface_result surface_without_crossings(const any_geometry& model, const any_sizing& size,
-                                                            const any_executor& run,
-                                                            const any_surface_mesher& mesher,
-                                                            int refinement_rounds,
-                                                            const progress& on_progress = {});
+template <surface_mesher Mesher>
+background::coarse_surface_result
+surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
+                          const Mesher& mesher, int refinement_rounds, const progress& on_progress = {}) {
+  const auto make = [&](const background::coarse_surface_parameters& parameters) {
+    return background::coarse_surface(model, size, parameters, run, mesher);
+  };
+  return detail::surface_without_crossings_by(model, make, run, refinement_rounds, on_progress);
+}
 
 /// Chooses the decomposition from the predicted size of a mesh, in subdomains of `per_subdomain` elements.
 /// The numbers of background elements in the options are those of D = 3; a surface has as many per length.
@@ -97,25 +112,38 @@ struct background_result {
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
 /// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
 /// cannot be used, and what the surface mesher throws.
-template <int D = 3>
-mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
-                          const std::type_identity_t<any_parameters<D>>& given);
+template <int D = 3, bound_parameters<D> Parameters>
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given);
+template <int D = 3, class Parameters>
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+  return plan_background<D>(model, size, bind_parameters<D>(given));
+}
 
-/// Makes a planned background mesh at the size `coarse`, its bounds, and the children of its summary; by
-/// these policies.
+/// Makes a planned background mesh at the size `coarse`, its bounds, and the children of its summary, by this
+/// executor.
 template <int D>
 using background_maker =
-    std::function<void(background_result<D>&, const any_sizing& coarse, const any_parameters<D>&)>;
+    std::function<void(background_result<D>&, const any_sizing& coarse, const any_executor& run_tasks)>;
 
 /// Plans the mesh and makes its background mesh, or finds it in the spool of the options. For one subdomain
 /// the library's own steps make no volume: nothing is decomposed, and its mesh would serve nothing. Throws
 /// what its steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
-                                     const any_parameters<D>& given);
-template <int D>
+                                     const Parameters& given);
+template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
-                                     const any_parameters<D>& given, const background_maker<D>& make);
+                                     const Parameters& given, const background_maker<D>& make);
+template <int D, class Parameters>
+background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
+                                     const Parameters& given) {
+  return make_background<D>(model, size, bind_parameters<D>(given));
+}
+template <int D, class Parameters>
+background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
+                                     const Parameters& given, const background_maker<D>& make) {
+  return make_background<D>(model, size, bind_parameters<D>(given), make);
+}
 
 } // namespace dovetail
 

@@ -9,9 +9,11 @@
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/mesher/background_form.hpp"
+#include "dovetail/mesher/preferences.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
-#include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/kept_background.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/coarse.hpp"
@@ -106,12 +108,14 @@ DOVETAIL_INLINE simplicial_mesh<2> outer_surface(const surface_mesh& surface,
   return outer;
 }
 
-DOVETAIL_INLINE background::coarse_surface_result
-surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
-                          const any_surface_mesher& mesher, int refinement_rounds,
-                          const progress& on_progress) {
+namespace detail {
+
+DOVETAIL_INLINE background::coarse_surface_result surface_without_crossings_by(
+    const any_geometry& model,
+    const std::function<background::coarse_surface_result(const background::coarse_surface_parameters&)>&
+        make,
+    const any_executor& run, int refinement_rounds, const progress& on_progress) {
   background::coarse_surface_parameters parameters;
-  parameters.mesher = mesher;
   parameters.on_progress = on_progress.only_stopping();
   // Sheets that lie upon each other, or pass through each other, cross at more and more triangles.
   double most_pairs = 0, most_late = 0;
@@ -128,10 +132,12 @@ surface_without_crossings(const any_geometry& model, const any_sizing& size, con
     if (count > 0 && (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
       throw_crossing_faces(model.topology(), {mesh.tags[static_cast<std::size_t>(pairs.front().first)],
                                               mesh.tags[static_cast<std::size_t>(pairs.front().second)]});
-    return detail::places_to_refine(mesh, pairs, ++round > rounds_at_crossings);
+    return places_to_refine(mesh, pairs, ++round > rounds_at_crossings);
   };
-  return background::coarse_surface(model, size, parameters, run);
+  return make(parameters);
 }
+
+} // namespace detail
 
 template <int D>
 mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
@@ -184,9 +190,8 @@ any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>&
 namespace detail {
 
 /// The field with every value looked at; throws what is known to be wrong before anything is made.
-template <int D>
-erased_sizing usable_size(const any_geometry& model, const erased_sizing& size,
-                          const any_parameters<D>& given) {
+template <int D, bound_parameters<D> Parameters>
+erased_sizing usable_size(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
   require_policies(given.mesh_it, given.improve_it, given.run_tasks);
   erased_sizing checked(checked_sizing{size});
   require_usable_size(model, checked);
@@ -226,17 +231,17 @@ inline double share_of_elements(const mesh_plan& plan, bool improved) {
   return (improved ? left_by_improver : 1.0) * (1 - std::min(beside, 0.1));
 }
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 mesh_plan plan_of_surface(const any_geometry& model, const erased_sizing& size,
-                          const background::coarse_surface_result& first, const any_parameters<D>& given) {
+                          const background::coarse_surface_result& first, const Parameters& given) {
   const generate_options& options = given.options;
   element_prediction predicted =
       predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
-                      given.mesh_it.elements_per_inverse_cubed_size());
+                      elements_per_inverse_cubed_size(given.mesh_it));
   if constexpr (D == 3)
     predicted.elements += elements_beside_fine_surface(outer_surface(first.surface, model.topology()),
                                                        allowed_size<D>(size, first.bounds),
-                                                       given.mesh_it.elements_per_inverse_cubed_size());
+                                                       elements_per_inverse_cubed_size(given.mesh_it));
   double size_scale = 1;
   if (options.enlarged_above > 0 && predicted.elements > options.enlarged_above) {
     size_scale = std::pow(predicted.elements / options.enlarged_above, 1.0 / D);
@@ -244,20 +249,19 @@ mesh_plan plan_of_surface(const any_geometry& model, const erased_sizing& size,
   }
   mesh_plan plan = plan_mesh<D>(predicted,
                                 options.elements_per_subdomain > 0 ? options.elements_per_subdomain
-                                                                   : given.mesh_it.elements_per_subdomain(),
+                                                                   : elements_per_subdomain(given.mesh_it),
                                 options);
   plan.size_scale = size_scale;
   if constexpr (D == 3)
-    plan.predicted_elements *= share_of_elements(plan, static_cast<bool>(given.improve_it));
+    plan.predicted_elements *= share_of_elements(plan, is_given(given.improve_it));
   constexpr double of_calibration = 0.1; // of 18 predictions none was farther off
   plan.relative_error += of_calibration;
   require_room(plan, options);
   return plan;
 }
 
-template <int D>
-mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
-                         const any_parameters<D>& given) {
+template <int D, bound_parameters<D> Parameters>
+mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
   options.on_progress("planning", 0, 0);
@@ -269,17 +273,16 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size,
 
 } // namespace detail
 
-template <int D>
-mesh_plan plan_background(const any_geometry& model, const erased_sizing& size,
-                          const std::type_identity_t<any_parameters<D>>& given) {
+template <int D, bound_parameters<D> Parameters>
+mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
   return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given);
 }
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
-                                     const any_parameters<D>& wanted, const background_maker<D>& make) {
+                                     const Parameters& wanted, const background_maker<D>& make) {
   const stopwatch clock;
-  any_parameters<D> given = wanted;
+  Parameters given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
   const generate_options& options = given.options;
@@ -293,7 +296,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   result.plan = detail::plan_of_usable<D>(model, size, given);
   const erased_sizing planned = enlarged(size, result.plan);
   result.size = planned;
-  make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds()), given);
+  make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds()), given.run_tasks);
   result.size = allowed_size<D>(planned, result.bounds);
   if (result.plan.size_scale != 1)
     result.summary.warnings.push_back("the sizes were enlarged by a factor of " +
@@ -309,19 +312,19 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   return result;
 }
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& given_size,
-                                     const any_parameters<D>& wanted) {
-  const auto make = [&](background_result<D>& result, any_sizing coarse, const any_parameters<D>& given) {
+                                     const Parameters& given) {
+  const auto make = [&](background_result<D>& result, any_sizing coarse, const any_executor& run_tasks) {
     const generate_options& options = given.options;
     options.on_progress("background surface", 0, 0);
     const auto surface_at = [&](const any_sizing& size) {
-      return surface_without_crossings(model, size, given.run_tasks, given.mesh_surface,
-                                       options.refinement_rounds, options.on_progress);
+      return surface_without_crossings(model, size, run_tasks, given.mesh_surface, options.refinement_rounds,
+                                       options.on_progress);
     };
     auto surface = surface_at(coarse);
     if (D == 3 && options.coarse_scale == 0 && result.plan.subdomains > 1 &&
-        given.mesh_it.has_form_for_background() &&
+        has_form_for_background(given.mesh_it) &&
         static_cast<double>(surface.surface.mesh.elements.size()) >
             result.plan.subdomains * options.background_elements_per_subdomain) {
       // Small sizes at the surface alone make more elements than are needed; where they are made without
@@ -340,14 +343,14 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
       options.on_progress("background volume", 0, 0);
       auto volume =
           background::coarse_volume(result.mesh.surface, model.topology(), coarse,
-                                    given.mesh_it.for_background(), given.improve_background, given.run_tasks,
+                                    form_for_background(given.mesh_it), given.improve_background, run_tasks,
                                     {.on_failure = write_facets_of_failures(options.failure_folder),
                                      .on_progress = options.on_progress.only_stopping()});
       result.mesh.volume = std::move(volume.mesh);
       result.summary.children.push_back(std::move(volume.summary));
     }
   };
-  return make_background<D>(model, given_size, wanted, background_maker<D>(make));
+  return make_background<D>(model, given_size, given, background_maker<D>(make));
 }
 
 #ifdef DOVETAIL_COMPILED

@@ -100,8 +100,9 @@ inline suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
 
 /// What to do about the boundaries of pieces, before these are meshed: in D = 2 nothing. Counts in
 /// `intersection`. After a merge most patches are of a skeleton that was searched before.
-inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& store,
-                                            const any_parameters<3>& given, report& intersection) {
+template <bound_parameters<3> Parameters>
+suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& store, const Parameters& given,
+                                     report& intersection) {
   const remeshed_patches& patches = made.patches;
   if (!patches.failures.empty())
     return detail::plan_for_failed_patches(made.coarse, patches.failures);
@@ -127,18 +128,18 @@ inline suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_st
   intersection.seconds += clock.seconds();
   return plan;
 }
-inline suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const any_parameters<2>&,
-                                            report&) {
+template <bound_parameters<2> Parameters>
+suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const Parameters&, report&) {
   return {};
 }
 
 /// Where pieces fail since regions of theirs are folded over or the lines around them cross: there smaller
 /// sizes may help. The regions of the failed pieces are meshed again by the surface mesher.
-inline std::vector<surface_crossing>
+template <bound_parameters<2> Parameters>
+std::vector<surface_crossing>
 faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2>& mesh,
                         const realized<2>& made, const std::vector<piece_failure>& failures,
-                        const refined_sizing& size, skeleton_store& store,
-                        const any_parameters<2>& given) try {
+                        const refined_sizing& size, skeleton_store& store, const Parameters& given) try {
   std::set<local_id> failed;
   for (const piece_failure& failure : failures)
     failed.insert(failure.subdomain);
@@ -156,10 +157,11 @@ faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2
   return {}; // the failures tell more
 }
 /// Tetrahedra fail inside boundaries that were found whole.
-inline std::vector<surface_crossing>
-faults_of_failed_pieces(const any_geometry&, const simplicial_background<3>&, const realized<3>&,
-                        const std::vector<piece_failure>&, const refined_sizing&, skeleton_store&,
-                        const any_parameters<3>&) {
+template <bound_parameters<3> Parameters>
+std::vector<surface_crossing> faults_of_failed_pieces(const any_geometry&, const simplicial_background<3>&,
+                                                      const realized<3>&, const std::vector<piece_failure>&,
+                                                      const refined_sizing&, skeleton_store&,
+                                                      const Parameters&) {
   return {};
 }
 
@@ -167,9 +169,10 @@ faults_of_failed_pieces(const any_geometry&, const simplicial_background<3>&, co
 /// triangles of all pieces at once, also from a spool: about 32 bytes per triangle with the search's lists,
 /// which is the only step of D = 2 that needs memory for the whole mesh. Nothing is loaded when the model
 /// lies in one plane. O(n log n); on smooth surfaces a small part of the time for meshing them.
-inline suppression_plan plan_for_pieces(const any_geometry& model, const realized<2>& made,
-                                        const meshed_pieces<2>& meshed, const any_parameters<2>& given,
-                                        report& intersection) {
+template <bound_parameters<2> Parameters>
+suppression_plan plan_for_pieces(const any_geometry& model, const realized<2>& made,
+                                 const meshed_pieces<2>& meshed, const Parameters& given,
+                                 report& intersection) {
   suppression_plan plan;
   if (!meshed.failures.empty() || detail::lies_in_one_plane(model))
     return plan;
@@ -185,8 +188,9 @@ inline suppression_plan plan_for_pieces(const any_geometry& model, const realize
   return plan;
 }
 /// Tetrahedra inside a boundary without crossings do not cross.
-inline suppression_plan plan_for_pieces(const any_geometry&, const realized<3>&, const meshed_pieces<3>&,
-                                        const any_parameters<3>&, report&) {
+template <bound_parameters<3> Parameters>
+suppression_plan plan_for_pieces(const any_geometry&, const realized<3>&, const meshed_pieces<3>&,
+                                 const Parameters&, report&) {
   return {};
 }
 

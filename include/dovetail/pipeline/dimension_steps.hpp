@@ -6,7 +6,7 @@
 #include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
-#include "dovetail/simplification/any_simplification_rule.hpp"
+#include "dovetail/simplification/concepts.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
 
 #include <span>

@@ -9,7 +9,7 @@
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/side_state.hpp"
-#include "dovetail/pipeline/any_parameters.hpp"
+#include "dovetail/pipeline/bound_parameters.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -36,9 +36,14 @@ struct divided_background {
 
 /// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws `mesh_error` for a
 /// mesh that `require_valid` refuses, and what the rule, the partitioner and `decompose` throw.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
-                             const any_parameters<D>& given);
+                             const Parameters& given);
+template <int D, class Parameters>
+divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
+                             const Parameters& given) {
+  return divide<D>(coarse, size, subdomains, bind_parameters<D>(given));
+}
 
 /// A background mesh without a volume: each solid is a part, and stands for its only element. Throws
 /// `geometry_error` when the model has no solid or a solid's surface is open.

@@ -9,6 +9,7 @@
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/divide.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
 #include <algorithm>
@@ -26,16 +27,17 @@ namespace detail {
 /// The first step of the prediction of elements, which for a large background mesh is most of it, in tasks.
 template <int D>
 std::vector<integral_estimate> integrate_in_tasks(const simplicial_mesh<D>& mesh, const any_sizing& size,
-                                                  const any_parameters<D>& given) {
+                                                  const any_executor& run_tasks,
+                                                  const progress& on_progress) {
   constexpr std::size_t elements_per_task = 10'000; // some 30 ms
   const std::size_t elements = mesh.elements.size();
   auto results = map_tasks(
-      given.run_tasks, (elements + elements_per_task - 1) / elements_per_task,
+      run_tasks, (elements + elements_per_task - 1) / elements_per_task,
       [&](std::size_t task) {
         const std::size_t first = task * elements_per_task;
         return integrate_elements(mesh, size, first, std::min(elements, first + elements_per_task));
       },
-      run_options{.on_progress = given.options.on_progress, .stage = "simplification"});
+      run_options{.on_progress = on_progress, .stage = "simplification"});
   std::vector<integral_estimate> estimates;
   estimates.reserve(elements);
   for (const auto& part : values_of(std::move(results), "the prediction of elements"))
@@ -52,10 +54,10 @@ inline void require_background(const simplicial_background<2>& coarse, const sid
   require_valid(coarse.surface.mesh, sides, "the background mesh", {.orientation = false});
 }
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide_here(const simplicial_background<D>& coarse, const side_table<D>& sides,
                                   const any_sizing& size, std::span<const integral_estimate> estimates,
-                                  int subdomains, const any_parameters<D>& given) {
+                                  int subdomains, const Parameters& given) {
   const generate_options& options = given.options;
   divided_background<D> result;
   options.on_progress("simplification", 0, 0);
@@ -84,11 +86,12 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
 
 } // namespace detail
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
-                             const any_parameters<D>& given) {
+                             const Parameters& given) {
   const stopwatch clock;
-  const auto estimates = detail::integrate_in_tasks<D>(coarse.elements(), size, given);
+  const auto estimates =
+      detail::integrate_in_tasks<D>(coarse.elements(), size, given.run_tasks, given.options.on_progress);
   side_table<D> sides = build_sides(coarse.elements());
   const double seconds_before = clock.seconds();
   auto result = given.run_tasks.once(

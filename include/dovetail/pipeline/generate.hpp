@@ -11,8 +11,10 @@
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -37,9 +39,14 @@ using generate_result = generated<3>;
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
 /// for the same model, field, mesher and options. For runs that differ in the simplification, the partitioner
 /// or the improver alone.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
-                                      const any_parameters<D>& given);
+                                      const Parameters& given);
+template <int D, class Parameters>
+generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
+                                      const Parameters& given) {
+  return generate_from_background<D>(model, std::move(background), bind_parameters<D>(given));
+}
 
 /// Generates a mesh sized by `size`: for D = 3 tetrahedra of all solids of `model`, for D = 2 triangles of
 /// all its faces.
@@ -58,7 +65,7 @@ generated<D> generate(const G& given_model, const H& given_size, const Parameter
   if constexpr (detail::checked_parameters<D, Parameters>()) {
     const any_geometry model(given_model);
     const erased_sizing size(given_size);
-    const any_parameters<D> given(policies);
+    const auto& given = bind_parameters<D>(policies);
     auto result = generate_from_background<D>(model, make_background<D>(model, size, given), given);
     if constexpr (D == 3 && requires { given_model.volume(); })
       compare_volume(result.mesh.skeleton, given_model.volume(), result.summary);

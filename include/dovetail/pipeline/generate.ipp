@@ -22,9 +22,9 @@ namespace dovetail {
 namespace detail {
 
 /// For one subdomain there is no volume (`make_background`).
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide_if_planned(const any_geometry& model, const background_result<D>& background,
-                                        const any_parameters<D>& given) {
+                                        const Parameters& given) {
   if constexpr (D == 3)
     if (background.mesh.volume.elements.empty())
       return leave_undivided(background.mesh.surface, model.topology());
@@ -33,12 +33,12 @@ divided_background<D> divide_if_planned(const any_geometry& model, const backgro
 
 /// What follows the background mesh, which is moved into the result. Nothing, and why, where too many
 /// subdomains would have to be merged; `account` then tells of this decomposition too, besides those before.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 std::optional<generated<D>> generate_once(const any_geometry& model, background_result<D>& background,
-                                          const any_parameters<D>& given, report& account,
+                                          const Parameters& given, report& account,
                                           std::string& too_many_merges) {
   auto divided = divide_if_planned(model, background, given);
-  decomposition_rounds<D> rounds(model, background.mesh, divided, background.size, given, account);
+  decomposition_rounds rounds(model, background.mesh, divided, background.size, given, account);
   auto made = rounds.mesh_pieces();
   if (!made) {
     account = rounds.give_up();
@@ -65,14 +65,14 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
 
 } // namespace detail
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
-                                      const any_parameters<D>& wanted) {
+                                      const Parameters& wanted) {
   const stopwatch clock;
-  any_parameters<D> given = wanted;
+  Parameters given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
-  given_up_decompositions<D> given_up(given);
+  given_up_decompositions<D> given_up(given.run_tasks, given.options.store);
   report account; // of decompositions that were given up
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     if (auto found = given_up.find(background)) {

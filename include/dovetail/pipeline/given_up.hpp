@@ -6,7 +6,6 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
 
 #include <cstdint>
@@ -18,9 +17,10 @@ namespace dovetail {
 template <int D>
 class given_up_decompositions {
 public:
-  explicit given_up_decompositions(const any_parameters<D>& given) : run_tasks_(given.run_tasks) {
-    if (given.options.store)
-      kept_.emplace(given.options.store, "given_up");
+  given_up_decompositions(const any_executor& run_tasks, const std::optional<spool>& store)
+      : run_tasks_(run_tasks) {
+    if (store)
+      kept_.emplace(store, "given_up");
   }
 
   /// The account of the one into as many subdomains as are planned, if it was given up.

@@ -3,20 +3,25 @@
 #pragma once
 
 #include "dovetail/core/progress.hpp"
-#include "dovetail/improver/any_improver.hpp"
+#include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool.hpp"
+#include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/greedy.hpp"
-#include "dovetail/remesh/any_surface_mesher.hpp"
-#include "dovetail/simplification/any_simplification_rule.hpp"
+#include "dovetail/remesh/concepts.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/simplification/concepts.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/types.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
+#include <concepts>
 #include <filesystem>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace dovetail {
@@ -61,7 +66,7 @@ struct generate_options {
 /// One sweep of each kind towards 28 degrees: few elements have a smaller angle where the mesher has a form
 /// for the background, and what is left the simplification contracts. More sweeps leave interfaces no
 /// cleaner.
-inline any_improver<3> default_background_improver() {
+inline improvement::native default_background_improver() {
   return improvement::native{.target_angle = 28,
                              .stubborn_angle = 15,
                              .passes = 1,
@@ -70,64 +75,84 @@ inline any_improver<3> default_background_improver() {
                              .statistics = false};
 }
 
-/// Policies and options. Each `with_...` returns parameters with one policy replaced.
+namespace detail {
+
+template <class Improver>
+Improver first_background_improver() {
+  if constexpr (std::convertible_to<improvement::native, Improver>)
+    return default_background_improver();
+  else
+    return {};
+}
+
+} // namespace detail
+
+/// Policies and options. Each `with_...` returns parameters with one policy replaced. All policies are bound
+/// at compile time; those behind one type each are `any_parameters<D>`, to which all parameters convert.
 template <class Mesher = no_mesher, class Partitioner = partition::greedy,
-          class Improver = improvement::native, class Executor = parallel::serial>
+          class Improver = improvement::native, class Executor = parallel::serial,
+          class Rule = simplifier::paper, class BackgroundImprover = improvement::native,
+          class SurfaceMesher = remesh::patch_remesher>
 struct parameters {
   Mesher mesh_it{};
   Partitioner partition_it{};
   Improver improve_it{};
   Executor run_tasks{};
   generate_options options{};
-  any_simplification_rule simplify_by{simplifier::paper{}, "paper"};
+  Rule simplify_by{};
   /// Makes the coarse elements good (D = 3), so that clean interfaces are found everywhere.
-  any_improver<3> improve_background = default_background_improver();
+  BackgroundImprover improve_background = detail::first_background_improver<BackgroundImprover>();
   /// Of the coarse surface and of regions; in D = 2 of the pieces too, unless a mesher was chosen.
-  any_surface_mesher mesh_surface{};
+  SurfaceMesher mesh_surface{};
 
   // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
   template <boundary_keeping_mesher<3> M>
-  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher) const {
-    return with(std::move(mesher), partition_it, improve_it, run_tasks);
+  auto with_mesher(M mesher) const {
+    return with(std::move(mesher), partition_it, improve_it, run_tasks, simplify_by, improve_background,
+                mesh_surface);
   }
   template <boundary_keeping_mesher<2> M>
     requires(!boundary_keeping_mesher<M, 3>)
-  parameters<M, Partitioner, Improver, Executor> with_mesher(M mesher)
-  const { return with(std::move(mesher), partition_it, improve_it, run_tasks); }
+  auto with_mesher(M mesher) const {
+    return with(std::move(mesher), partition_it, improve_it, run_tasks, simplify_by, improve_background,
+                mesh_surface);
+  }
   template <graph_partitioner P>
-  parameters<Mesher, P, Improver, Executor> with_partitioner(P partitioner) const {
-    return with(mesh_it, std::move(partitioner), improve_it, run_tasks);
+  auto with_partitioner(P partitioner) const {
+    return with(mesh_it, std::move(partitioner), improve_it, run_tasks, simplify_by, improve_background,
+                mesh_surface);
   }
   template <improver<3> I>
-  parameters<Mesher, Partitioner, I, Executor> with_improver(I improver) const {
-    return with(mesh_it, partition_it, std::move(improver), run_tasks);
+  auto with_improver(I improver) const {
+    return with(mesh_it, partition_it, std::move(improver), run_tasks, simplify_by, improve_background,
+                mesh_surface);
   }
   template <improver<2> I>
     requires(!improver<I, 3>)
-  parameters<Mesher, Partitioner, I, Executor> with_improver(I improver)
-  const { return with(mesh_it, partition_it, std::move(improver), run_tasks); }
+  auto with_improver(I improver) const {
+    return with(mesh_it, partition_it, std::move(improver), run_tasks, simplify_by, improve_background,
+                mesh_surface);
+  }
   template <executor E>
-  parameters<Mesher, Partitioner, Improver, E> with_executor(E executor) const {
-    return with(mesh_it, partition_it, improve_it, std::move(executor));
-  }
-  parameters with_background_improver(any_improver<3> improver) const {
-    parameters changed = *this;
-    changed.improve_background = std::move(improver);
-    return changed;
-  }
-  parameters with_surface_mesher(any_surface_mesher mesher) const {
-    parameters changed = *this;
-    changed.mesh_surface = std::move(mesher);
-    return changed;
+  auto with_executor(E executor) const {
+    return with(mesh_it, partition_it, improve_it, std::move(executor), simplify_by, improve_background,
+                mesh_surface);
   }
   /// A rule for the surface (2) and the volume (3).
   template <simplification_rule<2> R>
     requires(simplification_rule<R, 3>)
-  parameters with_simplifier(R rule)
-  const {
-    parameters changed = *this;
-    changed.simplify_by = std::move(rule);
-    return changed;
+  auto with_simplifier(R rule) const {
+    return with(mesh_it, partition_it, improve_it, run_tasks, std::move(rule), improve_background,
+                mesh_surface);
+  }
+  template <improver<3> I>
+  auto with_background_improver(I improver) const {
+    return with(mesh_it, partition_it, improve_it, run_tasks, simplify_by, std::move(improver), mesh_surface);
+  }
+  template <surface_mesher S>
+  auto with_surface_mesher(S mesher) const {
+    return with(mesh_it, partition_it, improve_it, run_tasks, simplify_by, improve_background,
+                std::move(mesher));
   }
   parameters with_options(generate_options different) const {
     parameters changed = *this;
@@ -135,12 +160,32 @@ struct parameters {
     return changed;
   }
 
+  /// To parameters with policies to which each of these converts.
+  template <class M, class P, class I, class E, class R, class B, class S>
+    requires std::convertible_to<
+        std::tuple<Mesher, Partitioner, Improver, Executor, Rule, BackgroundImprover, SurfaceMesher>,
+        std::tuple<M, P, I, E, R, B, S>>
+  operator parameters<M, P, I, E, R, B, S>() const {
+    return {mesh_it, partition_it, improve_it,         run_tasks,
+            options, simplify_by,  improve_background, mesh_surface};
+  }
+
 private:
-  template <class M, class P, class I, class E>
-  parameters<M, P, I, E> with(M mesher, P partitioner, I improver, E executor) const {
-    return {std::move(mesher), std::move(partitioner), std::move(improver), std::move(executor), options,
-            simplify_by,       improve_background,     mesh_surface};
+  template <class M, class P, class I, class E, class R, class B, class S>
+  parameters<M, P, I, E, R, B, S> with(M mesher, P partitioner, I improver, E executor, R rule, B background,
+                                       S surface) const {
+    return {std::move(mesher), std::move(partitioner), std::move(improver),   std::move(executor),
+            options,           std::move(rule),        std::move(background), std::move(surface)};
   }
 };
+
+namespace detail {
+
+template <class T>
+inline constexpr bool is_parameters = false;
+template <class... Policies>
+inline constexpr bool is_parameters<parameters<Policies...>> = true;
+
+} // namespace detail
 
 } // namespace dovetail

@@ -86,11 +86,11 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
 } // namespace detail
 
 /// Meshes all pieces of a realized decomposition that the store does not have.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
                                  const realized<D>& skeleton, std::span<const double> weights,
                                  const refined_sizing& size, const std::shared_ptr<entity_store>& store,
-                                 const any_parameters<D>& given) {
+                                 const Parameters& given) {
   const auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   // The skeleton itself goes into the finished mesh, and its pieces may be loaded as long as that is.

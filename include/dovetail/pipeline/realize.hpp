@@ -4,13 +4,14 @@
 #pragma once
 
 #include "dovetail/mesh/background_mesh.hpp"
-#include "dovetail/pipeline/any_parameters.hpp"
+#include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -44,11 +45,19 @@ struct skeleton_store {
 /// that its subdomains induce on the surface what D = 2 does with its own, and adds interface faces. `made`
 /// carries lines and patches from one call to the next. Patches that fail are in the result; throws
 /// `mesher_error` when a line or patch cannot be evaluated at all.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
-                    const any_parameters<D>& given);
+                    const Parameters& given);
+template <int D, class Parameters>
+realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
+                    const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                    const Parameters& given) {
+  return realize<D>(model, mesh, divided, std::move(subdomain_of_element), subdomains, size, made,
+                    bind_parameters<D>(given));
+}
 
 } // namespace dovetail
 

@@ -7,6 +7,7 @@
 #include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/realize.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 #include "dovetail/skeleton/segment_matching.hpp"
@@ -20,9 +21,9 @@ namespace dovetail {
 namespace detail {
 
 /// Remeshes the lines of a skeleton.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 void space_lines(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
-                 const refined_sizing& size, skeleton_store& made, const any_parameters<D>& given,
+                 const refined_sizing& size, skeleton_store& made, const Parameters& given,
                  realized<D>& result) {
   result.lines = number_lines(result.coarse,
                               remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
@@ -32,11 +33,11 @@ void space_lines(const any_geometry& model, const surface_mesh& surface, std::sp
 
 /// The surface step of both dimensions: the skeleton of the pieces of a surface, and of the interface faces
 /// that end on it, with its lines remeshed.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface,
                           std::span<const vec3> coarse_points, const triangle_subdomains& pieces,
                           std::vector<skeleton_face> faces, const refined_sizing& size, skeleton_store& made,
-                          const any_parameters<D>& given) {
+                          const Parameters& given) {
   const stopwatch clock;
   const std::size_t made_before = made.lines.made();
   realized<D> result;
@@ -51,11 +52,11 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
   return result;
 }
 
-inline realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
-                                      const divided_background<2>& divided,
-                                      const std::vector<local_id>& subdomain_of_element,
-                                      std::span<const local_id>, const refined_sizing& size,
-                                      skeleton_store& made, const any_parameters<2>& given) {
+template <bound_parameters<2> Parameters>
+realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
+                               const divided_background<2>& divided,
+                               const std::vector<local_id>& subdomain_of_element, std::span<const local_id>,
+                               const refined_sizing& size, skeleton_store& made, const Parameters& given) {
   auto result = realize_lines<2>(model, mesh.surface, mesh.points(), own_subdomains(subdomain_of_element), {},
                                  size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, divided.sides, subdomain_of_element, result.lines);
@@ -66,8 +67,9 @@ inline realized<2> realize_boundaries(const any_geometry& model, const simplicia
 
 /// The patches of a skeleton, on lines with numbers of segments that suit each other. Better small angles
 /// than patches that fail: then on the lines as they were.
-inline skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
-                                                 skeleton_store& made, const any_parameters<3>& given) {
+template <bound_parameters<3> Parameters>
+skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
+                                          skeleton_store& made, const Parameters& given) {
   const progress& on_progress = given.options.on_progress;
   const auto fill = [&] {
     return mesh_patches(of, given.mesh_surface, given.run_tasks, made.patches, on_progress);
@@ -97,12 +99,12 @@ inline skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, r
   return patches;
 }
 
-inline realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
-                                      const divided_background<3>& divided,
-                                      const std::vector<local_id>& subdomain_of_element,
-                                      std::span<const local_id> material_of_subdomain,
-                                      const refined_sizing& size, skeleton_store& made,
-                                      const any_parameters<3>& given) {
+template <bound_parameters<3> Parameters>
+realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
+                               const divided_background<3>& divided,
+                               const std::vector<local_id>& subdomain_of_element,
+                               std::span<const local_id> material_of_subdomain, const refined_sizing& size,
+                               skeleton_store& made, const Parameters& given) {
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
   auto result = realize_lines<3>(
       model, mesh.surface, mesh.points(), induced_subdomains(divided.beside_surface, subdomain_of_element),
@@ -124,11 +126,11 @@ inline realized<3> realize_boundaries(const any_geometry& model, const simplicia
 
 } // namespace detail
 
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
-                    const any_parameters<D>& given) {
+                    const Parameters& given) {
   const stopwatch clock;
   const auto materials = detail::materials_of(mesh);
   std::vector<local_id> material_of_subdomain(subdomains, 0);

@@ -13,6 +13,7 @@
 #include "dovetail/pipeline/piece_meshing.hpp"
 #include "dovetail/pipeline/repairs.hpp"
 #include "dovetail/pipeline/repartition_rounds.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -27,12 +28,12 @@ namespace dovetail {
 /// Lines, patches and pieces are kept from round to round, so that one makes again only what the one before
 /// has changed. Model, mesh and its division must outlive this. `account` is that of decompositions that were
 /// given up before, to which this one's is added.
-template <int D>
+template <int D, bound_parameters<D> Parameters>
 class decomposition_rounds {
 public:
   decomposition_rounds(const any_geometry& model, const simplicial_background<D>& mesh,
-                       const divided_background<D>& divided, const any_sizing& size,
-                       const any_parameters<D>& given, report account = {})
+                       const divided_background<D>& divided, const any_sizing& size, const Parameters& given,
+                       report account = {})
       : model_(model), mesh_(mesh), divided_(divided),
         given_(given), state_{.subdomain_of_element = divided.pieces.part_of_element,
                               .merges = {divided.pieces.parts, given.options.largest_merged_fraction},
@@ -43,7 +44,7 @@ public:
   }
 
   decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const divided_background<D>&,
-                       const any_sizing&, const any_parameters<D>&, report = {}) = delete;
+                       const any_sizing&, const Parameters&, report = {}) = delete;
 
   const merge_account& merges() const { return state_.merges; }
   /// The field given, smaller where something crossed.
@@ -172,7 +173,7 @@ private:
   const any_geometry& model_;
   const simplicial_background<D>& mesh_;
   const divided_background<D>& divided_;
-  any_parameters<D> given_;
+  Parameters given_;
   decomposition_state state_;
   repartition_rounds<D> repartition_;
   interface_angles angles_; ///< of what was last realized

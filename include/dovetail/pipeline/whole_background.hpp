@@ -14,8 +14,14 @@ namespace dovetail {
 ///
 /// The mesher's triangles become the coarse surface. Throws `geometry_error` for models of several solids,
 /// whose common faces it would not keep, and what its steps throw.
+template <bound_parameters<3> Parameters>
 background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole, const any_geometry& model,
-                                        const erased_sizing& size, const any_parameters<3>& given);
+                                        const erased_sizing& size, const Parameters& given);
+template <class Parameters>
+background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole, const any_geometry& model,
+                                        const erased_sizing& size, const Parameters& given) {
+  return make_background_by(mesh_whole, model, size, bind_parameters<3>(given));
+}
 
 } // namespace dovetail
 

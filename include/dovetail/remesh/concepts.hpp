@@ -49,4 +49,15 @@ constexpr bool is_thread_safe() {
     return true;
 }
 
+/// The same of one that may hold another behind one type.
+template <class M>
+bool may_run_in_threads(const M& mesher) {
+  if constexpr (requires {
+                  { mesher.may_run_in_threads() } -> std::same_as<bool>;
+                })
+    return mesher.may_run_in_threads();
+  else
+    return is_thread_safe<M>();
+}
+
 } // namespace dovetail

@@ -9,12 +9,14 @@
 
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/policy.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/batched_entities.hpp"
-#include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/concepts.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/surface_region.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
@@ -38,13 +40,65 @@ struct region_attempts {
   int folds = 6;  ///< times again with sizes inside 0.8 times those before, while triangles are folded over
 };
 
+namespace detail {
+
+/// Throws `mesher_error` that begins with `who` unless the triangles of a result name points that exist, and
+/// points are where their parameters are, up to what another way of rounding does.
+void check_points_of(const patch_mesh& made, const any_surface& surface, const patch_boundary& boundary,
+                     const std::string& who);
+/// Throws `mesher_error` that begins with `who` when a mesh does not end at its region's boundary.
+void check_region(const patch_mesh& made, const patch_boundary& boundary, const std::string& who);
+/// Adds the chords of a mesh that its region must not have to the forbidden edges; false when it has no new
+/// ones.
+bool forbid_own_chords(const surface_region& region, const patch_mesh& made, patch_boundary& boundary);
+/// Splits what is left of inner edges that must not be.
+void split_unwanted_chords(const any_surface& surface, const patch_boundary& boundary, patch_mesh& made);
+
+/// A mesher's result, of which everything else may then look up what it names.
+template <surface_mesher Mesher>
+patch_mesh mesh_once(const Mesher& mesher, const any_surface& surface, const patch_boundary& boundary,
+                     const any_sizing& size) {
+  const auto who = [&] { return named_policy("surface mesher", policy_name(mesher)); };
+  patch_mesh made = call_policy<mesher_error>(who, [&] { return mesher(surface, boundary, size); });
+  check_points_of(made, surface, boundary, who());
+  return made;
+}
+
+/// One attempt at a region: without the edges that it must not have.
+template <surface_mesher Mesher>
+patch_mesh mesh_without_chords(const Mesher& mesher, const any_surface& surface, const surface_region& region,
+                               const any_sizing& size, int rounds) {
+  patch_boundary boundary = region.boundary;
+  patch_mesh made = mesh_once(mesher, surface, boundary, size);
+  for (int round = 0; round < rounds && forbid_own_chords(region, made, boundary); ++round)
+    made = mesh_once(mesher, surface, boundary, size);
+  split_unwanted_chords(surface, boundary, made);
+  return made;
+}
+
+} // namespace detail
+
 /// Meshes one region on its surface, and again as long as `attempts` allow; of attempts with folds the one
 /// with the fewest. Inner edges that must not be are split where the mesher did not avoid them: those that
 /// are forbidden, and those that join two boundary points a second time. Costs what the mesher does. Throws
 /// `mesher_error` when a segment of the boundary is not a side of exactly one triangle or a side inside not
 /// one of two, and what the mesher throws.
-patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surface,
-                       const surface_region& region, const any_sizing& size, const region_attempts& attempts);
+template <surface_mesher Mesher>
+patch_mesh mesh_region(const Mesher& mesher, const any_surface& surface, const surface_region& region,
+                       const any_sizing& size, const region_attempts& attempts) {
+  patch_mesh best;
+  double factor = region.size_factor;
+  for (int attempt = 0; attempt == 0 || (attempt <= attempts.folds && !best.folded.empty()); ++attempt) {
+    const any_sizing inner = [&size, factor](vec3 p) { return factor * size(p); };
+    patch_mesh made =
+        detail::mesh_without_chords(mesher, surface, region, factor == 1 ? size : inner, attempts.chords);
+    if (attempt == 0 || made.folded.size() < best.folded.size())
+      best = std::move(made);
+    factor *= 0.8;
+  }
+  detail::check_region(best, region.boundary, named_policy("surface mesher", policy_name(mesher)));
+  return best;
+}
 
 /// What is wrong with a region that is folded over still.
 inline std::string folds_of(const patch_mesh& made) {
@@ -133,15 +187,37 @@ struct mesh_regions_options {
   std::string stage = "regions";
 };
 
+namespace detail {
+
+/// Meshes a region on its surface at a size. Whoever calls it knows no mesher, and is compiled once.
+using region_mesher = std::function<patch_mesh(const any_surface&, const surface_region&, const any_sizing&)>;
+
+/// `mesh_regions` by such a function.
+meshed_regions make_regions(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
+                            const refined_sizing& size, const any_executor& run, region_store& store,
+                            const mesh_regions_options& options);
+
+} // namespace detail
+
 /// Makes the meshes that are not in `store`, through the executor; then, while two regions have an inner edge
 /// between the same boundary points, or one where another's line is, forbids it to all but the first and
 /// makes those again (`set.forbidden_edges` tell). A mesh is a function of its region, of the sizes near it,
 /// of the model and the mesher; these two and the plain sizes must be the same for all calls with a store. A
 /// region that fails keeps none of the others from being made. Throws `usage_error` when the mesher may not
 /// run in the threads of `run`.
-meshed_regions mesh_regions(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
+template <surface_mesher Mesher>
+meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Mesher& mesher,
                             const refined_sizing& size, const any_executor& run, region_store& store,
-                            const mesh_regions_options& options);
+                            const mesh_regions_options& options) {
+  if (runs_in_threads(run) && !may_run_in_threads(mesher))
+    throw usage_error(
+        "this surface mesher must not run in several threads of one process; use worker processes");
+  const auto mesh_it = [&](const any_surface& surface, const surface_region& region,
+                           const any_sizing& sizes) {
+    return mesh_region(mesher, surface, region, sizes, options.attempts);
+  };
+  return detail::make_regions(model, set, mesh_it, size, run, store, options);
+}
 
 /// Calls `visit(triangle, own)` for a region's triangles: oriented along the face, named by labels and, from
 /// `first_inner` on, by the region's own points, and as they are named within the region.

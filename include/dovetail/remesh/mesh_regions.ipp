@@ -21,10 +21,8 @@ namespace dovetail {
 
 namespace detail {
 
-/// Adds the chords of a mesh that its region must not have to the forbidden edges; false when it has no new
-/// ones.
-inline bool forbid_own_chords(const surface_region& region, const patch_mesh& made,
-                              patch_boundary& boundary) {
+DOVETAIL_INLINE bool forbid_own_chords(const surface_region& region, const patch_mesh& made,
+                                       patch_boundary& boundary) {
   if (!region.forbids)
     return false;
   auto& forbidden = boundary.forbidden_edges;
@@ -37,45 +35,28 @@ inline bool forbid_own_chords(const surface_region& region, const patch_mesh& ma
   return forbidden.size() > before;
 }
 
-/// Throws `mesher_error` unless points are where their parameters are, up to what another way of rounding
-/// does.
-inline void check_points_on(const any_surface_mesher& mesher, const any_surface& surface,
-                            const patch_boundary& boundary, const patch_mesh& made) {
-  box3 box;
-  for (const vec3 p : boundary.points)
-    box.include(p);
-  const double tolerance = 1e-6 * box.diagonal();
-  for (std::size_t v = 0; v < made.inner_uv.size(); ++v)
-    if (!(distance(surface.frame(made.inner_uv[v]).point, made.inner_points[v]) <= tolerance))
-      throw mesher_error(named_policy("surface mesher", mesher.name()) + ": its point " + std::to_string(v) +
-                         " is not where its parameters are on the surface");
+DOVETAIL_INLINE void split_unwanted_chords(const any_surface& surface, const patch_boundary& boundary,
+                                           patch_mesh& made) {
+  unwanted_chord_splitter(surface, boundary, made).run();
 }
 
-/// A mesher's result, of which everything else may then look up what it names.
-inline patch_mesh mesh_once(const any_surface_mesher& mesher, const any_surface& surface,
-                            const patch_boundary& boundary, const any_sizing& size) {
-  patch_mesh made = mesher(surface, boundary, size);
+DOVETAIL_INLINE void check_points_of(const patch_mesh& made, const any_surface& surface,
+                                     const patch_boundary& boundary, const std::string& who) {
   const auto points = static_cast<local_id>(boundary.labels.size() + made.inner_uv.size());
   bool named = made.inner_points.size() == made.inner_uv.size();
   for (const simplex<2>& triangle : made.triangles)
     for (const local_id v : triangle)
       named = named && v >= 0 && v < points;
   if (!named)
-    throw mesher_error(named_policy("surface mesher", mesher.name()) +
-                       ": its triangles name points that do not exist");
-  check_points_on(mesher, surface, boundary, made);
-  return made;
-}
-
-/// One attempt at a region: without the edges that it must not have.
-inline patch_mesh mesh_without_chords(const any_surface_mesher& mesher, const any_surface& surface,
-                                      const surface_region& region, const any_sizing& size, int rounds) {
-  patch_boundary boundary = region.boundary;
-  patch_mesh made = mesh_once(mesher, surface, boundary, size);
-  for (int round = 0; round < rounds && forbid_own_chords(region, made, boundary); ++round)
-    made = mesh_once(mesher, surface, boundary, size);
-  unwanted_chord_splitter(surface, boundary, made).run();
-  return made;
+    throw mesher_error(who + ": its triangles name points that do not exist");
+  box3 box;
+  for (const vec3 p : boundary.points)
+    box.include(p);
+  const double tolerance = 1e-6 * box.diagonal();
+  for (std::size_t v = 0; v < made.inner_uv.size(); ++v)
+    if (!(distance(surface.frame(made.inner_uv[v]).point, made.inner_points[v]) <= tolerance))
+      throw mesher_error(who + ": its point " + std::to_string(v) +
+                         " is not where its parameters are on the surface");
 }
 
 /// Whether triangles and segments close up: every side of a triangle is passed backwards by another triangle,
@@ -98,19 +79,17 @@ inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
   return of_sides == of_segments;
 }
 
-/// Throws `mesher_error` when a mesh does not end at its region's boundary.
-inline void check_region(const any_surface_mesher& mesher, const patch_boundary& boundary,
-                         const patch_mesh& made) {
+DOVETAIL_INLINE void check_region(const patch_mesh& made, const patch_boundary& boundary,
+                                  const std::string& who) {
   if (!made.crossings.empty() || !made.misplaced.empty())
     return; // there is no mesh
-  const std::string who = named_policy("surface mesher", mesher.name()) + ": ";
   try {
     passages_of(boundary, made).check();
   } catch (const mesher_error& lost) {
-    throw mesher_error(who + lost.what());
+    throw mesher_error(who + ": " + lost.what());
   }
   if (!closes_up(boundary, made))
-    throw mesher_error(who + "its triangles leave a hole or lie upon each other");
+    throw mesher_error(who + ": its triangles leave a hole or lie upon each other");
 }
 
 /// In degrees; 180 without triangles.
@@ -128,10 +107,11 @@ inline double least_corner_angle(const patch_boundary& boundary, const patch_mes
 /// The meshes of the regions of one set.
 class region_making {
 public:
-  region_making(const any_geometry& model, region_set& set, const any_surface_mesher& mesher,
+  region_making(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
                 const refined_sizing& size, const any_executor& run, region_store& store,
                 const mesh_regions_options& options)
-      : model_(model), set_(set), mesher_(mesher), size_(size), run_(run), store_(store), options_(options) {
+      : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), store_(store),
+        options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = set.region(r);
       const auto segments = static_cast<double>(region.boundary.segments.size());
@@ -230,7 +210,7 @@ private:
     const surface_region region = set_.region(r);
     const any_surface surface = set_.surface_of(model, r);
     const any_sizing size = size_.near(place(model, r, region.boundary));
-    patch_mesh made = mesh_region(mesher_, surface, region, size, options_.attempts);
+    patch_mesh made = mesh_it_(surface, region, size);
     made.summary = {};
     if (options_.deviation && region.face != no_id) {
       const surface_deviation off = measure_deviation(surface, region.boundary, made, size);
@@ -290,7 +270,7 @@ private:
 
   const any_geometry& model_;
   region_set& set_;
-  const any_surface_mesher& mesher_;
+  const region_mesher& mesh_it_;
   const refined_sizing& size_;
   const any_executor& run_;
   region_store& store_;
@@ -300,33 +280,13 @@ private:
   meshed_regions result_;
 };
 
-} // namespace detail
-
-DOVETAIL_INLINE patch_mesh mesh_region(const any_surface_mesher& mesher, const any_surface& surface,
-                                       const surface_region& region, const any_sizing& size,
-                                       const region_attempts& attempts) {
-  patch_mesh best;
-  double factor = region.size_factor;
-  for (int attempt = 0; attempt == 0 || (attempt <= attempts.folds && !best.folded.empty()); ++attempt) {
-    const any_sizing inner = [&size, factor](vec3 p) { return factor * size(p); };
-    patch_mesh made =
-        detail::mesh_without_chords(mesher, surface, region, factor == 1 ? size : inner, attempts.chords);
-    if (attempt == 0 || made.folded.size() < best.folded.size())
-      best = std::move(made);
-    factor *= 0.8;
-  }
-  detail::check_region(mesher, region.boundary, best);
-  return best;
-}
-
-DOVETAIL_INLINE meshed_regions mesh_regions(const any_geometry& model, region_set& set,
-                                            const any_surface_mesher& mesher, const refined_sizing& size,
+DOVETAIL_INLINE meshed_regions make_regions(const any_geometry& model, region_set& set,
+                                            const region_mesher& mesh_it, const refined_sizing& size,
                                             const any_executor& run, region_store& store,
                                             const mesh_regions_options& options) {
-  if (runs_in_threads(run) && !mesher.may_run_in_threads())
-    throw usage_error(
-        "this surface mesher must not run in several threads of one process; use worker processes");
-  return detail::region_making(model, set, mesher, size, run, store, options).run();
+  return region_making(model, set, mesh_it, size, run, store, options).run();
 }
+
+} // namespace detail
 
 } // namespace dovetail

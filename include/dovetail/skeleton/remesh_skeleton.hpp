@@ -9,6 +9,7 @@
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/skeleton/patches.hpp"
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,11 +61,27 @@ struct skeleton_patches {
   std::size_t made = 0; ///< that were not in the store
 };
 
+namespace detail {
+
+/// `mesh_patches` by a function that meshes all patches as regions.
+skeleton_patches
+mesh_patches_by(const skeleton_to_remesh& of,
+                const std::function<meshed_regions(region_set&, const mesh_regions_options&)>& mesh_them,
+                region_store& made, const progress& on_progress);
+
+} // namespace detail
+
 /// Remeshes what lies between remeshed lines to the sizing field. `made` carries patches from one call to the
 /// next as long as the model, the plain field and the mesher are the same. About linear in the triangles
 /// made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at all.
-skeleton_patches mesh_patches(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
-                              const any_executor& run, region_store& made, const progress& on_progress = {});
+template <surface_mesher Mesher>
+skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
+                              region_store& made, const progress& on_progress = {}) {
+  const auto mesh_them = [&](region_set& set, const mesh_regions_options& options) {
+    return mesh_regions(of.model, set, mesher, of.size, run, made, options);
+  };
+  return detail::mesh_patches_by(of, mesh_them, made, on_progress);
+}
 
 /// The interface faces with an angle below a threshold, growing.
 std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
@@ -78,9 +95,9 @@ remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches pa
                                const progress& on_progress = {});
 
 /// `mesh_patches` and `join_patches`.
-inline remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
-                                         const any_executor& run, region_store& made,
-                                         const progress& on_progress = {}) {
+template <surface_mesher Mesher>
+remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
+                                  region_store& made, const progress& on_progress = {}) {
   return join_patches(of, mesh_patches(of, mesher, run, made, on_progress), run, made, on_progress);
 }
 

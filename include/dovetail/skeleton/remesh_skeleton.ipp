@@ -119,21 +119,19 @@ private:
   const numbered_lines& lines_;
 };
 
-} // namespace detail
-
-DOVETAIL_INLINE skeleton_patches mesh_patches(const skeleton_to_remesh& of, const any_surface_mesher& mesher,
-                                              const any_executor& run, region_store& made,
-                                              const progress& on_progress) {
+DOVETAIL_INLINE skeleton_patches
+mesh_patches_by(const skeleton_to_remesh& of,
+                const std::function<meshed_regions(region_set&, const mesh_regions_options&)>& mesh_them,
+                region_store& made, const progress& on_progress) {
   const std::size_t made_before = made.meshes.made();
-  const detail::skeleton_parts parts(of);
+  const skeleton_parts parts(of);
   region_set set = parts.patches();
   skeleton_patches result;
-  result.meshes = mesh_regions(of.model, set, mesher, of.size, run, made,
-                               {.parameters = false,
-                                .deviation = true,
-                                .angles = true,
-                                .on_progress = on_progress,
-                                .stage = "skeleton"});
+  result.meshes = mesh_them(set, {.parameters = false,
+                                  .deviation = true,
+                                  .angles = true,
+                                  .on_progress = on_progress,
+                                  .stage = "skeleton"});
   if (!result.meshes.failures.empty()) {
     const auto& [patch, reason] = *result.meshes.failures.begin();
     throw mesher_error("remeshing of " + parts.name_of(patch) + " failed: " + reason);
@@ -144,6 +142,8 @@ DOVETAIL_INLINE skeleton_patches mesh_patches(const skeleton_to_remesh& of, cons
   result.made = made.meshes.made() - made_before;
   return result;
 }
+
+} // namespace detail
 
 DOVETAIL_INLINE std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
                                                               const coarse_skeleton& skeleton,

@@ -7,7 +7,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/concepts.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
@@ -56,10 +56,10 @@ struct matched_skeleton {
 };
 
 /// The trials of one task, during which the lines stay as they are.
+template <surface_mesher Mesher>
 class segment_trials {
 public:
-  segment_trials(const any_geometry& model, const matched_skeleton& skeleton,
-                 const any_surface_mesher& mesher)
+  segment_trials(const any_geometry& model, const matched_skeleton& skeleton, const Mesher& mesher)
       : model_(model), skeleton_(skeleton), mesher_(mesher) {}
 
   /// What becomes of the lines of a face: the change that lifts its angle the most, less what the faces
@@ -295,7 +295,7 @@ private:
 
   const any_geometry& model_;
   const matched_skeleton& skeleton_;
-  const any_surface_mesher& mesher_;
+  const Mesher& mesher_;
   std::map<std::pair<local_id, line_segments>, std::vector<vec3>> tried_;
   std::map<std::pair<local_id, face_segments>, double> deficits_;
 };

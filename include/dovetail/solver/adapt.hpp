@@ -85,8 +85,8 @@ erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double
 /// Meshes the model of a boundary: what `adapt` does when it has made it. Throws what `generate` throws, and
 /// `mesh_error` when the mesh is not one of a model that was given, or has ids or materials on parts of its
 /// faces or solids.
-template <int D>
-adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const any_parameters<D>& given);
+template <int D, bound_parameters<D> Parameters>
+adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const Parameters& given);
 
 namespace detail {
 
@@ -115,7 +115,7 @@ template <int D, class Sizes, class Parameters>
 adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
                  const adaptation_options& options = {}) {
   if constexpr (detail::checked_parameters<D, Parameters>()) {
-    const any_parameters<D> given(policies);
+    const auto& given = bind_parameters<D>(policies);
     const auto size = detail::sizes_to_adapt_to(old, sizes, options);
     return mesh_again<D>(model_of_boundary(old, options.feature_angle_deg), size, given);
   }
@@ -134,7 +134,7 @@ template <int D, geometry_model G, class Sizes, class Parameters>
 adapted<D> adapt(const G& model, const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
                  const adaptation_options& options = {}) {
   if constexpr (detail::checked_parameters<D, Parameters>()) {
-    const any_parameters<D> given(policies);
+    const auto& given = bind_parameters<D>(policies);
     const auto size = detail::sizes_to_adapt_to(old, sizes, options);
     return mesh_again<D>(model_of_mesh<D>(any_geometry(model), old), size, given);
   }

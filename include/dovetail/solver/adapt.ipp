@@ -253,8 +253,8 @@ erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double
   return erased_sizing(background_field(mesh, std::move(sizes)));
 }
 
-template <int D>
-adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const any_parameters<D>& given) {
+template <int D, bound_parameters<D> Parameters>
+adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const Parameters& given) {
   auto background = make_background<D>(boundary.model, size, given);
   if (boundary.named_by)
     detail::name_entities(boundary, background.mesh.surface);

@@ -27,7 +27,7 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   undivided.options.subdomains = 1;
   auto background = make_background<3>(model, size, undivided);
   const auto solids = leave_undivided(background.mesh.surface, model.topology());
-  decomposition_rounds<3> rounds(model, background.mesh, solids, background.size, undivided);
+  decomposition_rounds rounds(model, background.mesh, solids, background.size, undivided);
   auto boundaries = rounds.realize_boundaries();
   if (!boundaries)
     throw intersection_error(rounds.too_many_merges());

@@ -35,4 +35,5 @@ struct ito_improvement {
 
 #ifndef DOVETAIL_COMPILED
 #include "dovetail/experiments/baselines/ito_improvement.ipp"
+#include "dovetail/improver/any_improver.hpp"
 #endif

@@ -36,4 +36,5 @@ struct loehner_improvement {
 
 #ifndef DOVETAIL_COMPILED
 #include "dovetail/experiments/baselines/loehner_improvement.ipp"
+#include "dovetail/improver/any_improver.hpp"
 #endif

@@ -1,0 +1,40 @@
+/// @file
+/// What may be asked of any policy, whether it has an answer of its own or not. One that holds another behind
+/// one type (`any_mesher`, ...) answers for the one that it holds.
+#pragma once
+
+#include <concepts>
+#include <string>
+
+namespace dovetail {
+
+/// Whether there is a policy to call: one that holds another may hold none.
+template <class Policy>
+bool is_given(const Policy& policy) {
+  if constexpr (requires { static_cast<bool>(policy); })
+    return static_cast<bool>(policy);
+  else
+    return true;
+}
+
+/// The name that a policy was given, for reports and errors; empty for one that has none.
+template <class Policy>
+std::string policy_name(const Policy& policy) {
+  if constexpr (requires {
+                  { policy.name() } -> std::convertible_to<std::string>;
+                })
+    return policy.name();
+  else
+    return {};
+}
+
+/// The traits of a policy, which may depend on its members.
+template <class Policy>
+auto policy_traits(const Policy& policy) {
+  if constexpr (requires { policy.actual_traits(); })
+    return policy.actual_traits();
+  else
+    return Policy::traits;
+}
+
+} // namespace dovetail

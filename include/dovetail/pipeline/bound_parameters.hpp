@@ -1,0 +1,80 @@
+/// @file
+/// What the stages of the pipeline are instantiated with: the parameters as they are given, or with the
+/// compiled library, which has one instantiation for each dimension, `any_parameters<D>`.
+#pragma once
+
+#include "dovetail/mesher/by_regions.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/pipeline/parameters.hpp"
+#ifdef DOVETAIL_COMPILED
+#include "dovetail/pipeline/any_parameters.hpp"
+#endif
+
+#include <concepts>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Whether mesher and improver are of dimension D; where not, the compiler's error says so.
+template <int D, class Given>
+consteval bool policies_fit() {
+  using mesher_type = decltype(Given::mesh_it);
+  constexpr bool has_mesher = D == 2 || !std::same_as<mesher_type, no_mesher>;
+  constexpr bool fits = std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, D>;
+  constexpr bool improves = improver<decltype(Given::improve_it), D>;
+  static_assert(has_mesher, "generate<3> needs a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
+  static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
+  static_assert(improves, "generate<D> needs an improver of elements of dimension D");
+  return has_mesher && fits && improves;
+}
+
+/// Whether `generate<D>` can run on these; where not, the compiler's first error says what it needs.
+template <int D, class Given>
+consteval bool checked_parameters() {
+  static_assert(is_parameters<Given>,
+                "generate takes parameters: options go into parameters<>{}.with_options(options), "
+                "a mesher into .with_mesher(mesher)");
+  if constexpr (!is_parameters<Given>)
+    return false;
+  else
+    return policies_fit<D, Given>();
+}
+
+} // namespace detail
+
+/// Parameters that the stages of `generate<D>` take: all policies are there and fit, and the executor, which
+/// is called once for many tasks, is behind its one type.
+template <class Given, int D>
+concept bound_parameters =
+#ifdef DOVETAIL_COMPILED
+    std::same_as<Given, any_parameters<D>>;
+#else
+    detail::is_parameters<Given> && std::same_as<decltype(Given::run_tasks), any_executor> &&
+    boundary_keeping_mesher<decltype(Given::mesh_it), D> && improver<decltype(Given::improve_it), D>;
+#endif
+
+/// The same policies as the stages take them. In D = 2 the mesher is the surface mesher, by regions, unless
+/// another one was chosen; in D = 3 one has to be.
+template <int D, class Given>
+  requires(!bound_parameters<Given, D>)
+auto bind_parameters(const Given& given) {
+  if constexpr (detail::checked_parameters<D, Given>()) {
+    if constexpr (std::same_as<decltype(Given::mesh_it), no_mesher>) {
+      using by_surface_mesher = mesher::by_regions<decltype(Given::mesh_surface)>;
+      return bind_parameters<D>(given.with_mesher(by_surface_mesher{given.mesh_surface}));
+    } else {
+#ifdef DOVETAIL_COMPILED
+      return any_parameters<D>(given);
+#else
+      return given.with_executor(any_executor(given.run_tasks));
+#endif
+    }
+  }
+}
+template <int D, bound_parameters<D> Given>
+const Given& bind_parameters(const Given& given) {
+  return given;
+}
+
+} // namespace dovetail
