@@ -1,4 +1,8 @@
 #include "dovetail/mesher/native.hpp"
+#include "dovetail/mesher/native/boundary_points.hpp"
+#include "dovetail/mesher/native/boundary_recovery.hpp"
+#include "dovetail/mesher/native/inside_elements.hpp"
+#include "dovetail/triangulation/delaunay.hpp"
 #include "mesher/random_pieces.hpp"
 #include "mesher/shapes.hpp"
 #include "triangulation/triangulation_checks.hpp"

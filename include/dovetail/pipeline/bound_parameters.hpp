@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/mesher/by_regions.hpp"
+#include "dovetail/mesher/native.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/parameters.hpp"
 #ifdef DOVETAIL_COMPILED
@@ -20,13 +21,11 @@ namespace detail {
 template <int D, class Given>
 consteval bool policies_fit() {
   using mesher_type = decltype(Given::mesh_it);
-  constexpr bool has_mesher = D == 2 || !std::same_as<mesher_type, no_mesher>;
-  constexpr bool fits = std::same_as<mesher_type, no_mesher> || boundary_keeping_mesher<mesher_type, D>;
+  constexpr bool fits = std::same_as<mesher_type, default_mesher> || boundary_keeping_mesher<mesher_type, D>;
   constexpr bool improves = improver<decltype(Given::improve_it), D>;
-  static_assert(has_mesher, "generate<3> needs a mesher: parameters<>{}.with_mesher(mesher::tetgen{})");
   static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
   static_assert(improves, "generate<D> needs an improver of elements of dimension D");
-  return has_mesher && fits && improves;
+  return fits && improves;
 }
 
 /// Whether `generate<D>` can run on these; where not, the compiler's first error says what it needs.
@@ -54,13 +53,15 @@ concept bound_parameters =
     boundary_keeping_mesher<decltype(Given::mesh_it), D> && improver<decltype(Given::improve_it), D>;
 #endif
 
-/// The same policies as the stages take them. In D = 2 the mesher is the surface mesher, by regions, unless
-/// another one was chosen; in D = 3 one has to be.
+/// The same policies as the stages take them. Unless a mesher was chosen it is `mesher::native` in D = 3, the
+/// surface mesher, by regions, in D = 2.
 template <int D, class Given>
   requires(!bound_parameters<Given, D>)
 auto bind_parameters(const Given& given) {
   if constexpr (detail::checked_parameters<D, Given>()) {
-    if constexpr (std::same_as<decltype(Given::mesh_it), no_mesher>) {
+    if constexpr (D == 3 && std::same_as<decltype(Given::mesh_it), default_mesher>) {
+      return bind_parameters<D>(given.with_mesher(mesher::native{}));
+    } else if constexpr (std::same_as<decltype(Given::mesh_it), default_mesher>) {
       using by_surface_mesher = mesher::by_regions<decltype(Given::mesh_surface)>;
       return bind_parameters<D>(given.with_mesher(by_surface_mesher{given.mesh_surface}));
     } else {

@@ -51,8 +51,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// Generates a mesh sized by `size`: for D = 3 tetrahedra of all solids of `model`, for D = 2 triangles of
 /// all its faces.
 ///
-///     auto solid = generate<3>(model, uniform_size(2.0), parameters<>{}.with_mesher(mesher::tetgen{}));
-///     auto shell = generate<2>(model, uniform_size(2.0), parameters<>{});
+///     auto solid = generate<3>(model, uniform_size(2.0), parameters<>{});
+///     auto shell = generate<2>(model, uniform_size(2.0), parameters<>{}.with_executor(parallel::threads{}));
 ///
 /// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
 /// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could

@@ -26,8 +26,8 @@
 
 namespace dovetail {
 
-/// Stands for the mesher that has to be chosen: all meshers are adapters of other libraries.
-struct no_mesher {};
+/// Stands for the mesher of a dimension: of tetrahedra `mesher::native`, of triangles the surface mesher.
+struct default_mesher {};
 
 /// Everything about `generate` that is not a policy. Lengths are in the model's unit.
 struct generate_options {
@@ -89,7 +89,7 @@ Improver first_background_improver() {
 
 /// Policies and options. Each `with_...` returns parameters with one policy replaced. All policies are bound
 /// at compile time; those behind one type each are `any_parameters<D>`, to which all parameters convert.
-template <class Mesher = no_mesher, class Partitioner = partition::greedy,
+template <class Mesher = default_mesher, class Partitioner = partition::greedy,
           class Improver = improvement::native, class Executor = parallel::serial,
           class Rule = simplifier::paper, class BackgroundImprover = improvement::native,
           class SurfaceMesher = remesh::patch_remesher>

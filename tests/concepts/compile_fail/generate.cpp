@@ -1,16 +1,14 @@
 // near miss 1: options in place of parameters
 // first error 1: options go into parameters<>\{\}\.with_options
-// near miss 2: no mesher of tetrahedra
-// first error 2: generate<3> needs a mesher: parameters<>\{\}\.with_mesher
-// near miss 3: a mesher of triangles
-// first error 3: needs a mesher of elements of dimension D
-// near miss 4: an improver of triangles alone
-// first error 4: needs an improver of elements of dimension D
-// near miss 5: a mesher in place of parameters
-// first error 5: a mesher into \.with_mesher
+// near miss 2: a mesher of triangles
+// first error 2: needs a mesher of elements of dimension D
+// near miss 3: an improver of triangles alone
+// first error 3: needs an improver of elements of dimension D
+// near miss 4: a mesher in place of parameters
+// first error 4: a mesher into \.with_mesher
 #include "dovetail/pipeline/generate.hpp"
-// near miss 6: a mesher of tetrahedra for a background mesh of triangles
-// error 6: needs a mesher of elements of dimension D
+// near miss 5: a mesher of tetrahedra for a background mesh of triangles
+// error 5: needs a mesher of elements of dimension D
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -32,16 +30,15 @@ void call(const dovetail::plane_domain& model) {
 #if NEAR_MISS == 1
   generate<3>(model, size, generate_options{.subdomains = 4});
 #elif NEAR_MISS == 2
-  generate<3>(model, size, parameters<>{});
-#elif NEAR_MISS == 3
   generate<3>(model, size, parameters<>{}.with_mesher(mesher::by_regions<any_surface_mesher>{}));
-#elif NEAR_MISS == 4
+#elif NEAR_MISS == 3
   generate<3>(model, size, parameters<>{}.with_mesher(my_mesher{}).with_improver(improver_of_triangles{}));
-#elif NEAR_MISS == 5
+#elif NEAR_MISS == 4
   generate<3>(model, size, my_mesher{});
-#elif NEAR_MISS == 6
+#elif NEAR_MISS == 5
   make_background<2>(model, size, parameters<>{}.with_mesher(my_mesher{}));
 #else
   generate<3>(model, size, parameters<>{}.with_mesher(my_mesher{}).with_options({.subdomains = 4}));
+  generate<3>(model, size, parameters<>{});
 #endif
 }
