@@ -1,7 +1,6 @@
 /// From a CAD file to a conforming tetrahedral mesh.
 /// Usage: 01_mesh_a_cad_file FILE FOLDER [SIZE]    (STEP, IGES or BREP; SIZE is the wanted edge length)
 #include "dovetail/adapters/metis.hpp"
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/occt_model.hpp"
 
@@ -16,10 +15,9 @@ void mesh_file(const char* file, const char* folder, double edge_length) {
   const auto model = read_occt_model(file).model;
   const uniform_size size(edge_length > 0 ? edge_length : model.bounds().diagonal() / 25);
   const auto policies = parameters<>{}
-                            .with_mesher(mesher::tetgen{})
                             .with_partitioner(partition::metis{})
                             .with_improver(improvement::native::fine())
-                            .with_executor(parallel::processes{});
+                            .with_executor(parallel::threads{});
   const auto result = generate<3>(model, size, policies);
   for (const auto& failure : result.failures)
     throw mesher_error("subdomain " + std::to_string(failure.subdomain) + ": " +

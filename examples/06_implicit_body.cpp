@@ -1,6 +1,5 @@
 /// A body given by a formula, meshed: no file needed.
 /// Usage: 06_implicit_body [SIZE (default 0.08)]
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/implicit/shapes.hpp"
 #include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -19,8 +18,7 @@ int main(int argc, char** argv) try {
   const uniform_size size(argc > 1 ? std::atof(argv[1]) : 0.08);
   generate_options options;
   options.subdomains = 6;
-  const auto result =
-      generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}).with_options(options));
+  const auto result = generate<3>(model, size, parameters<>{}.with_options(options));
   std::printf("%zu faces, %zu subdomains, %lld tetrahedra, smallest dihedral angle %.1f degrees\n",
               model.topology().faces.size(), result.mesh.counts.size(),
               static_cast<long long>(result.quality.elements), result.quality.min_dihedral_deg);

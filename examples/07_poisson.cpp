@@ -1,6 +1,5 @@
 /// Linear finite elements from a CAD file with Eigen: -laplace(u) = f with u given on the boundary, solved at
 /// two sizes. The error of a method of second order falls to a quarter. Usage: 07_poisson FILE [SIZE]
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/solver/gather.hpp"
@@ -47,7 +46,7 @@ int main(int argc, char** argv) try {
   const double size = argc > 2 ? std::atof(argv[2]) : diagonal / 16;
   double before = 0;
   for (const double h : {size, size / 2}) {
-    const auto result = generate<3>(model, uniform_size(h), parameters<>{}.with_mesher(mesher::tetgen{}));
+    const auto result = generate<3>(model, uniform_size(h), parameters<>{});
     const auto whole = io::gather(result.mesh);
     const double error = l2_error(whole.mesh, solve(whole.mesh, exact), exact);
     std::printf("size %.3g: %zu tetrahedra, error %.3g\n", h, whole.mesh.elements.size(), error);

@@ -2,7 +2,6 @@
 /// threshold of the simplification, with the background mesh as it comes from the mesher and improved? Usage:
 /// 08_thresholds FILE [SIZE [SUBDOMAINS]]
 #include "dovetail/adapters/metis.hpp"
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/occt_model.hpp"
 
@@ -51,7 +50,7 @@ int main(int argc, char** argv) try {
   }
   const auto model = read_occt_model(argv[1]).model;
   const uniform_size size(argc > 2 ? std::atof(argv[2]) : model.bounds().diagonal() / 25);
-  const auto policies = parameters<>{}.with_mesher(mesher::tetgen{});
+  const auto policies = parameters<>{};
   const int subdomains = argc > 3 ? std::atoi(argv[3]) : 16;
   const auto improved = make_background<3>(model, size, policies);
   const auto raw = make_background<3>(model, size, policies.with_background_improver(improvement::none{}));

@@ -1,7 +1,6 @@
 /// Solve, estimate, adapt: linear finite elements on a body with an edge that points inwards, where the
 /// solution has unbounded gradients. Meshes adapted to an estimate of the error against uniform ones.
 /// Usage: 09_adaptive_poisson [LOOPS]
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/solver/adapt.hpp"
@@ -141,7 +140,7 @@ int main(int argc, char** argv) try {
   const int loops = argc > 1 ? std::atoi(argv[1]) : 4;
   const auto model = l_shaped_body();
   const edge_singularity exact;
-  const auto policies = parameters<>{}.with_mesher(mesher::tetgen{}).with_executor(parallel::processes{});
+  const auto policies = parameters<>{}.with_executor(parallel::processes{});
 
   std::puts("uniform:  elements      error");
   std::size_t uniform_elements = 0;

@@ -1,6 +1,5 @@
 /// Second-order elements: nodes in the middle of edges, on the model, and what they are worth.
 /// Usage: 10_second_order
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/implicit/shapes.hpp"
 #include "dovetail/models/implicit_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -65,7 +64,7 @@ int main() try {
   // part mesh
   const implicit_model ball(implicit::sphere{}, {{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}});
   for (const double size : {0.4, 0.2}) {
-    const auto made = generate<3>(ball, uniform_size(size), parameters<>{}.with_mesher(mesher::tetgen{}));
+    const auto made = generate<3>(ball, uniform_size(size), parameters<>{});
     const auto linear = io::gather(made.mesh);
     const auto quadratic = io::second_order(linear, ball);
     last = {exact - volume(linear.mesh), std::abs(exact - volume(quadratic))};

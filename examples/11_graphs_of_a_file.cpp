@@ -1,7 +1,6 @@
 /// The dual graph of a mesh that was read from a file, for the algorithms of Boost.Graph.
 /// Usage: 11_graphs_of_a_file [MESH (VTU, PVTU or MSH; default: two balls, written to two_balls.msh)]
 #include "dovetail/adapters/boost_graph.hpp"
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/files/msh_writer.hpp"
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/models/implicit/shapes.hpp"
@@ -26,7 +25,7 @@ void write_two_balls() {
     return std::min(implicit::sphere{{-1.5, 0, 0}, 1}(p), implicit::sphere{{1.5, 0, 0}, 1.2}(p));
   };
   const implicit_model model(two_balls, {{-3, -2, -2}, {3, 2, 2}});
-  const auto made = generate<3>(model, uniform_size(0.3), parameters<>{}.with_mesher(mesher::tetgen{}));
+  const auto made = generate<3>(model, uniform_size(0.3), parameters<>{});
   io::msh_writer{.stem = "two_balls"}(made.mesh, ".");
 }
 

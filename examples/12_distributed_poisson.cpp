@@ -2,7 +2,6 @@
 /// own elements, and what ranks share is added up along the lists of neighbours. Here all ranks are in one
 /// process; with MPI `exchange` sends and receives. Compared with the serial solution. Usage:
 /// 12_distributed_poisson [RANKS [SIZE]]
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/distributed/by_pieces.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/implicit/shapes.hpp"
@@ -138,9 +137,7 @@ int main(int argc, char** argv) try {
   const int count = argc > 1 ? std::atoi(argv[1]) : 4;
   const double size = argc > 2 ? std::atof(argv[2]) : 0.25;
   const implicit_model body(implicit::sphere{}, {{-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}}, {.resolution = 32});
-  const auto result =
-      generate<3>(body, uniform_size(size),
-                  parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 12}));
+  const auto result = generate<3>(body, uniform_size(size), parameters<>{}.with_options({.subdomains = 12}));
   const auto given = redistribution_by::pieces{}(result.mesh, count);
   const auto numbers = io::number_by_ranks(result.mesh, given.rank_of_piece, count);
   std::vector<rank_mesh<3>> ranks; // with MPI a rank makes its own

@@ -1,6 +1,5 @@
 /// A partitioner of one's own, used by the whole pipeline.
 /// Usage: c01_custom_partitioner FILE [SUBDOMAINS (default 8)]
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -43,10 +42,7 @@ int main(int argc, char** argv) try {
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
   generate_options options;
   options.subdomains = argc > 2 ? std::atoi(argv[2]) : 8;
-  const auto given = parameters<>{}
-                         .with_mesher(mesher::tetgen{})
-                         .with_partitioner(layers{.first_node = 0})
-                         .with_options(options);
+  const auto given = parameters<>{}.with_partitioner(layers{.first_node = 0}).with_options(options);
   const auto result = generate<3>(model, uniform_size(model.bounds().diagonal() / 25), given);
   for (std::size_t s = 0; s < result.mesh.counts.size(); ++s)
     std::printf("subdomain %zu: %lld tetrahedra\n", s,

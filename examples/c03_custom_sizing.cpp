@@ -1,6 +1,5 @@
 /// Sizing fields of one's own: a struct, a lambda, and what the library makes of them.
 /// Usage: c03_custom_sizing FILE
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/compose.hpp"
@@ -30,7 +29,7 @@ int main(int argc, char** argv) try {
   const auto fine_corner = [&](vec3 p) { return coarse / 4 + 0.4 * norm(p - box.lower); };
 
   const auto size = minimum_of(weld, fine_corner, [=](vec3) { return coarse; });
-  const auto result = generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}));
+  const auto result = generate<3>(model, size, parameters<>{});
   // end
 
   const mesh_piece piece = result.mesh.load(0);

@@ -1,6 +1,5 @@
 /// A simplification rule of one's own, used by the whole pipeline.
 /// Usage: c04_custom_rule FILE
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -46,7 +45,7 @@ int main(int argc, char** argv) try {
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
   const auto box = model.bounds();
   // part use
-  const auto plain = parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = 8});
+  const auto plain = parameters<>{}.with_options({.subdomains = 8});
   const auto given = plain.with_simplifier(away_from{box.center(), 0.2 * box.diagonal()});
   const auto result = generate<3>(model, uniform_size(box.diagonal() / 25), given);
   // end

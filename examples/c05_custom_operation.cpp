@@ -1,6 +1,5 @@
 /// An operation of one's own in the native improver, used by the whole pipeline.
 /// Usage: c05_custom_operation FILE
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/improver/native_by.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
@@ -52,8 +51,7 @@ struct my_operations : native_operations {
 int main(int argc, char** argv) try {
   using namespace dovetail;
   const auto model = read_occt_model(argc > 1 ? argv[1] : "").model;
-  const auto given =
-      parameters<>{}.with_mesher(mesher::tetgen{}).with_improver(native_by<my_operations>{native::fine()});
+  const auto given = parameters<>{}.with_improver(native_by<my_operations>{native::fine()});
   const auto result = generate<3>(model, uniform_size(model.bounds().diagonal() / 25), given);
   std::printf("smallest dihedral angle: %.1f degrees\n", result.quality.min_dihedral_deg);
   return result.failures.empty() ? 0 : 1;

@@ -1,6 +1,5 @@
 /// A writer of one's own: a mesh for the flow solver SU2, one piece in memory at a time.
 /// Usage: c06_custom_writer FILE FOLDER
-#include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/dovetail.hpp"
 #include "dovetail/files/concepts.hpp"
 #include "dovetail/files/face_groups.hpp"
@@ -65,7 +64,7 @@ int main(int argc, char** argv) try {
     throw input_error("usage: c06_custom_writer FILE FOLDER");
   const auto model = read_occt_model(argv[1]).model;
   const uniform_size size(model.bounds().diagonal() / 25);
-  const auto result = generate<3>(model, size, parameters<>{}.with_mesher(mesher::tetgen{}));
+  const auto result = generate<3>(model, size, parameters<>{});
   std::printf("%.0f tetrahedra\n", su2_writer{}(result.mesh, argv[2]).get("elements"));
 } catch (const dovetail::error& problem) {
   std::fprintf(stderr, "%s\n", problem.what());
