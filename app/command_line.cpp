@@ -166,6 +166,7 @@ struct parser {
   check_options check;
   stats_options stats;
   improve_options improve;
+  filling_options fill;
   adapt_options adapt;
   compare_options compare;
   simulate_options simulate;
@@ -191,6 +192,7 @@ struct parser {
     add_check();
     add_stats();
     add_improve();
+    add_fill();
     add_adapt();
     add_compare();
     add_simulate();
@@ -338,6 +340,40 @@ struct parser {
       chosen = [this] { return run_improve(improve); };
       inputs = inputs_of_mesh("IN", improve.input);
       outputs.files = {{"--out", improve.out}, {"--report", improve.report}};
+    });
+  }
+  void add_fill() {
+    auto& command =
+        *app.add_subcommand("fill", "Mesh the inside of a closed surface of triangles, all of them kept");
+    add_examples(command, {"dovetail fill wing.stl -o wing.vtu", "dovetail fill mesh.vtu -o wing.msh -s 0.5",
+                           "dovetail fill wing.stl -o wing.vtu --growth 0.4 --void=0.5,0,1"});
+    command
+        .add_option("IN", fill.input,
+                    "Triangles: STL, OBJ, OFF, PLY, or a mesh file with triangles (VTU, PVTU, VTP, MSH)")
+        ->required();
+    command.add_option("-o,--out", fill.out, "Mesh file to write (VTU or MSH)")->required();
+    auto* size = command.add_option("-s,--size", fill.size,
+                                    "Edge length inside (default: that of the triangles, growing inwards)");
+    command.add_option("--sizing", fill.sizing, "JSON file with a sizing field (docs/sizing.md)")
+        ->excludes(size);
+    command.add_option("--growth", fill.growth,
+                       "Most that edge lengths grow per length away from the triangles (default: 0.25)");
+    command
+        .add_option("--void", fill.voids,
+                    "A point x,y,z of a region to leave empty; may be given several times")
+        ->allow_extra_args(false);
+    command.add_option("--mesher", fill.mesher, "Volume mesher: " + joined(mesher_names<3>()));
+    command.add_option("--improver", fill.improver, "Mesh improver: " + joined(improver_names()));
+    command.add_option("-j,--workers", fill.workers,
+                       "Worker processes, for several regions (default: the number of processors)");
+    command.add_option("--report", fill.report, "JSON file for the figures");
+    command.add_flag("--quiet", fill.quiet, "No progress and no summary");
+    command.callback([this] {
+      chosen = [this] { return run_fill(fill); };
+      inputs = inputs_of_mesh("IN", fill.input);
+      const auto of_sizing = inputs_of_sizing(fill.sizing);
+      inputs.insert(inputs.end(), of_sizing.begin(), of_sizing.end());
+      outputs.files = {{"--out", fill.out}, {"--report", fill.report}};
     });
   }
   void add_adapt() {

@@ -4,6 +4,7 @@
 
 #include "compare_options.hpp"
 #include "experiment_options.hpp"
+#include "filling_options.hpp"
 #include "options.hpp"
 #include "simulate_options.hpp"
 
@@ -19,6 +20,7 @@ int run_models();
 int run_check(const check_options& options);
 int run_stats(const stats_options& options);
 int run_improve(const improve_options& options);
+int run_fill(const filling_options& options);
 int run_adapt(const adapt_options& options);
 int run_simulate(const simulate_options& options);
 int run_experiment(const experiment_options& options);

@@ -36,6 +36,12 @@ expect_usage_error "required|MESH" check
 expect_usage_error "required|MESH" stats
 expect_usage_error "required" improve
 expect_usage_error "required|--out" improve mesh.vtu
+expect_usage_error "required|--out" fill part.stl
+expect_usage_error "extension" fill part.stl -o mesh.stl
+expect_usage_error "excludes|sizing" fill part.stl -o mesh.vtu --size 1 --sizing sizes.json
+expect_usage_error "--void: '1,2' is not a point; give x,y,z" fill part.stl -o mesh.vtu --void=1,2
+expect_usage_error "--growth: 0 is not a growth" fill part.stl -o mesh.vtu --growth 0
+expect_usage_error "--mesher: there is no 'nonsense'; there are: .*native" fill part.stl -o mesh.vtu --mesher nonsense
 expect_usage_error "required|--out" adapt mesh.vtu --size 1
 expect_usage_error "--sizes, --size or --sizing" adapt mesh.vtu -o next.vtu
 expect_usage_error "excludes|sizes" adapt mesh.vtu -o next.vtu --sizes h --size 1
@@ -46,6 +52,7 @@ for size in 0 -1 nan -nan inf 1e-400; do
   expect_usage_error "--size" mesh no_such_file.step --size=$size
   expect_usage_error "--size" plan --model combustor --size=$size
   expect_usage_error "--size" compare --model combustor --size=$size
+  expect_usage_error "--size" fill no_such_file.stl -o next.vtu --size=$size
   expect_usage_error "--size" adapt no_such_file.vtu -o next.vtu --size=$size
 done
 expect_usage_error "--size" mesh --model combustor --size large
@@ -111,7 +118,7 @@ predicted --proximity 0 --size 0.1
 
 # The examples at the end of each help are command lines: what is missing are their files.
 examples=0
-for command in mesh plan check stats improve adapt compare; do
+for command in mesh plan check stats improve fill adapt compare; do
   mapfile -t lines < <("$driver" $command --help | sed -n '/^Examples:/,$ s/^  dovetail //p')
   ((${#lines[@]})) || { what="$command --help"; fault "there is no example"; }
   for line in "${lines[@]}"; do

@@ -209,10 +209,9 @@ TEST_CASE("where a piece stays folded over its lines become finer, and nothing e
   const auto model = occt_shape_from(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape()).model;
   generate_options options = in_parts(3);
   options.coarse_scale = 4;
-  auto given = parameters<>{}.with_options(options);
-  const auto plain = generate<2>(model, uniform_size(0.2), given);
-  given.mesh_surface = folding_at_a_place{};
-  const auto finer = generate<2>(model, uniform_size(0.2), given);
+  const auto folding = parameters<>{}.with_surface_mesher(folding_at_a_place{});
+  const auto plain = generate<2>(model, uniform_size(0.2), parameters<>{}.with_options(options));
+  const auto finer = generate<2>(model, uniform_size(0.2), folding.with_options(options));
   CHECK(finer.failures.empty());
   CHECK(finer.summary.find("intersection").get("refinements") > 0);
   CHECK(finer.summary.find("intersection").get("merged_after_failure") == 0);
@@ -222,9 +221,7 @@ TEST_CASE("where a piece stays folded over its lines become finer, and nothing e
   CHECK(mesh.triangles.size() < 2 * require_valid(plain).triangles.size());
 
   options.refinement_rounds = 0; // then it is merged, and fails
-  given = parameters<>{}.with_options(options);
-  given.mesh_surface = folding_at_a_place{};
-  CHECK_FALSE(generate<2>(model, uniform_size(0.2), given).failures.empty());
+  CHECK_FALSE(generate<2>(model, uniform_size(0.2), folding.with_options(options)).failures.empty());
 }
 
 TEST_CASE("written to VTU and MSH files, a shell reads back as the same mesh, with its faces") {

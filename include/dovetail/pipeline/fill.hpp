@@ -1,0 +1,123 @@
+/// @file
+/// The inside of a given triangulation, with every triangle of it kept.
+#pragma once
+
+#include "dovetail/core/progress.hpp"
+#include "dovetail/core/report.hpp"
+#include "dovetail/improver/concepts.hpp"
+#include "dovetail/improver/native.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/mesher/concepts.hpp"
+#include "dovetail/mesher/native.hpp"
+#include "dovetail/mesher/preferences.hpp"
+#include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/sizing/concepts.hpp"
+#include "dovetail/sizing/erased.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
+#include "dovetail/sizing/surface_sizes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace dovetail {
+
+/// What is said of the region that a point is in.
+struct region_mark {
+  vec3 place;
+  local_id material = no_id; ///< `no_id`: it is left empty
+};
+
+struct fill_options {
+  double growth = 0.25; ///< of the sizes that the surface has of itself, per length
+  std::vector<region_mark> marks = {};
+  /// More predicted elements are refused before anything is meshed; the indices of a mesh in memory end soon
+  /// after.
+  double largest_prediction = 2e8;
+  any_executor run_regions = parallel::serial{}; ///< what the regions are meshed by
+  progress on_progress = {};
+};
+
+/// A region that was filled.
+struct filled_region {
+  local_id material = 0;
+  std::size_t elements = 0;
+  double volume = 0;
+};
+
+struct filled_surface {
+  simplicial_mesh<3> mesh; ///< the surface's points first, then those inside; tags: materials
+  /// Per triangle of the surface: the materials behind it and before it, where its normal points to; `no_id`
+  /// where it is empty.
+  std::vector<std::array<local_id, 2>> materials_beside;
+  std::vector<filled_region> regions;
+  quality_statistics quality;
+  report summary; ///< "triangles", "regions", "voids", "elements"; children "checks", "regions",
+                  ///< "sizes", "meshing"
+};
+
+namespace detail {
+
+/// What the policies do for `fill`, which is compiled once without them.
+struct enclosed_region_mesher {
+  double elements_per_inverse_cubed_size = 0;
+  std::function<meshed_pieces<3>(std::size_t count, const piece_source<3>& source, const refined_sizing& size,
+                                 const meshing_options& how)>
+      mesh = {};
+};
+
+/// `fill` by these; without a size in those of the surface.
+filled_surface fill_by(const enclosed_region_mesher& mesh_regions, const simplicial_mesh<2>& surface,
+                       const any_sizing& size, const fill_options& options);
+
+template <class M, class I>
+filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh<2>& surface,
+                       const any_sizing& size, const fill_options& options) {
+  const auto mesh = [&](std::size_t count, const piece_source<3>& source, const refined_sizing& sizes,
+                        const meshing_options& how) {
+    return mesh_subdomains<3>(count, source, mesh_it, improve, sizes, options.run_regions, how);
+  };
+  return fill_by({dovetail::elements_per_inverse_cubed_size(mesh_it), mesh}, surface, size, options);
+}
+
+} // namespace detail
+
+/// Meshes what closed triangles enclose, in edges of the given sizes as far as these triangles allow. Every
+/// triangle becomes a side of the result and every point keeps its index, both bit for bit.
+///
+/// `surface`: any number of shells beside, around and inside each other, which may have edges and corners in
+/// common; edges of more than two triangles, as where inner walls divide a body, are as good as others. Each
+/// triangle once, and none crosses another (`require_fillable`). Each region that triangles enclose becomes a
+/// material, numbered from 0 in the order of their first triangles, or of a number that is asked for by
+/// `marks`.
+///
+/// Regions that all triangles around them show the side that their normals point to are voids and stay empty.
+/// That is only so where all outer triangles are oriented outwards: else orientations mean nothing, all
+/// regions are filled, and a warning says so. Marks decide in any case.
+///
+/// About linear in the elements. The result depends on neither orientation nor executor. Throws
+/// `geometry_error` for a surface that cannot be filled or a mark outside of it, naming places;
+/// `mesher_error` for a region that no attempt could mesh; `sizing_error` also where far too many elements
+/// are predicted; `cancelled`.
+template <sizing_field H, boundary_keeping_mesher<3> M = mesher::native, improver<3> I = native_improver>
+filled_surface fill(const simplicial_mesh<2>& surface, const H& size, const fill_options& options = {},
+                    const M& mesh_it = {}, const I& improve = {}) {
+  return detail::fill_by(mesh_it, improve, surface, erased_sizing(size), options);
+}
+
+/// The same in sizes of the surface: the mean edge at each of its points, growing inwards.
+template <boundary_keeping_mesher<3> M = mesher::native, improver<3> I = native_improver>
+filled_surface fill(const simplicial_mesh<2>& surface, const fill_options& options = {},
+                    const M& mesh_it = {}, const I& improve = {}) {
+  return detail::fill_by(mesh_it, improve, surface, {}, options);
+}
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/fill.ipp"
+#endif
