@@ -314,6 +314,15 @@ TEST_CASE("Pieces of any scale") {
   }
 }
 
+TEST_CASE("A needle far too long for its sizes is refused, and sizes far too small for a piece") {
+  const auto needle = shapes::cells(shapes::block({0, 0, 0}, {4, 1, 1}), {1e6, 1, 1});
+  CHECK_THROWS_WITH_AS(interior_points(needle, uniform(0.2), {.most_points = 1e5}),
+                       doctest::Contains("make them larger"), mesher_error);
+  auto box = shapes::cube(2, 2, {-1, -1, -1});
+  shapes::append(box, shapes::sphere(1, 1e-8), true);
+  CHECK_THROWS_WITH_AS(interior_points(box, uniform(0.5)), doctest::Contains("a millionth"), mesher_error);
+}
+
 TEST_CASE("Triangles much larger and much smaller than the size") {
   const auto coarse = interior_points(shapes::cube(1), uniform(0.1));
   CHECK(coarse.size() > 100);

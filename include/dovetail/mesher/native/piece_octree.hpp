@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/core/octree.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/inside_surface.hpp"
@@ -29,8 +30,8 @@ namespace dovetail::detail {
 class piece_octree {
 public:
   /// Throws `sizing_error` when a size is not positive and finite, `geometry_error` when the boundary is
-  /// open, `mesher_error` when about as many points as the options
-  /// allow, or more, were to be made.
+  /// open, `mesher_error` when about as many points as the options allow, or more, were to be made, or the
+  /// sizes are too small for an octree of the piece.
   piece_octree(const simplicial_mesh<2>& boundary, const any_sizing& size,
                const interior_point_options& options)
       : inside_(boundary), tree_(cube_around(inside_.bounds())) {
@@ -101,7 +102,8 @@ private:
     std::size_t node;
     std::vector<local_id> triangles;
   };
-  static constexpr double widest_leaf = 3; ///< in sizes; sizes within a leaf are interpolated
+  static constexpr double widest_leaf = 3;          ///< in sizes; sizes within a leaf are interpolated
+  static constexpr double nodes_per_point = 0.0625; ///< more are only made where a piece is thin
 
   void collect_triangles(const simplicial_mesh<2>& boundary, const any_sizing& size) {
     triangles_.reserve(boundary.elements.size());
@@ -141,7 +143,8 @@ private:
       double points = 0;
       for (open_node& one : level) {
         points += points_in(one.node);
-        if (!(points < most_points))
+        if (!(points < most_points) ||
+            static_cast<double>(tree_.node_count()) > nodes_per_point * most_points)
           throw mesher_error("the sizes ask for more than " + number_text(most_points) +
                              " points inside; make them larger");
         if (is_too_wide(one.node))
@@ -248,6 +251,9 @@ private:
 
   void split(const open_node& one, std::vector<open_node>& next) {
     tree_.split(one.node);
+    if (tree_.is_leaf(one.node))
+      throw mesher_error("the sizes are less than a millionth of the extent of the boundary at " +
+                         place_text(tree_.box(one.node).center()) + "; make them larger");
     cells_.resize(tree_.node_count());
     corners_.resize(tree_.node_count());
     auto lists = items_by_octant(tree_.box(one.node), span_of(one.triangles), [&](local_id t) {
