@@ -137,7 +137,7 @@ std::vector<double> new_sizes(const simplicial_mesh<3>& mesh, const std::vector<
 } // namespace
 
 int main(int argc, char** argv) try {
-  const int loops = argc > 1 ? std::atoi(argv[1]) : 4;
+  const int loops = argc > 1 ? std::atoi(argv[1]) : 5;
   const auto model = l_shaped_body();
   const edge_singularity exact;
   const auto policies = parameters<>{}.with_executor(parallel::processes{});

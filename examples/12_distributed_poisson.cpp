@@ -6,6 +6,7 @@
 #include "dovetail/dovetail.hpp"
 #include "dovetail/models/implicit/shapes.hpp"
 #include "dovetail/models/implicit_model.hpp"
+#include "dovetail/parallel/in_process.hpp"
 #include "dovetail/solver/gather.hpp"
 #include "linear_elements.hpp"
 

@@ -1,8 +1,8 @@
 /// @file
 /// The pipeline's stages in their order. Beside it, include what you choose: a geometry (occt_model,
-/// discrete_model, plane_domain, implicit_model), adapters of libraries (TetGen, METIS, Gmsh, ...), readers
-/// and further writers. It must stay cheap to include: with the compiled library at most
-/// 450 MB with g++ 12, which a test checks.
+/// discrete_model, plane_domain, implicit_model), adapters of libraries (TetGen, METIS, Gmsh, ...), ranks as
+/// threads (in_process), readers and further writers. It must stay cheap to include: with the compiled
+/// library at most 450 MB with g++ 12, which a test checks.
 #pragma once
 
 // The sizes.
@@ -38,7 +38,6 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/subdomain_surface.hpp"
-#include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/self.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"

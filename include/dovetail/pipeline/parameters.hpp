@@ -21,7 +21,6 @@
 #include <concepts>
 #include <filesystem>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace dovetail {
@@ -162,9 +161,10 @@ struct parameters {
 
   /// To parameters with policies to which each of these converts.
   template <class M, class P, class I, class E, class R, class B, class S>
-    requires std::convertible_to<
-        std::tuple<Mesher, Partitioner, Improver, Executor, Rule, BackgroundImprover, SurfaceMesher>,
-        std::tuple<M, P, I, E, R, B, S>>
+    requires std::convertible_to<Mesher, M> && std::convertible_to<Partitioner, P> &&
+        std::convertible_to<Improver, I> && std::convertible_to<Executor, E> &&
+        std::convertible_to<Rule, R> && std::convertible_to<BackgroundImprover, B> &&
+        std::convertible_to<SurfaceMesher, S>
   operator parameters<M, P, I, E, R, B, S>() const {
     return {mesh_it, partition_it, improve_it,         run_tasks,
             options, simplify_by,  improve_background, mesh_surface};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <cstddef>
