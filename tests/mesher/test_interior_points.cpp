@@ -314,6 +314,18 @@ TEST_CASE("Pieces of any scale") {
   }
 }
 
+TEST_CASE("On a uniform field the lattice is straight and fits the faces of a box") {
+  const double h = 0.118; // a lattice of this size itself ends far from the upper faces
+  const auto points = interior_points(shapes::cube(11), uniform(h));
+  REQUIRE(points.size() > 500);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(),
+                                                 [axis](vec3 p, vec3 q) { return p[axis] < q[axis]; });
+    CHECK(std::abs((*low)[axis] - (1 - (*high)[axis])) < 0.01 * h);
+    CHECK((*low)[axis] < 0.61 * h);
+  }
+}
+
 TEST_CASE("A needle far too long for its sizes is refused, and sizes far too small for a piece") {
   const auto needle = shapes::cells(shapes::block({0, 0, 0}, {4, 1, 1}), {1e6, 1, 1});
   CHECK_THROWS_WITH_AS(interior_points(needle, uniform(0.2), {.most_points = 1e5}),

@@ -44,9 +44,11 @@ public:
   /// Is the size the same wherever it was asked?
   bool is_uniform() const {
     const auto has_first = [&](double size) { return size == uniform_size(); };
-    return std::all_of(cells_.begin(), cells_.end(), [&](const cell& at) {
-      return at.place == place::outside || (at.is_constant && has_first(at.sizes[0]) && has_first(at.least));
-    });
+    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
+      if (const cell& at = cells_[tree_.leaf(n)];
+          at.place != place::outside && !(at.is_constant && has_first(at.sizes[0]) && has_first(at.least)))
+        return false;
+    return true;
   }
   /// The size anywhere, where `is_uniform()`.
   double uniform_size() const { return triangles_.front().size(); }
