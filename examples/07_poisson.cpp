@@ -44,15 +44,19 @@ int main(int argc, char** argv) try {
   const double diagonal = model.bounds().diagonal();
   const wave exact{Eigen::Vector3d(4, 5, 3) / diagonal};
   const double size = argc > 2 ? std::atof(argv[2]) : diagonal / 16;
-  double before = 0;
+  double before = 0, elements_before = 0;
   for (const double h : {size, size / 2}) {
     const auto result = generate<3>(model, uniform_size(h), parameters<>{});
     const auto whole = io::gather(result.mesh);
     const double error = l2_error(whole.mesh, solve(whole.mesh, exact), exact);
     std::printf("size %.3g: %zu tetrahedra, error %.3g\n", h, whole.mesh.elements.size(), error);
+    // The size that a mesh really has goes with the number of its elements to the power of -1/3.
+    const auto elements = static_cast<double>(whole.mesh.elements.size());
     if (before > 0)
-      std::printf("the error falls by a factor of %.2f\n", before / error);
+      std::printf("the error goes with the size to the power of %.2f\n",
+                  3 * std::log(before / error) / std::log(elements / elements_before));
     before = error;
+    elements_before = elements;
   }
 } catch (const dovetail::error& problem) {
   std::fprintf(stderr, "%s\n", problem.what());
