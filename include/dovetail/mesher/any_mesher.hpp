@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/policy.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/mesher/preferences.hpp"
@@ -84,17 +85,9 @@ private:
 
   template <boundary_keeping_mesher<D> M>
   any_mesher(M policy, std::string name, without_fallbacks /*tag*/)
-      : name_(std::move(name)), actual_traits_(traits_of(policy)),
+      : name_(std::move(name)), actual_traits_(policy_traits(policy)),
         elements_per_inverse_cubed_size_(dovetail::elements_per_inverse_cubed_size<M>()),
         elements_per_subdomain_(dovetail::elements_per_subdomain(policy)), call_(std::move(policy)) {}
-
-  template <class M>
-  static mesher_traits traits_of(const M& policy) {
-    if constexpr (requires { policy.actual_traits(); })
-      return policy.actual_traits();
-    else
-      return M::traits;
-  }
 
   std::string name_;
   mesher_traits actual_traits_ = traits;
