@@ -11,9 +11,9 @@ def run(*command):
     return done.stdout
 
 
-def make_mesh(driver, part, folder, ranks):
+def make_mesh(driver, part, folder, ranks, size=2):
     """The HDF5 file of a mesh in 12 subdomains for a number of ranks."""
-    run(driver, "mesh", part, "--size", 2, "--subdomains", 12, "--ranks", ranks, "--format", "xdmf", "--out", folder,
+    run(driver, "mesh", part, "--size", size, "--subdomains", 12, "--ranks", ranks, "--format", "xdmf", "--out", folder,
         "--quiet")
     return f"{folder}/ranks.h5"
 
