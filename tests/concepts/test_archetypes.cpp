@@ -243,9 +243,10 @@ TEST_CASE("what policies cannot do is known before anything is meshed") {
     return 0.1;
   };
   const auto given = parameters<>{}.with_improver(archetype::surface_improver(0));
-  CHECK_THROWS_AS(generate<2>(square, size, given.with_executor(parallel::threads{2})), usage_error);
+  CHECK_THROWS_AS(generate<2>(square, size, given.with_executor(any_executor(parallel::threads{2}))),
+                  usage_error);
   CHECK_FALSE(is_asked);
-  CHECK(generate<2>(square, size, given.with_executor(parallel::threads{1})).failures.empty());
+  CHECK(generate<2>(square, size, given.with_executor(any_executor(parallel::threads{1}))).failures.empty());
   CHECK(is_asked);
 }
 

@@ -37,4 +37,13 @@ auto policy_traits(const Policy& policy) {
     return Policy::traits;
 }
 
+/// Whether a policy's type alone says that it must not run in threads.
+template <class Policy>
+constexpr bool is_never_thread_safe() {
+  if constexpr (requires(const Policy& policy) { policy.actual_traits(); })
+    return false;
+  else
+    return !Policy::traits.thread_safe;
+}
+
 } // namespace dovetail

@@ -81,4 +81,14 @@ bool runs_in_threads(const E& e) {
   return e.shares_process() && e.workers() > 1;
 }
 
+/// Whether an executor says by its type, `static constexpr bool uses_threads = true`, that it is there to run
+/// tasks in threads; of others that is known when the program runs.
+template <executor E>
+constexpr bool uses_threads() {
+  if constexpr (requires { E::uses_threads; })
+    return E::uses_threads;
+  else
+    return false;
+}
+
 } // namespace dovetail

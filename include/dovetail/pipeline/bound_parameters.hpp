@@ -3,6 +3,7 @@
 /// compiled library, which has one instantiation for each dimension, `any_parameters<D>`.
 #pragma once
 
+#include "dovetail/core/policy.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/parallel/any_executor.hpp"
@@ -28,6 +29,23 @@ consteval bool policies_fit() {
   return fits && improves;
 }
 
+/// Whether mesher and improver may run where the executor runs them, as far as types say.
+template <class Given>
+consteval bool policies_may_run() {
+  if constexpr (uses_threads<decltype(Given::run_tasks)>()) {
+    constexpr bool improves = !is_never_thread_safe<decltype(Given::improve_it)>();
+    static_assert(improves, "this improver may not run in threads: take parallel::processes or serial");
+    if constexpr (std::same_as<decltype(Given::mesh_it), default_mesher>) {
+      return improves;
+    } else {
+      constexpr bool meshes = !is_never_thread_safe<decltype(Given::mesh_it)>();
+      static_assert(meshes, "this mesher may not run in threads: take parallel::processes or serial");
+      return improves && meshes;
+    }
+  }
+  return true;
+}
+
 /// Whether `generate<D>` can run on these; where not, the compiler's first error says what it needs.
 template <int D, class Given>
 consteval bool checked_parameters() {
@@ -36,8 +54,10 @@ consteval bool checked_parameters() {
                 "a mesher into .with_mesher(mesher)");
   if constexpr (!is_parameters<Given>)
     return false;
+  else if constexpr (policies_fit<D, Given>())
+    return policies_may_run<Given>();
   else
-    return policies_fit<D, Given>();
+    return false;
 }
 
 } // namespace detail

@@ -19,6 +19,23 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// Whether there are a model and sizes; where not, the compiler's first error says what was expected.
+template <class G, class H>
+consteval bool checked_input() {
+  constexpr bool is_model = geometry_model<G>;
+  constexpr bool is_field = sizing_field<H>;
+  static_assert(is_model,
+                "generate<D>(model, size, parameters) takes a geometry_model (geometry/concepts.hpp)");
+  static_assert(geometry_model<G>);
+  static_assert(is_field, "generate<D>(model, size, parameters) takes a sizing_field (sizing/concepts.hpp)");
+  static_assert(sizing_field<H>);
+  return is_model && is_field;
+}
+
+} // namespace detail
+
 /// A generated mesh and all that is known about it. Subdomains that could not be meshed are in `failures`;
 /// `mesh` is whole only when there are none.
 template <int D>
@@ -59,10 +76,10 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// mesh is data. The report warns of faces that the mesh is further from than sizes explain, and where the
 /// model knows its `volume()` of a volume that differs by more than lies between. Where too many subdomains
 /// would have to be merged, half as many are made, which a warning tells.
-template <int D, geometry_model G, sizing_field H, class Parameters>
+template <int D, class G, class H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {
-  if constexpr (detail::checked_parameters<D, Parameters>()) {
+  if constexpr (detail::checked_input<G, H>() && detail::checked_parameters<D, Parameters>()) {
     const any_geometry model(given_model);
     const erased_sizing size(given_size);
     const auto& given = bind_parameters<D>(policies);

@@ -76,6 +76,10 @@ inline improvement::native default_background_improver() {
 
 namespace detail {
 
+/// False, but only where a template is instantiated.
+template <class>
+inline constexpr bool never = false;
+
 template <class Improver>
 Improver first_background_improver() {
   if constexpr (std::convertible_to<improvement::native, Improver>)
@@ -153,6 +157,56 @@ struct parameters {
     return with(mesh_it, partition_it, improve_it, run_tasks, simplify_by, improve_background,
                 std::move(mesher));
   }
+
+  // What is no policy of the role: the compiler's first error says what was expected, the next what is
+  // missing.
+  template <class Other>
+  parameters with_mesher(Other /*mesher*/) const {
+    static_assert(detail::never<Other>, "with_mesher takes a boundary_keeping_mesher (mesher/concepts.hpp)");
+    static_assert(boundary_keeping_mesher<Other, 3>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_partitioner(Other /*partitioner*/) const {
+    static_assert(detail::never<Other>,
+                  "with_partitioner takes a graph_partitioner (partition/concepts.hpp)");
+    static_assert(graph_partitioner<Other>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_improver(Other /*improver*/) const {
+    static_assert(detail::never<Other>, "with_improver takes an improver (improver/concepts.hpp)");
+    static_assert(improver<Other, 3>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_executor(Other /*executor*/) const {
+    static_assert(detail::never<Other>, "with_executor takes an executor (parallel/concepts.hpp)");
+    static_assert(executor<Other>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_simplifier(Other /*rule*/) const {
+    static_assert(detail::never<Other>,
+                  "with_simplifier takes a simplification_rule for 2 and 3 (simplification/concepts.hpp)");
+    static_assert(simplification_rule<Other, 2>);
+    static_assert(simplification_rule<Other, 3>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_background_improver(Other /*improver*/) const {
+    static_assert(detail::never<Other>,
+                  "with_background_improver takes an improver of tetrahedra (improver/concepts.hpp)");
+    static_assert(improver<Other, 3>);
+    return *this;
+  }
+  template <class Other>
+  parameters with_surface_mesher(Other /*mesher*/) const {
+    static_assert(detail::never<Other>, "with_surface_mesher takes a surface_mesher (remesh/concepts.hpp)");
+    static_assert(surface_mesher<Other>);
+    return *this;
+  }
+
   parameters with_options(generate_options different) const {
     parameters changed = *this;
     changed.options = std::move(different);

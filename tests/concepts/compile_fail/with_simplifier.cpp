@@ -1,8 +1,11 @@
 // near miss 1: it judges meshes of triangles only
+// first error 1: with_simplifier takes a simplification_rule
 // error 1: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
 // near miss 2: it does not say which side of a small dihedral goes
+// first error 2: with_simplifier takes a simplification_rule
 // error 2: r\.prefer_removal\(a, b\)
 // near miss 3: its judgement changes it
+// first error 3: with_simplifier takes a simplification_rule
 // error 3: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
 #include "dovetail/pipeline/parameters.hpp"
 

@@ -1,0 +1,52 @@
+/// @file
+/// A policy that holds another and changes a part of what that does. What is not changed must not be lost: a
+/// concept has optional members, and a policy without one is taken for a plainer one, in silence.
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+namespace dovetail {
+
+namespace detail {
+
+template <class Policy>
+concept names_itself = requires(const Policy& policy) {
+  policy.name();
+};
+template <class Policy>
+concept can_be_missing = requires(const Policy& policy) {
+  static_cast<bool>(policy);
+};
+template <class Policy>
+concept has_actual_traits = requires(const Policy& policy) {
+  policy.actual_traits();
+};
+
+} // namespace detail
+
+/// The base of the `wraps` of each role. `Self` is the policy that derives from it.
+template <class Self, class Policy>
+struct wrapped_policy {
+  Policy wrapped{};
+
+  wrapped_policy() = default;
+  // Of nothing that converts to a policy, as a wrapper may itself.
+  template <std::same_as<Policy> Given>
+  wrapped_policy(Given policy) // NOLINT: converts, so that a list of members can begin with the policy
+      : wrapped(std::move(policy)) {}
+
+  auto name() const requires detail::names_itself<Policy> { return wrapped.name(); }
+  explicit operator bool() const requires detail::can_be_missing<Policy> {
+    return static_cast<bool>(wrapped);
+  }
+
+  /// The same, around another policy of the type.
+  Self around(Policy other) const {
+    Self changed = static_cast<const Self&>(*this);
+    changed.wrapped = std::move(other);
+    return changed;
+  }
+};
+
+} // namespace dovetail

@@ -1,0 +1,35 @@
+/// @file
+/// An improver around another one.
+#pragma once
+
+#include "dovetail/core/wrapped_policy.hpp"
+#include "dovetail/improver/concepts.hpp"
+
+namespace dovetail::improvement {
+
+/// Base of an improver that does something before or after another one: it has the traits of `Improver` and
+/// its call with a surface. A call of one's own hides those of `Improver` for other dimensions, unless
+/// `using wraps::operator();` stands beside it.
+template <class Self, class Improver>
+struct wraps : wrapped_policy<Self, Improver> {
+  using wrapped_policy<Self, Improver>::wrapped_policy;
+  using wrapped_policy<Self, Improver>::wrapped;
+
+  static constexpr improver_traits traits = Improver::traits;
+
+  improver_traits actual_traits() const requires dovetail::detail::has_actual_traits<Improver> {
+    return wrapped.actual_traits();
+  }
+  template <int D>
+    requires(improver<Improver, D>)
+  report operator()(simplicial_mesh<D>& mesh, const frozen_entities<D>& frozen,
+                    const any_sizing& size) const {
+    return wrapped(mesh, frozen, size);
+  }
+  report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen, const any_sizing& size,
+                    const surface_host& host) const requires surface_improver<Improver> {
+    return wrapped(mesh, frozen, size, host);
+  }
+};
+
+} // namespace dovetail::improvement

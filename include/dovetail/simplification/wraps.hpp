@@ -1,0 +1,47 @@
+/// @file
+/// A simplification rule around another one.
+#pragma once
+
+#include "dovetail/core/wrapped_policy.hpp"
+#include "dovetail/mesh/wanted_angles.hpp"
+#include "dovetail/simplification/concepts.hpp"
+
+#include <optional>
+
+namespace dovetail {
+
+namespace detail {
+
+template <class Rule>
+inline constexpr bool says_what_it_wants = requires(const Rule& rule) {
+  rule.wants(3);
+};
+
+} // namespace detail
+
+namespace simplifier {
+
+/// Base of a rule that changes a part of what another one decides; the rest, and the angles that are wanted,
+/// are those of `Rule`.
+template <class Self, class Rule>
+struct wraps : wrapped_policy<Self, Rule> {
+  using wrapped_policy<Self, Rule>::wrapped_policy;
+  using wrapped_policy<Self, Rule>::wrapped;
+
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const {
+    return wrapped.prefer_removal(a, b);
+  }
+  double penalty(const deficit& d) const { return wrapped.penalty(d); }
+  template <int D>
+    requires(simplification_rule<Rule, D>)
+  side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {
+    return wrapped(mesh, sides);
+  }
+  std::optional<ridge_decision> propagate(const side_below& below) const { return wrapped.propagate(below); }
+  wanted_angles wants(int dimension) const requires detail::says_what_it_wants<Rule> {
+    return wrapped.wants(dimension);
+  }
+};
+
+} // namespace simplifier
+} // namespace dovetail

@@ -1,0 +1,31 @@
+// near miss 1: the mesher may not run in threads
+// first error 1: this mesher may not run in threads: take parallel::processes or serial
+// near miss 2: nor may the improver
+// first error 2: this improver may not run in threads: take parallel::processes or serial
+// near miss 3: the same in an executor of one's own that says that it uses threads
+// first error 3: this mesher may not run in threads: take parallel::processes or serial
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/parallel/threads.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+struct my_mesher {
+  static constexpr dovetail::mesher_traits traits{.keeps_boundary = true, .thread_safe = NEAR_MISS % 2 == 0};
+  dovetail::mesher_result<3> operator()(const dovetail::mesher_input<3>&, const dovetail::any_sizing&) const;
+};
+struct my_improver {
+  static constexpr dovetail::improver_traits traits{.thread_safe = NEAR_MISS != 2};
+  dovetail::report operator()(dovetail::simplicial_mesh<3>&, const dovetail::frozen_entities<3>&,
+                              const dovetail::any_sizing&) const;
+};
+struct my_threads : dovetail::parallel::threads {};
+
+void call(const dovetail::any_geometry& model) {
+  using namespace dovetail;
+  const auto given = parameters<>{}.with_mesher(my_mesher{}).with_improver(my_improver{});
+#if NEAR_MISS == 3
+  generate<3>(model, uniform_size(1), given.with_executor(my_threads{}));
+#else
+  generate<3>(model, uniform_size(1), given.with_executor(parallel::threads{}));
+#endif
+}

@@ -1,0 +1,209 @@
+// A wrapper of each role has all that the wrapped policy has, and nothing that it has not.
+#include "archetypes.hpp"
+
+#include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/files/wraps.hpp"
+#include "dovetail/improver/native.hpp"
+#include "dovetail/improver/wraps.hpp"
+#include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/mesher/native.hpp"
+#include "dovetail/mesher/wraps.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/clock_watch.hpp"
+#include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/wraps.hpp"
+#include "dovetail/remesh/any_surface_mesher.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
+#include "dovetail/remesh/wraps.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
+#include "dovetail/simplification/none.hpp"
+#include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/wraps.hpp"
+#include "dovetail/sizing/sources.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "dovetail/sizing/wraps.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+namespace {
+
+/// A mesher with every optional member; `number` tells its forms apart.
+struct full_mesher {
+  static constexpr mesher_traits traits{.keeps_boundary = true, .thread_safe = false};
+  static constexpr double elements_per_inverse_cubed_size = 7;
+  int number = 0;
+
+  std::string name() const { return "full"; }
+  mesher_traits actual_traits() const { return {.keeps_boundary = true, .may_crash = true}; }
+  double elements_per_subdomain() const { return 1234; }
+  full_mesher for_background() const { return {number + 10}; }
+  std::vector<full_mesher> fallbacks() const { return {{number + 1}, {number + 2}}; }
+  full_mesher with_lines(const std::vector<std::vector<vec3>>& lines) const {
+    return {number + static_cast<int>(lines.size()) * 100};
+  }
+  mesher_result<3> operator()(const mesher_input<3>& /*input*/, const any_sizing& /*size*/) const {
+    mesher_result<3> result;
+    result.summary.set("number", number);
+    return result;
+  }
+};
+
+template <class M>
+struct counting : mesher::wraps<counting<M>, M> {
+  int extra = 0;
+
+  mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const {
+    auto result = this->wrapped(input, size);
+    result.summary.set("extra", extra);
+    return result;
+  }
+};
+
+template <class M>
+std::pair<double, double> numbers_of(const M& mesh_it) {
+  const report summary = mesh_it({}, {}).summary;
+  return {summary.get("number"), summary.get("extra")};
+}
+
+using wrapped_mesher = counting<full_mesher>;
+static_assert(boundary_keeping_mesher<wrapped_mesher, 3> && calibrated_mesher<wrapped_mesher> &&
+              piece_sizing_mesher<wrapped_mesher> && has_background_form<wrapped_mesher> &&
+              has_fallbacks<wrapped_mesher> && line_keeping_mesher<wrapped_mesher>);
+static_assert(!wrapped_mesher::traits.thread_safe);
+
+using wrapped_native = counting<mesher::native>;
+static_assert(boundary_keeping_mesher<wrapped_native, 3> && wrapped_native::traits.thread_safe &&
+              calibrated_mesher<wrapped_native> == calibrated_mesher<mesher::native> &&
+              piece_sizing_mesher<wrapped_native> == piece_sizing_mesher<mesher::native> &&
+              has_background_form<wrapped_native> == has_background_form<mesher::native> &&
+              has_fallbacks<wrapped_native> == has_fallbacks<mesher::native> &&
+              !line_keeping_mesher<wrapped_native>);
+
+TEST_CASE("a wrapped mesher keeps name, traits, calibration, fallbacks and forms, each wrapped too") {
+  const wrapped_mesher mine{full_mesher{5}, 3};
+  CHECK(policy_name(mine) == "full");
+  CHECK(policy_traits(mine).may_crash);
+  CHECK(elements_per_inverse_cubed_size(mine) == 7);
+  CHECK(elements_per_subdomain(mine) == 1234);
+  CHECK(numbers_of(mine) == std::pair(5.0, 3.0));
+  CHECK(numbers_of(mine.for_background()) == std::pair(15.0, 3.0));
+  CHECK(numbers_of(mine.with_lines({{}, {}})) == std::pair(205.0, 3.0));
+  const auto attempts = with_fallbacks(mine);
+  REQUIRE(attempts.size() == 3);
+  CHECK(numbers_of(attempts[2]) == std::pair(7.0, 3.0));
+  CHECK(numbers_of(form_for_background(mine).first) == std::pair(15.0, 3.0));
+}
+
+TEST_CASE("a wrapper of a mesher behind one type answers for the one that is held") {
+  const counting<any_mesher<3>> mine{any_mesher<3>(full_mesher{5}), 3};
+  CHECK(elements_per_inverse_cubed_size(mine) == 7);
+  CHECK(elements_per_subdomain(mine) == 1234);
+  CHECK(policy_traits(mine).may_crash);
+  CHECK(has_form_for_background(mine));
+  CHECK(numbers_of(form_for_background(mine)) == std::pair(15.0, 3.0));
+  CHECK(with_fallbacks(mine).size() == 3);
+  const counting<any_mesher<3>> plain{any_mesher<3>(archetype::mesher(0)), 3};
+  CHECK_FALSE(has_form_for_background(plain));
+  CHECK_FALSE(is_given(counting<any_mesher<3>>{}));
+}
+
+template <class H>
+struct watched : sizing::wraps<watched<H>, H> {};
+
+static_assert(bounded_below_sizing_field<watched<source_field>> &&
+              feature_aware_sizing_field<watched<source_field>> &&
+              narrowable_sizing_field<watched<source_field>>);
+static_assert(sizing_field<watched<archetype::sizing>> &&
+              !bounded_below_sizing_field<watched<archetype::sizing>> &&
+              !feature_aware_sizing_field<watched<archetype::sizing>> &&
+              !narrowable_sizing_field<watched<archetype::sizing>>);
+
+TEST_CASE("a watched sizing field has the bounds of the field") {
+  const watched<uniform_size> mine{uniform_size(0.25)};
+  CHECK(mine({1, 2, 3}) == 0.25);
+  CHECK(smallest_size_in(mine, box3{}) == 0.25);
+}
+
+template <class I>
+struct timed : improvement::wraps<timed<I>, I> {};
+
+static_assert(improver<timed<improvement::native>, 3> && surface_improver<timed<improvement::native>> &&
+              timed<improvement::native>::traits.thread_safe);
+static_assert(improver<timed<archetype::improver>, 3> && !surface_improver<timed<archetype::improver>>);
+
+struct unsafe_surface_mesher : remesh::patch_remesher {
+  static constexpr bool thread_safe = false;
+};
+template <class M>
+struct noted : remesh::wraps<noted<M>, M> {};
+
+static_assert(surface_mesher<noted<remesh::patch_remesher>> &&
+              is_thread_safe<noted<remesh::patch_remesher>>() &&
+              !is_thread_safe<noted<unsafe_surface_mesher>>());
+
+TEST_CASE("a wrapped surface mesher behind one type runs in threads where the held one does") {
+  CHECK_FALSE(may_run_in_threads(noted<any_surface_mesher>{any_surface_mesher(unsafe_surface_mesher{})}));
+  CHECK(may_run_in_threads(noted<any_surface_mesher>{any_surface_mesher(remesh::patch_remesher{})}));
+}
+
+template <class R>
+struct harsher : simplifier::wraps<harsher<R>, R> {
+  double penalty(const deficit& d) const { return 2 * this->wrapped.penalty(d); }
+};
+
+static_assert(simplification_rule<harsher<simplifier::paper>, 2> &&
+              simplification_rule<harsher<simplifier::paper>, 3>);
+
+TEST_CASE("a wrapped rule wants the angles of the rule") {
+  const simplifier::paper wide{.volume_dihedral_deg = 41, .volume_shape_deg = 37};
+  CHECK(wanted_angles_of<3>(harsher<simplifier::paper>{wide}).dihedral_deg == 41);
+  CHECK(wanted_angles_of<3>(harsher<simplifier::paper>{wide}).face_deg == 37);
+  const deficit some{};
+  CHECK(harsher<simplifier::paper>{wide}.penalty(some) == 2 * wide.penalty(some));
+}
+
+template <class E>
+struct slowed : parallel::wraps<slowed<E>, E> {};
+
+static_assert(executor<slowed<parallel::serial>> && executor<slowed<parallel::clock_watch>>);
+
+/// Another process goes through the same program, and does what is done once.
+struct second_of_two {
+  int* times = nullptr;
+
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options) const {
+    return parallel::serial{}.run(count, task, options);
+  }
+  int workers() const { return 5; }
+  bool shares_process() const { return false; }
+  any_communicator network() const { return parallel::self{}; }
+  byte_buffer once(const std::function<byte_buffer()>& work) const { return ++*times, work(); }
+};
+
+TEST_CASE("a wrapped executor has the ranks and the once of the executor") {
+  int times = 0;
+  const slowed<second_of_two> mine{second_of_two{&times}};
+  static_assert(detail::has_network<slowed<second_of_two>> && detail::does_once<slowed<second_of_two>>);
+  static_assert(!detail::has_network<slowed<parallel::serial>>);
+  CHECK(mine.once([] { return byte_buffer(3); }).size() == 3);
+  CHECK(times == 1);
+  CHECK(mine.workers() == 5);
+  CHECK_FALSE(runs_in_threads(mine));
+}
+
+template <class W>
+struct announced : io::wraps<announced<W>, W> {};
+
+static_assert(piecewise_mesh_writer<announced<io::vtu_writer>, 3> &&
+              piecewise_mesh_writer<announced<io::vtu_writer>, 2>);
+static_assert(mesh_writer<announced<archetype::writer>> &&
+              !piecewise_mesh_writer<announced<archetype::writer>>);
+
+} // namespace
+} // namespace dovetail
