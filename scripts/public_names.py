@@ -16,6 +16,9 @@ EXCLUDE_SYMBOLS = detail detail::* *::detail *::detail::*
 EXTRACT_ALL = YES
 EXTRACT_STATIC = YES
 SEARCH_INCLUDES = NO
+MACRO_EXPANSION = YES
+EXPAND_ONLY_PREDEF = YES
+PREDEFINED = "Handle(type)=opencascade::handle<type>"
 FILTER_PATTERNS = *netgen*.hpp="sed '/#include <nglib.h>/s/.*//'"
 HAVE_DOT = NO
 GENERATE_HTML = NO
@@ -170,11 +173,18 @@ class Library:
     def inherit(self):
         """What concepts, base classes, and the members beside them say of members that say nothing themselves."""
         said = {concept: said_of_members(self.names[concept]) for concept in self.models}
-        for name in [n for n in self.names.values() if n.kind in TYPE_KINDS]:
+        types = [name for name in self.names.values() if name.kind in TYPE_KINDS]
+        for name in types:
+            types += [member for member in name.members.values() if member.kind in TYPE_KINDS]
             sources = [(self.names[c.qualified], said[c.qualified]) for c in self.concepts_of(name.qualified)]
             named_in = {plain(code): said_by for said_by in [*name.members.values(), name]
                         for block in said_by.blocks() for code in block.iter("computeroutput")}
+            on_line = {member.place(): member for member in name.members.values() if member.kind == "variable" and member.blocks()}
             for member in name.members.values():
+                if member.kind == "variable" and not member.blocks() and member.place() in on_line:
+                    member.inherited = (on_line[member.place()], None)  # declared together
+                if member.short == "fields":
+                    member.inherited = (self.names["dovetail::has_fields"], None)
                 if not member.blocks() and member.short in named_in:
                     member.inherited = (named_in[member.short], None)
                 for concept, of_members in sources:
@@ -211,8 +221,9 @@ def faults_of(name):
 
 
 def faults_of_values(name):
+    named = {plain(code) for block in name.blocks() for code in block.iter("computeroutput")}
     for value in name.elements[0].findall("enumvalue"):
-        if not any(plain(part) for part in descriptions_of(value)):
+        if not any(plain(part) for part in descriptions_of(value)) and plain(value.find("name")) not in named:
             yield f"{name.place()}: {name.qualified}::{plain(value.find('name'))} has no description"
 
 

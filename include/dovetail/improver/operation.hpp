@@ -99,7 +99,7 @@ public:
   operation_list(const operation_list&) = delete; // points into itself
   operation_list& operator=(const operation_list&) = delete;
 
-  operation_log& log() { return log_; }
+  operation_log& log() { return log_; } ///< what was tried and what came of it
 
   /// Tries to replace element `e` or to move its vertices; false when nothing helped.
   bool mend(local_id e, const operation_limits<D>& limits, bool is_hard) {

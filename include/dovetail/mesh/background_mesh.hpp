@@ -16,10 +16,10 @@ template <>
 struct simplicial_background<2> {
   surface_mesh surface;
 
-  const simplicial_mesh<2>& elements() const { return surface.mesh; }
-  const std::vector<vec3>& points() const { return surface.mesh.points; }
+  const simplicial_mesh<2>& elements() const { return surface.mesh; }     ///< the mesh that is decomposed
+  const std::vector<vec3>& points() const { return surface.mesh.points; } ///< its points
 
-  using fields = field_list<&simplicial_background::surface>;
+  using fields = field_list<&simplicial_background::surface>; ///< what is stored and hashed
 };
 
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
@@ -38,6 +38,6 @@ struct simplicial_background<3> {
   using fields = field_list<&simplicial_background::surface, &simplicial_background::volume>;
 };
 
-using background_mesh = simplicial_background<3>;
+using background_mesh = simplicial_background<3>; ///< the coarse mesh of solids
 
 } // namespace dovetail

@@ -31,29 +31,30 @@ namespace dovetail {
 /// What a mesher needs of one subdomain.
 template <int D>
 struct piece_input {
-  mesher_input<D> boundary;
+  mesher_input<D> boundary;              ///< as a mesher takes it
   std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
   content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
 };
 
-using subdomain_input = piece_input<3>;
+using subdomain_input = piece_input<3>; ///< that of tetrahedra
 
 /// What is known of a finished piece without loading it.
 struct piece_summary {
-  piece_counts counts;
-  quality_statistics quality;
+  piece_counts counts;        ///< how large it is
+  quality_statistics quality; ///< of its elements
   report summary; ///< children "mesher" and "improver"; counter "attempt": 0 unless it failed at first
 
+  /// What is stored.
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
 
 /// A piece as it is kept: without numbers that only the present skeleton gives it.
 template <int D>
 struct finished_piece {
-  piece_summary summary;
-  simplicial_piece<D> piece;
+  piece_summary summary;     ///< what is known of it
+  simplicial_piece<D> piece; ///< its points and elements
 
-  using fields = field_list<&finished_piece::summary, &finished_piece::piece>;
+  using fields = field_list<&finished_piece::summary, &finished_piece::piece>; ///< what is stored
 };
 
 /// The box in which a piece looks for refined sizes: that of its closed boundary, or of its regions.
