@@ -140,12 +140,14 @@ class Library:
 
     def find_models(self):
         concepts = [name for name in self.names.values() if name.kind == "concept"]
+        self.unknown = []  # what comments call models, and nothing is
+        members = {member.short for name in self.names.values() for member in name.members.values()}
         for concept in concepts:
-            for block in concept.blocks():
-                for paragraph in block.iter("para"):
-                    if plain(paragraph).startswith("Models:"):
-                        for word in re.findall(r"[a-z_:]*[a-z_]\w*", plain(paragraph)[7:]):
-                            self.add_model(concept, word)
+            paragraphs = [plain(paragraph) for block in concept.blocks() for paragraph in block.iter("para")]
+            listed = " ".join(text[7:] for text in paragraphs if text.startswith("Models:"))
+            for word in re.findall(r"[a-z_:]*[a-z_]\w*", re.split(r"\. |\binside\b", listed)[0]):
+                if not self.add_model(concept, word) and re.search("_|::", word) and not self.find(word) and word not in members:
+                    self.unknown.append(f"{concept.place()}: the model {word} of {concept.qualified} does not exist")
         by_short = {concept.short: concept for concept in concepts}
         asserted = re.compile(r"(?<![!\w])(" + "|".join(by_short) + r")<((?:[a-z]\w*::)*[a-z]\w*)(?:<\w*>)?(?:, \d)?>")
         for folder in ("include", "tests", "examples"):
@@ -166,6 +168,7 @@ class Library:
             model = found[0] if len(found) == 1 else None
         if model and model.kind in TYPE_KINDS + ("typedef",):
             self.models[concept.qualified].add(model.qualified)
+        return model
 
     def concepts_of(self, type_name):
         return [self.names[concept] for concept in sorted(self.models) if type_name in self.models[concept]]
@@ -202,6 +205,7 @@ class Library:
                 yield f"include/{header}: it does not say what it is"
         for name in self.names.values():
             yield from faults_of(name)
+        yield from self.unknown
 
 
 def faults_of(name):

@@ -47,7 +47,6 @@ struct decomposition {
   int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these
   report summary;             ///< what was counted on the way
 
-  /// What is stored.
   using fields =
       field_list<&decomposition::part_of_element, &decomposition::parts, &decomposition::material_of_part,
                  &decomposition::part_weights, &decomposition::part_of_super,

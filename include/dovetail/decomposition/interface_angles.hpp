@@ -52,7 +52,6 @@ struct angle_violation {
   vec3 place;                                  ///< the middle of the face or ridge
   std::vector<host> cad = {}; ///< the entities that force it; if none do, the faces that it touches
 
-  /// What is stored.
   using fields = field_list<&angle_violation::angle_deg, &angle_violation::cause, &angle_violation::sides,
                             &angle_violation::edge, &angle_violation::subdomain, &angle_violation::place,
                             &angle_violation::cad>;
@@ -76,7 +75,6 @@ struct interface_angles {
   least_angle surface_dihedral;            ///< between an interface face and a fixed side
   std::vector<angle_violation> violations; ///< by growing angle
 
-  /// What is stored.
   using fields = field_list<&interface_angles::interface_faces, &interface_angles::face_angle,
                             &interface_angles::interface_dihedral, &interface_angles::surface_dihedral,
                             &interface_angles::violations>;

@@ -32,7 +32,6 @@ struct piece_cut {
   std::vector<std::array<local_id, 2>> subdomains; ///< of the new pieces; oriented outwards of [0]
   std::vector<std::uint8_t> refused;               ///< not zero: the side ought to have been removed
 
-  /// What is stored.
   using fields = field_list<&piece_cut::points, &piece_cut::places, &piece_cut::hosts, &piece_cut::sides,
                             &piece_cut::subdomains, &piece_cut::refused>;
 };

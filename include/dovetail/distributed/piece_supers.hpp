@@ -23,7 +23,6 @@ struct elements_of_supers {
   std::vector<local_id> super_of_element; ///< by element of the piece
   std::vector<local_id> refused;          ///< sides of the piece that the bound refused to remove
 
-  /// What is stored.
   using fields = field_list<&elements_of_supers::super_of_element, &elements_of_supers::refused>;
 };
 

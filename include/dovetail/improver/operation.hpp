@@ -52,7 +52,9 @@ enum class turn {
 ///
 /// Failure: none; what cannot be done is an attempt that returns false.
 ///
-/// Models: those that operations.hpp lists.
+/// Models: best_change (of edge removal and face removal), vertex_smoothing, shell_transformation,
+/// edge_contraction and vertex_insertion for D = 3; side_flip, triangle_smoothing, vertex_removal and
+/// side_insertion for D = 2. They are listed in operations.hpp.
 template <class O, int D>
 concept mesh_operation = requires(O& o, complex_of<D>& mesh, local_id e, const operation_limits<D>& limits,
                                   const recorded_tries& tries) {

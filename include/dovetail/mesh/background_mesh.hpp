@@ -19,7 +19,7 @@ struct simplicial_background<2> {
   const simplicial_mesh<2>& elements() const { return surface.mesh; }     ///< the mesh that is decomposed
   const std::vector<vec3>& points() const { return surface.mesh.points; } ///< its points
 
-  using fields = field_list<&simplicial_background::surface>; ///< what is stored and hashed
+  using fields = field_list<&simplicial_background::surface>;
 };
 
 /// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface

@@ -118,7 +118,6 @@ struct piece_counts {
   global_id inner_points = 0; ///< its points that are none of the skeleton
   global_id elements = 0;     ///< how many elements it has
 
-  /// What is stored and hashed.
   using fields = field_list<&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements>;
 };
 
@@ -129,7 +128,7 @@ struct piece_note {
     std::string path;        ///< absolute
     std::uint64_t bytes = 0; ///< its size
 
-    using fields = field_list<&file::path, &file::bytes>; ///< what is stored
+    using fields = field_list<&file::path, &file::bytes>;
   };
   std::vector<file> files; ///< where the piece is now; when one of them is missing, so is the piece
   byte_buffer text;        ///< for whoever gave the piece up
@@ -142,7 +141,7 @@ struct piece_note {
     });
   }
 
-  using fields = field_list<&piece_note::files, &piece_note::text>; ///< what is stored
+  using fields = field_list<&piece_note::files, &piece_note::text>;
 };
 
 template <int D>

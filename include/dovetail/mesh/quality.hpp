@@ -111,7 +111,6 @@ struct quality_statistics {
   angle_histogram min_dihedrals;      ///< each element's smallest dihedral angle
   angle_histogram max_dihedrals;      ///< each element's largest dihedral angle
 
-  /// What is stored.
   using fields = field_list<&quality_statistics::elements, &quality_statistics::min_dihedral_deg,
                             &quality_statistics::max_dihedral_deg, &quality_statistics::min_face_deg,
                             &quality_statistics::sum_of_min_dihedral_deg, &quality_statistics::worst_element,

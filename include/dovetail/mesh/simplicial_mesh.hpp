@@ -29,7 +29,6 @@ struct simplicial_mesh {
   std::vector<local_id>
       tags; ///< per element: material (D = 3), CAD face (D = 2), CAD curve (D = 1); or empty
 
-  /// What is stored and hashed.
   using fields = field_list<&simplicial_mesh::points, &simplicial_mesh::elements, &simplicial_mesh::tags>;
 };
 
@@ -49,7 +48,6 @@ struct surface_mesh {
   };
   std::vector<curve_edge> curve_edges; ///< all of them, each edge once
 
-  /// What is stored and hashed.
   using fields = field_list<&surface_mesh::mesh, &surface_mesh::corner_uv, &surface_mesh::vertex_hosts,
                             &surface_mesh::curve_edges>;
 };

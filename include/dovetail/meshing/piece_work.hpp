@@ -44,7 +44,6 @@ struct piece_summary {
   quality_statistics quality; ///< of its elements
   report summary; ///< children "mesher" and "improver"; counter "attempt": 0 unless it failed at first
 
-  /// What is stored.
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
 
@@ -54,7 +53,7 @@ struct finished_piece {
   piece_summary summary;     ///< what is known of it
   simplicial_piece<D> piece; ///< its points and elements
 
-  using fields = field_list<&finished_piece::summary, &finished_piece::piece>; ///< what is stored
+  using fields = field_list<&finished_piece::summary, &finished_piece::piece>;
 };
 
 /// The box in which a piece looks for refined sizes: that of its closed boundary, or of its regions.

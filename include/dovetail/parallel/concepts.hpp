@@ -26,7 +26,6 @@ struct task_outcome {
   double seconds = 0;     ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
 
-  /// What is stored.
   using fields =
       field_list<&task_outcome::ok, &task_outcome::result, &task_outcome::failure, &task_outcome::crashed,
                  &task_outcome::timed_out, &task_outcome::seconds, &task_outcome::peak_rss_bytes>;

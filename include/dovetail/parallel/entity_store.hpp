@@ -26,7 +26,7 @@ struct kept_value {
   content_key key = {};                  ///< what it is kept under
   std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
 
-  using fields = field_list<&kept_value::key, &kept_value::bytes>; ///< what is stored
+  using fields = field_list<&kept_value::key, &kept_value::bytes>;
 };
 
 /// Holds the bytes of finished entities: in a spool, where workers put them themselves and a later run finds

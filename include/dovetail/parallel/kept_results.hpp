@@ -36,7 +36,7 @@ public:
     summary_type summary = {}; ///< what is known of it
     bool is_reused = false;    ///< it was there
 
-    using fields = field_list<&receipt::kept, &receipt::summary, &receipt::is_reused>; ///< what is stored
+    using fields = field_list<&receipt::kept, &receipt::summary, &receipt::is_reused>;
   };
 
   kept_results(std::size_t count, std::shared_ptr<entity_store> store)

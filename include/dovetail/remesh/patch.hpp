@@ -64,7 +64,6 @@ struct patch_mesh {
   std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
   report summary;                                      ///< what was counted on the way
 
-  /// What is stored.
   using fields = field_list<&patch_mesh::inner_uv, &patch_mesh::inner_points, &patch_mesh::triangles,
                             &patch_mesh::crossings, &patch_mesh::misplaced, &patch_mesh::folded,
                             &patch_mesh::repeated_edges, &patch_mesh::summary>;

@@ -24,7 +24,7 @@ struct fine_line {
   std::vector<double> t;    ///< curve parameters, for a line on a CAD curve
   std::vector<vec2> uv;     ///< face parameters, for a line on a CAD face
 
-  using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>; ///< what is stored
+  using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>;
 };
 
 namespace detail {

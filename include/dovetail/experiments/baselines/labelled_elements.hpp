@@ -58,7 +58,6 @@ struct labelled_piece {
   std::vector<local_id> at_sides;               ///< labels of the elements at its sides of the skeleton
   kept_value kept;                              ///< the labels of all elements
 
-  /// What is stored.
   using fields = field_list<&labelled_piece::hash, &labelled_piece::counts, &labelled_piece::at_sides,
                             &labelled_piece::kept>;
 };
