@@ -71,7 +71,7 @@ class Name:
 
     def anchor(self):
         return re.sub(r"[^a-z0-9]+", "-", self.qualified.lower().replace("operator()", "call")
-                      .translate({ord(c): f" {ord(c):x} " for c in "=<>!+-*/[]&|"})).strip("-")
+                      .translate({ord(c): f" {ord(c):x} " for c in "=<>!+-*/[]&|~"})).strip("-")
 
 
 class Library:

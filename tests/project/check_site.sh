@@ -19,6 +19,9 @@ text = {page: page.read_text() for page in html.rglob("*.html")}
 anchors = {page.resolve(): set(re.findall(r'\bid="([^"]+)"', content)) for page, content in text.items()}
 problems = set()
 for page, content in text.items():
+    ids = re.findall(r'\bid="([^"]+)"', content)
+    if "reference" in page.parts and len(ids) != len(set(ids)):
+        problems.add(f"{page.relative_to(html)}: an anchor is there twice")
     for link in re.findall(r'href="([^"]*)"', content):
         if re.match(r"[a-z]+:|/", link):
             continue
