@@ -62,7 +62,7 @@ public:
   bool empty() const { return items_.empty(); }
   /// The box around everything; empty for an empty tree.
   box3 bounds() const { return nodes_.empty() ? box3{} : nodes_.front().box; }
-  std::size_t node_count() const { return nodes_.size(); } ///< of all nodes of the tree, leaves included
+  std::size_t node_count() const { return nodes_.size(); } ///< how many nodes, leaves included
   /// The bounds of node `at`; the root is node 0.
   const box3& box(std::size_t at) const { return nodes_[at].box; }
 

@@ -86,7 +86,7 @@ public:
   const std::vector<std::uint32_t>& splits() const { return splits_; }
 
   const box3& bounds() const { return cube_; }              ///< the root's cube
-  std::size_t node_count() const { return nodes_.size(); }  ///< of all nodes, leaves and others
+  std::size_t node_count() const { return nodes_.size(); }  ///< how many nodes, leaves included
   std::size_t leaf_count() const { return leaves_.size(); } ///< how many leaves there are
   /// The node that is the leaf of a number.
   std::size_t leaf(std::size_t index) const { return leaves_[index]; }

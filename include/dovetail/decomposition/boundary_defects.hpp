@@ -57,7 +57,7 @@ public:
           on_boundary_[static_cast<std::size_t>(v)] = 1;
   }
 
-  /// Of each point the elements around it.
+  /// The elements around each point.
   const compressed_rows<local_id>& around() const { return around_; }
   /// Is there a side at the point that bounds some part, whatever the parts are?
   bool is_on_boundary(local_id point) const { return on_boundary_[static_cast<std::size_t>(point)] != 0; }

@@ -30,7 +30,7 @@ struct partition_standing {
   double excess = 0;    ///< weight over the limits
   double cut = 0;       ///< weight of the edges between parts; refused sides are dear
 
-  /// Of the cut, with what non-manifold points count.
+  /// The cut, with what non-manifold points count.
   double cost() const { return cut + penalty_of_point * defects.points; }
   /// Whether it is lower, defects before excess before cost.
   bool is_better_than(const partition_standing& other) const {
@@ -90,7 +90,7 @@ public:
   local_id super_count() const { return graph_.node_count(); }    ///< how many super-elements there are
   /// The part that a super-element is in now.
   local_id part_of(local_id super) const { return part_[index(super)]; }
-  /// By super-element: the part it is in now.
+  /// The part that each super-element is in now.
   std::span<const local_id> part_of_supers() const { return part_; }
   std::size_t part_count() const { return weights_.size(); } ///< how many parts there are
   /// The sum of its elements' weights.

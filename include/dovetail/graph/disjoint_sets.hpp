@@ -30,7 +30,7 @@ public:
     }
     return member;
   }
-  /// Of the whole set that `member` is in.
+  /// The weight of the whole set that `member` is in.
   double weight(local_id member) { return weight_[static_cast<std::size_t>(find(member))]; }
   /// Joins two sets; returns false when they are one already.
   bool unite(local_id a, local_id b) {

@@ -24,7 +24,7 @@ struct quality_counts {
   };
   of_class limited, free; ///< elements that the fixed boundary limits, and the others
 
-  /// As counters of a report, named by `when` and the class.
+  /// Sets counters of a report, named by `when` and the class.
   void write_to(report& to, const std::string& when) const {
     for (const auto& [name, counts] : {std::pair{"limited", limited}, std::pair{"free", free}}) {
       const std::string prefix = when + " " + name + " ";

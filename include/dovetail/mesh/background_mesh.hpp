@@ -11,7 +11,7 @@ namespace dovetail {
 template <int D>
 struct simplicial_background;
 
-/// In D = 2 the surface itself is decomposed.
+/// The mesh that is decomposed: in D = 2 the surface itself.
 template <>
 struct simplicial_background<2> {
   surface_mesh surface;
@@ -22,9 +22,9 @@ struct simplicial_background<2> {
   using fields = field_list<&simplicial_background::surface>;
 };
 
-/// The first `surface.mesh.points.size()` points of `volume` are those of `surface`, and every surface
-/// triangle is a side of the volume. `volume.tags` are materials: solids of the model. A mesh that is not
-/// divided needs no volume.
+/// In D = 3 it is the volume: the first `surface.mesh.points.size()` points of `volume` are those of
+/// `surface`, and every surface triangle is a side of the volume. `volume.tags` are materials: solids of the
+/// model. A mesh that is not divided needs no volume.
 template <>
 struct simplicial_background<3> {
   surface_mesh surface;

@@ -72,7 +72,7 @@ public:
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   const mesher_traits& actual_traits() const { return actual_traits_; }
-  /// That of the mesher that it holds.
+  /// What the mesher that it holds says.
   double elements_per_inverse_cubed_size() const { return elements_per_inverse_cubed_size_; }
   double elements_per_subdomain() const { return elements_per_subdomain_; }
   std::vector<any_mesher> fallbacks() const { return fallbacks_; } ///< those of the mesher that it holds

@@ -29,7 +29,7 @@ public:
   /// An entry, and the parity with which the side that was asked for is oriented.
   struct match {
     local_id entry = no_id; ///< a number among `entries()`; no_id where there is none
-    int parity = 0;         ///< 1 when its orientation is the other one
+    int parity = 0;         ///< of the side that was asked for: an index of `entry::listed`
     explicit operator bool() const { return entry != no_id; } ///< whether there is an entry
   };
 

@@ -68,7 +68,7 @@ struct meshed_pieces {
   std::function<simplicial_piece<D>(local_id)> load;
   std::function<void(local_id, const piece_note&)>
       release; ///< of `distributed_simplicial_mesh`, with a spool
-  /// Of a piece that was given up: the note left in its place.
+  /// The note that was left in place of a piece that was given up.
   std::function<std::optional<piece_note>(local_id)> released;
   report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
                   ///< "stops_by_clock" (of pieces that a time limit has left to another attempt),

@@ -35,7 +35,7 @@ struct region_mark {
 /// What `fill` goes by beside the sizes.
 struct fill_options {
   double growth = 0.25;                ///< of the sizes that the surface has of itself, per length
-  std::vector<region_mark> marks = {}; ///< of regions of which something is said; the others are filled
+  std::vector<region_mark> marks = {}; ///< what is said of regions, each by a point in it
   /// More predicted elements are refused before anything is meshed; the indices of a mesh in memory end soon
   /// after.
   double largest_prediction = 2e8;

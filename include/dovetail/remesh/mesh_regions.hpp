@@ -141,7 +141,7 @@ struct region_store {
 
   std::shared_ptr<entity_store> entities; ///< where the meshes are kept
   batched_entities<patch_mesh> meshes;    ///< by their keys
-  /// Of those meshes that were asked for.
+  /// What is known of the meshes that were asked for.
   std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
 
   explicit region_store(std::shared_ptr<entity_store> store) : entities(std::move(store)), meshes(entities) {}

@@ -31,7 +31,7 @@ struct checked_sizing {
   /// Its size at a point. Throws `sizing_error` that names the point when the size is not positive and
   /// finite.
   double operator()(vec3 p) const { return checked_size(field, p); }
-  /// That of the field.
+  /// What the field says.
   double smallest_size_in(const box3& box) const { return field.smallest_size_in(box); }
   double feature_size(vec3 p) const { return field.feature_size(p); } ///< that of the field
 };

@@ -21,7 +21,7 @@ struct planform {
     return {(1 - s) * root.leading_edge + s * tip.leading_edge, (1 - s) * root.chord + s * tip.chord,
             (1 - s) * root.thickness + s * tip.thickness};
   }
-  /// The same on the other side of the plane y = 0.
+  /// What is at the same place on the other side of the plane y = 0.
   planform mirrored() const {
     planform other = *this;
     other.root.leading_edge.y = -root.leading_edge.y;

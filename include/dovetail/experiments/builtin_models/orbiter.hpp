@@ -24,7 +24,7 @@ inline constexpr vec3 pod_nose{23.5, 1.7, 1.9}; ///< the foremost point of the p
 inline constexpr double pod_length = 9.5;       ///< of the pod
 inline constexpr double pod_radius = 1.2;       ///< of the pod
 
-/// The same on the other side of the plane y = 0.
+/// What is at the same place on the other side of the plane y = 0.
 inline wing_section mirrored(wing_section s) {
   s.leading_edge.y = -s.leading_edge.y;
   return s;

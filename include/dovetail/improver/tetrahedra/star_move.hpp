@@ -27,7 +27,7 @@ public:
     vertex_ = v;
     return collect_star(mesh, v, elements_);
   }
-  const star& elements() const { return elements_; } ///< those at the vertex
+  const star& elements() const { return elements_; } ///< the elements at the vertex
   /// The least value of the elements.
   float worst(const tet_complex& mesh) const { return worst_value(mesh, elements_.view()); }
   /// The points of the side opposite the vertex in `e`: (vertex, a, b, c) is positive.

@@ -76,7 +76,7 @@ public:
   /// Whether it may be moved and taken out.
   bool is_free(local_id v) const { return kinds_[index(v)] == vertex_kind::free; }
   bool has_tags() const { return !tags_.empty(); } ///< whether elements have tags
-  /// Of an element; 0 where there are none.
+  /// The tag of an element; 0 where there are none.
   local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
   float value(local_id e) const { return values_[index(e)]; }  ///< the measure of an element
   const std::vector<float>& values() const { return values_; } ///< by element, those of dead ones too

@@ -76,7 +76,7 @@ public:
   bool positive(local_id a, local_id b, local_id c) const {
     return positive(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
-  /// Of a triangle of three vertices, which is `oriented_quality` of mesh/triangle_shape.hpp.
+  /// The `oriented_quality` of a triangle of three vertices (mesh/triangle_shape.hpp).
   double quality(local_id a, local_id b, local_id c) const {
     return dovetail::detail::oriented_quality(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
@@ -88,9 +88,9 @@ public:
     return agreement(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
 
-  /// Of the edge between two vertices.
+  /// The length of the edge between two vertices.
   double length(local_id a, local_id b) const { return distance(point[at(a)], point[at(b)]); }
-  /// The same in sizes: the mean of those at its ends.
+  /// The length in sizes: the mean of those at the ends.
   double relative_length(local_id a, local_id b) const {
     return 2 * length(a, b) / (size[at(a)] + size[at(b)]);
   }

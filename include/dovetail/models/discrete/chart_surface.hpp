@@ -47,7 +47,7 @@ public:
     on_surface_ = 1e-12 * space_tree_.bounds().diagonal();
   }
 
-  /// Of the surface, over a point of the plane.
+  /// The point of the surface over a point of the plane.
   vec3 point(vec2 uv) const { return lifted(triangles_[locate(uv)], uv); }
 
   /// The point and its derivatives.

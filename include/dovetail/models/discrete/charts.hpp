@@ -21,7 +21,7 @@
 
 namespace dovetail {
 
-/// Where surfaces are cut.
+/// How surfaces are cut into charts.
 struct chart_options {
   double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature edge
   double cone_angle_deg = 60;    ///< largest angle between a triangle's normal and its chart's mean normal

@@ -14,7 +14,7 @@
 
 namespace dovetail::discrete {
 
-/// Which solid each shell bounds.
+/// The solids that closed shells bound, and the voids in them.
 struct shell_nesting {
   std::vector<local_id> solid_of;  ///< per shell
   std::vector<bool> is_inside_out; ///< per shell: its normals point into its solid

@@ -22,7 +22,7 @@ public:
 
   double value(vec3 p) const { return value_(p); } ///< of the function
 
-  /// Of the function; by central differences where it is not given.
+  /// The function's gradient; by central differences where it is not given.
   vec3 gradient(vec3 p) const {
     if (gradient_)
       return gradient_(p);

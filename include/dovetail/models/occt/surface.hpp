@@ -52,7 +52,7 @@ public:
   }
   /// The parameter rectangle of the face: for u and v the smallest and the largest.
   const std::array<std::array<double, 2>, 2>& box() const { return box_; }
-  /// Of the surface in u and v; 0 where it has none.
+  /// The period of the surface in u and v; 0 where it has none.
   const std::array<double, 2>& period() const { return period_; }
   const GeomAdaptor_Surface& adaptor() const { return adaptor_; } ///< for what else OCCT says of it
   /// A copy with a cache of its own.
