@@ -27,7 +27,7 @@ namespace improvement {
 struct cgal {
   static constexpr improver_traits traits{.thread_safe = false};
 
-  int iterations = 3;
+  int iterations = 3;          ///< rounds of remeshing
   double limit_seconds = 3600; ///< the child's wall clock; the last resort
 
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},

@@ -213,7 +213,7 @@ struct cgal_delaunay {
 };
 static_assert(surface_mesher<cgal_delaunay>);
 
-using cgal_surface = by_regions<cgal_delaunay>;
+using cgal_surface = by_regions<cgal_delaunay>; ///< a mesher of pieces of D = 2 by CGAL
 static_assert(boundary_keeping_mesher<cgal_surface, 2>);
 
 } // namespace mesher

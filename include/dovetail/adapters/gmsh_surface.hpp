@@ -216,7 +216,7 @@ namespace mesher {
 /// cones' narrow parts triangles are as good there as in space, where the parameters shear or stretch them
 /// unevenly they are not, and an improver has more to do. Forbidden edges are not avoided.
 struct gmsh_frontal {
-  static constexpr bool thread_safe = false;
+  static constexpr bool thread_safe = false; ///< only one call at a time in a process
 
   double size_scale = 1.0;     ///< multiplies the field
   double limit_seconds = 3600; ///< the child's wall clock; the last resort

@@ -52,8 +52,8 @@ private:
 struct metis {
   double imbalance = 1.03; ///< heaviest part over average part
   bool recursive = false;  ///< recursive bisection instead of k-way
-  int seed = 1;
-  int trials = 4; ///< partitions tried; the one with the smallest cut is taken (k-way and recursive)
+  int seed = 1;            ///< other seeds give other parts
+  int trials = 4;          ///< partitions tried; the one with the smallest cut is taken (k-way and recursive)
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts,
   /// when the graph exceeds METIS's integers, or when METIS fails.

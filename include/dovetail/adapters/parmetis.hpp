@@ -29,8 +29,8 @@ namespace dovetail::partition {
 /// then, where it missed the limit or left a part empty, a repair by single moves on rank 0. Graphs that
 /// multilevel methods are not made for go to `greedy`. Other numbers of ranks give other parts.
 struct parmetis {
-  double imbalance = 1.03; ///< heaviest part over average part
-  int seed = 1;
+  double imbalance = 1.03;         ///< heaviest part over average part
+  int seed = 1;                    ///< other seeds give other parts
   MPI_Comm world = MPI_COMM_WORLD; ///< of the ranks of the network, which is `parallel::mpi`
 
   static constexpr bool depends_on_ranks() { return true; }

@@ -21,9 +21,9 @@ namespace dovetail::partition {
 ///
 /// The library has the functions of Scotch in it: a program that links both links PT-Scotch first.
 struct ptscotch {
-  double imbalance = 1.03; ///< heaviest part over average part
-  scotch_strategy strategy = scotch_strategy::quality;
-  int seed = 1;
+  double imbalance = 1.03;                             ///< heaviest part over average part
+  scotch_strategy strategy = scotch_strategy::quality; ///< what PT-Scotch strives for
+  int seed = 1;                                        ///< other seeds give other parts
   MPI_Comm world = MPI_COMM_WORLD; ///< of the ranks of the network, which is `parallel::mpi`
 
   static constexpr bool depends_on_ranks() { return true; }

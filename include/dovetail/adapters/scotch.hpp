@@ -19,9 +19,9 @@ namespace dovetail::partition {
 /// go to `greedy`. Real weights are scaled to Scotch's integers. Runs in one thread with its own random
 /// numbers, so calls do not disturb each other.
 struct scotch {
-  double imbalance = 1.03; ///< heaviest part over average part
-  scotch_strategy strategy = scotch_strategy::quality;
-  int seed = 1;
+  double imbalance = 1.03;                             ///< heaviest part over average part
+  scotch_strategy strategy = scotch_strategy::quality; ///< what Scotch strives for
+  int seed = 1;                                        ///< other seeds give other parts
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts,
   /// when the graph exceeds Scotch's integers, or when Scotch fails.

@@ -12,7 +12,8 @@
 
 namespace dovetail::partition {
 
-/// What Scotch is told to strive for.
+/// What Scotch is told to strive for: small cuts (`quality`), little time (`speed`) or even weights
+/// (`balance`).
 enum class scotch_strategy { quality, speed, balance };
 
 } // namespace dovetail::partition

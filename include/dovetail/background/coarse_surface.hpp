@@ -22,12 +22,13 @@
 
 namespace dovetail::background {
 
+/// A coarse surface mesh.
 struct coarse_surface_result {
-  surface_mesh surface;
+  surface_mesh surface; ///< with the faces and curves of the model that its entities lie on
   /// Where the surface needs smaller sizes than given: its curvature, and the places refined. Meant with
   /// `coarse_surface_parameters::growth`.
   std::vector<size_ball> bounds;
-  report summary;
+  report summary; ///< what was counted on the way
 };
 
 /// Parameters of `coarse_surface`.
@@ -39,7 +40,7 @@ struct coarse_surface_parameters {
   /// Looks at each surface that is whole: the places where it must be finer, such as where two sheets are
   /// near; none when it will do. Faces out of reach of new places are not meshed again.
   std::function<std::vector<size_ball>(const coarse_surface_result&)> finer_at = {};
-  progress on_progress = {};
+  progress on_progress = {}; ///< told how faces come along
 };
 
 namespace detail {

@@ -14,16 +14,18 @@
 
 namespace dovetail::background {
 
+/// How the coarse volume is made.
 struct coarse_volume_options {
   /// As `meshing_options::on_failure`, for the solids that cannot be filled.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
-  progress on_progress = {};
+  progress on_progress = {}; ///< told how solids come along
 };
 
+/// A coarse volume mesh.
 struct coarse_volume_result {
-  simplicial_mesh<3> mesh; ///< the surface's points first, unchanged; tags are solids
-  quality_statistics quality;
-  report summary;
+  simplicial_mesh<3> mesh;    ///< the surface's points first, unchanged; tags are solids
+  quality_statistics quality; ///< of its elements
+  report summary;             ///< what was counted on the way
 };
 
 namespace detail {

@@ -32,6 +32,7 @@ struct curve_points {
     return first_inner[static_cast<std::size_t>(c)] + static_cast<local_id>(i) - 1;
   }
 
+  /// Numbers the points, after their parameters `t` were set.
   void number(const geometry_topology& topology) {
     count = static_cast<local_id>(topology.vertices.size());
     first_inner.assign(t.size(), no_id);

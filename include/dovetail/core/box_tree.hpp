@@ -23,6 +23,7 @@ inline box3 united(box3 a, const box3& b) {
   return a;
 }
 
+/// Whether `p` is in the box, its sides included.
 inline bool contains(const box3& box, vec3 p) {
   return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
          box.lower.z <= p.z && p.z <= box.upper.z;
@@ -61,7 +62,8 @@ public:
   bool empty() const { return items_.empty(); }
   /// The box around everything; empty for an empty tree.
   box3 bounds() const { return nodes_.empty() ? box3{} : nodes_.front().box; }
-  std::size_t node_count() const { return nodes_.size(); }
+  std::size_t node_count() const { return nodes_.size(); } ///< how many nodes, leaves included
+  /// The bounds of node `at`; the root is node 0.
   const box3& box(std::size_t at) const { return nodes_[at].box; }
 
   /// Puts the items that the boxes belong to in the order of the tree, and numbers them so from now on: those

@@ -14,7 +14,7 @@ namespace dovetail {
 template <class Item>
 struct compressed_rows {
   std::vector<std::size_t> begins{0}; ///< size rows + 1
-  std::vector<Item> items;
+  std::vector<Item> items;            ///< all items, row by row
 
   std::size_t size() const { return begins.size() - 1; }
   template <class Row>

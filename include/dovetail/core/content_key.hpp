@@ -17,13 +17,14 @@ namespace dovetail {
 /// Same key, same bytes: results are kept under their keys, and what has not changed is not made again. Two
 /// different results among a million share one of the 2^64 keys with a probability of 3e-8.
 struct content_key {
-  std::uint64_t value = 0;
+  std::uint64_t value = 0; ///< the hash itself
 
   friend auto operator<=>(const content_key&, const content_key&) = default;
 };
 
 /// For containers: a key is a hash already.
 struct content_key_hash {
+  /// The key as it is.
   std::size_t operator()(content_key key) const { return static_cast<std::size_t>(key.value); }
 };
 
@@ -45,6 +46,7 @@ public:
     (hash_.word(on.value), ...);
   }
 
+  /// Hashes the number of items and the items.
   template <class T>
   requires std::is_trivially_copyable_v<T> key_maker& operator()(const std::vector<T>& items) {
     hash_.word(items.size());
@@ -59,7 +61,7 @@ public:
     hash_.number(number);
     return *this;
   }
-  content_key key() const { return {hash_.value()}; }
+  content_key key() const { return {hash_.value()}; } ///< the key of all that was hashed so far
 
 private:
   content_hash hash_;

@@ -14,12 +14,15 @@ namespace dovetail {
 /// Incremental hash; the same bytes in the same calls give the same value on every little-endian machine.
 class content_hash {
 public:
+  /// Hashes eight bytes as a number.
   void word(std::uint64_t value) {
     state_ ^= value;
     state_ *= 0x9e3779b97f4a7c15ULL;
     state_ ^= state_ >> 32;
   }
+  /// Hashes the bits of a number; -0 as 0.
   void number(double value) { word(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value)); }
+  /// Hashes the number of bytes, then the bytes.
   void bytes(std::span<const std::byte> data) {
     word(data.size());
     std::size_t i = 0;
@@ -33,8 +36,10 @@ public:
       std::memcpy(&tail, data.data() + i, data.size() - i);
     word(tail);
   }
+  /// Hashes the characters as bytes.
   void text(std::string_view s) { bytes(std::as_bytes(std::span(s.data(), s.size()))); }
 
+  /// The hash of all calls so far; more may follow.
   std::uint64_t value() const {
     std::uint64_t mixed = state_;
     mixed ^= mixed >> 33;

@@ -59,13 +59,15 @@ class file_cursor {
 public:
   file_cursor(std::string_view content, std::string name) : content_(content), name_(std::move(name)) {}
 
-  bool at_end() const { return at_ == content_.size(); }
-  std::size_t left() const { return content_.size() - at_; }
-  std::size_t position() const { return at_; }
-  std::string_view rest() const { return content_.substr(at_); }
-  const std::string& name() const { return name_; }
+  bool at_end() const { return at_ == content_.size(); }         ///< whether nothing is left to read
+  std::size_t left() const { return content_.size() - at_; }     ///< how many bytes are left
+  std::size_t position() const { return at_; }                   ///< how many bytes have been passed
+  std::string_view rest() const { return content_.substr(at_); } ///< what is left, a view into the content
+  const std::string& name() const { return name_; }              ///< the file's name, for messages
+  /// Passes so many bytes, or all that are left.
   void skip(std::size_t bytes) { at_ += std::min(bytes, left()); }
 
+  /// Passes spaces, tabs and line ends.
   void skip_space() {
     while (at_ < content_.size() && is_space(content_[at_]))
       ++at_;
@@ -120,6 +122,7 @@ public:
       fail("the file ends early: " + std::to_string(count) + " entries are announced");
     return static_cast<std::size_t>(count);
   }
+  /// Throws `input_error` with the file's name, the line (in binary files the byte) and `what`.
   [[noreturn]] void fail(const std::string& what) const {
     const auto passed = content_.substr(0, at_);
     const bool binary = passed.find('\0') != std::string_view::npos;

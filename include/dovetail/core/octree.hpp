@@ -64,6 +64,7 @@ inline box3 cube_around(const box3& box) {
 class octree {
 public:
   static constexpr int largest_depth = 20;
+  /// A corner's place in units of the smallest leaf there can be, from the cube's lower corner.
   using key = std::array<std::uint32_t, 3>;
 
   octree() : octree(box3{{0, 0, 0}, {1, 1, 1}}) {}
@@ -84,13 +85,15 @@ public:
   /// The inner nodes in the order in which they were split: with `bounds()` all that makes the octree.
   const std::vector<std::uint32_t>& splits() const { return splits_; }
 
-  const box3& bounds() const { return cube_; }
-  std::size_t node_count() const { return nodes_.size(); }
-  std::size_t leaf_count() const { return leaves_.size(); }
+  const box3& bounds() const { return cube_; }              ///< the root's cube
+  std::size_t node_count() const { return nodes_.size(); }  ///< how many nodes, leaves included
+  std::size_t leaf_count() const { return leaves_.size(); } ///< how many leaves there are
+  /// The node that is the leaf of a number.
   std::size_t leaf(std::size_t index) const { return leaves_[index]; }
+  /// The number among the leaves of a node that is one.
   std::size_t leaf_index(std::size_t leaf) const { return nodes_[leaf].link; }
 
-  bool is_leaf(std::size_t node) const { return !nodes_[node].inner; }
+  bool is_leaf(std::size_t node) const { return !nodes_[node].inner; } ///< whether a node has no children
   /// Child k of an inner node.
   std::size_t child(std::size_t node, std::size_t k) const { return nodes_[node].link + k; }
 
@@ -108,6 +111,7 @@ public:
     return at;
   }
 
+  /// The cube of a node.
   box3 box(std::size_t node) const {
     return {corner_point(corner_key(node, 0)), corner_point(corner_key(node, 7))};
   }
@@ -118,6 +122,7 @@ public:
     const std::uint32_t width = width_of(n);
     return {n.lower[0] + (k & 1U) * width, n.lower[1] + (k >> 1 & 1U) * width, n.lower[2] + (k >> 2) * width};
   }
+  /// Where a corner is.
   vec3 corner_point(const key& at) const {
     return cube_.lower +
            unit_ * vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};

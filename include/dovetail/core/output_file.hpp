@@ -48,6 +48,8 @@ inline void sync_to_disk(const std::filesystem::path& folder) {
 /// replaced.
 class output_file {
 public:
+  /// What is promised of a finished file: it survives a power failure (`on_disk`), or may be lost in one
+  /// (`in_cache`).
   enum class lasting { on_disk, in_cache };
 
   explicit output_file(std::filesystem::path path, lasting how = lasting::on_disk)
@@ -68,6 +70,7 @@ public:
       ::unlink(part_.c_str());
   }
 
+  /// Writes bytes as they are.
   void bytes(const void* data, std::size_t size) {
     size_ += size;
     if (size > capacity - used_) {
@@ -83,11 +86,12 @@ public:
   template <class T>
     requires std::is_trivially_copyable_v<T>
   void value(const T& item) { bytes(&item, sizeof(T)); }
+  /// Writes the items as they are in memory.
   template <class T>
     requires std::is_trivially_copyable_v<T>
   void array(std::span<const T> items) { bytes(items.data(), items.size_bytes()); }
 
-  void text(std::string_view s) { bytes(s.data(), s.size()); }
+  void text(std::string_view s) { bytes(s.data(), s.size()); } ///< writes the characters
   /// The shortest decimal form that reads back to the same number.
   template <class Number>
     requires std::integral<Number> || std::floating_point<Number>
@@ -129,7 +133,7 @@ public:
 
   /// Bytes written so far.
   std::uint64_t size() const { return size_; }
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; } ///< the final name of the file
 
   /// Writes what is buffered and closes the file, which keeps its temporary name.
   void close() {
@@ -215,7 +219,7 @@ public:
     for (auto& file : files_)
       file.commit();
   }
-  std::size_t files() const { return files_.size(); }
+  std::size_t files() const { return files_.size(); } ///< how many files it has, and how many bytes (`size`)
   std::uint64_t size() const {
     std::uint64_t sum = 0;
     for (const auto& file : files_)

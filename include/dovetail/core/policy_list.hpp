@@ -10,8 +10,8 @@ namespace dovetail {
 /// A policy and the name under which a program offers it.
 template <class Policy>
 struct listed {
-  const char* name;
-  Policy policy;
+  const char* name; ///< as programs spell it
+  Policy policy;    ///< a policy of that name, with its defaults
 };
 template <class Policy>
 listed(const char*, Policy) -> listed<Policy>;

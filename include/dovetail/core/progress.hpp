@@ -17,11 +17,13 @@ struct progress {
   /// Returns true when the caller wants to stop; the library then throws `cancelled`.
   std::function<bool()> stop_requested = {};
 
+  /// Tells that `done` of `total` parts of a stage are done; throws `cancelled` if asked to stop.
   void operator()(std::string_view stage, std::size_t done, std::size_t total) const {
     if (update)
       update(stage, done, total);
     stop_if_requested();
   }
+  /// Throws `cancelled` if asked to stop.
   void stop_if_requested() const {
     if (stop_requested && stop_requested())
       throw cancelled();

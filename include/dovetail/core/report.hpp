@@ -13,11 +13,11 @@ namespace dovetail {
 
 /// Plain data that each stage returns beside its result.
 struct report {
-  std::string name;
+  std::string name;                                     ///< of the stage or part
   double seconds = 0;                                   ///< wall time
   std::vector<std::pair<std::string, double>> counters; ///< in the order they were set
   std::vector<std::string> warnings;                    ///< one sentence each, naming the entity
-  std::vector<report> children;
+  std::vector<report> children;        ///< the reports of its parts, in the order they were made
   std::vector<std::string> files = {}; ///< written by it, by their names in its folder
 
   using fields = field_list<&report::name, &report::seconds, &report::counters, &report::warnings,
@@ -66,6 +66,7 @@ inline double stops_by_clock(const report& made) {
 /// Wall-clock stopwatch.
 class stopwatch {
 public:
+  /// Seconds since it was made.
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

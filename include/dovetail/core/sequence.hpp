@@ -19,6 +19,7 @@ std::span<T> span_of(std::vector<T>& items) {
   return {items.data(), items.size()};
 }
 
+/// Sorts all items, ascending or by `less`.
 template <class Sequence>
 void sort_all(Sequence&& items) {
   std::sort(items.data(), items.data() + items.size());
@@ -27,6 +28,7 @@ template <class Sequence, class Less>
 void sort_all(Sequence&& items, Less less) {
   std::sort(items.data(), items.data() + items.size(), less);
 }
+/// Sorts all items, equal ones in their order.
 template <class T, class Less>
 void stable_sort_all(std::vector<T>& items, Less less) {
   std::stable_sort(items.data(), items.data() + items.size(), less);

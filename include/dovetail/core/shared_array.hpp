@@ -19,8 +19,8 @@ template <class T>
   requires std::is_trivially_copyable_v<T>
 class shared_array {
 public:
-  using value_type = T;
-  using const_iterator = const T*;
+  using value_type = T;            ///< of an item, as in containers
+  using const_iterator = const T*; ///< a pointer to an item
 
   shared_array() = default;
   shared_array(std::vector<T> items) : own_(std::move(items)) {} // NOLINT: converts, it only holds them

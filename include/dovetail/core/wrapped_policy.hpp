@@ -28,6 +28,7 @@ concept has_actual_traits = requires(const Policy& policy) {
 /// The base of the `wraps` of each role. `Self` is the policy that derives from it.
 template <class Self, class Policy>
 struct wrapped_policy {
+  /// What is wrapped.
   Policy wrapped{};
 
   wrapped_policy() = default;
@@ -36,7 +37,9 @@ struct wrapped_policy {
   wrapped_policy(Given policy) // NOLINT: converts, so that a list of members can begin with the policy
       : wrapped(std::move(policy)) {}
 
+  /// The name of the wrapped policy.
   auto name() const requires detail::names_itself<Policy> { return wrapped.name(); }
+  /// Whether the wrapped policy, which holds another one, holds any.
   explicit operator bool() const requires detail::can_be_missing<Policy> {
     return static_cast<bool>(wrapped);
   }

@@ -12,10 +12,11 @@
 
 namespace dovetail {
 
+/// An element, with views into the file's content.
 struct xml_element {
-  std::string_view name;
-  std::vector<std::pair<std::string_view, std::string_view>> attributes;
-  std::vector<xml_element> children;
+  std::string_view name;                                                 ///< of the tag
+  std::vector<std::pair<std::string_view, std::string_view>> attributes; ///< names and values, in their order
+  std::vector<xml_element> children;                                     ///< elements inside, in their order
   std::string_view text; ///< what stands before the first child, or all of it without children
 
   /// The value of an attribute as it stands in the file; empty when there is none.
@@ -59,6 +60,7 @@ class xml_parser {
 public:
   xml_parser(std::string_view content, const std::string& name) : at_(content, name) {}
 
+  /// The root element, with all that is in it.
   xml_element parse() {
     skip_prologue();
     if (!at_.rest().starts_with('<'))

@@ -28,8 +28,9 @@ struct defect_count {
   int edges = 0;  ///< D = 3: pairs of sides too many at an edge, counted at each of its two ends
   int points = 0; ///< fans of sides too many at a point
 
-  bool any() const { return edges != 0 || points != 0; }
+  bool any() const { return edges != 0 || points != 0; } ///< whether there are any defects
   friend bool operator==(const defect_count&, const defect_count&) = default;
+  /// Adds the counts of another.
   defect_count& operator+=(const defect_count& other) {
     edges += other.edges;
     points += other.points;
@@ -56,6 +57,7 @@ public:
           on_boundary_[static_cast<std::size_t>(v)] = 1;
   }
 
+  /// The elements around each point.
   const compressed_rows<local_id>& around() const { return around_; }
   /// Is there a side at the point that bounds some part, whatever the parts are?
   bool is_on_boundary(local_id point) const { return on_boundary_[static_cast<std::size_t>(point)] != 0; }

@@ -29,6 +29,7 @@ public:
       : parts_(parts), repair_(parts), gains_(parts.graph(), parts.part_of_supers(), parts.part_count()),
         on_progress_(std::move(on_progress)) {}
 
+  /// Balances, then shrinks the cut, until a round changes nothing or `max_rounds` are done.
   void run(int max_rounds = 10) {
     for (int round = 0; round < max_rounds; ++round) {
       const std::size_t before = parts_.assignments();

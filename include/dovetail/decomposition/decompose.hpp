@@ -35,17 +35,17 @@ namespace dovetail {
 
 /// Who owns which element.
 struct decomposition {
-  std::vector<local_id> part_of_element;
-  local_id parts = 0;
+  std::vector<local_id> part_of_element;  ///< a part for each element of the mesh
+  local_id parts = 0;                     ///< how many parts there are
   std::vector<local_id> material_of_part; ///< the elements' tag; 0 without tags
-  std::vector<double> part_weights;
-  std::vector<local_id> part_of_super;
-  std::vector<local_id> super_of_element;
-  csr_graph graph; ///< of the super-elements, within materials
+  std::vector<double> part_weights;       ///< by part: the sum of its elements' weights
+  std::vector<local_id> part_of_super;    ///< a part for each super-element
+  std::vector<local_id> super_of_element; ///< a super-element for each element
+  csr_graph graph;                        ///< of the super-elements, within materials
   /// Points where the boundary of some part is not manifold and could not be made so; empty if all are.
   std::vector<local_id> defective_points;
   int non_manifold_edges = 0; ///< pairs of sides too many at an edge; some meshers cannot take these
-  report summary;
+  report summary;             ///< what was counted on the way
 
   using fields =
       field_list<&decomposition::part_of_element, &decomposition::parts, &decomposition::material_of_part,

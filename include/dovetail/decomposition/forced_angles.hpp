@@ -11,13 +11,14 @@ namespace dovetail {
 
 /// The CAD as a mesh sees it: triangles on its faces, oriented outwards, and edges on its curves.
 struct cad_mesh {
-  std::span<const vec3> points;
-  std::span<const simplex<2>> triangles;
-  std::span<const local_id> faces; ///< per triangle: its CAD face, or no_id inside the domain
-  std::span<const simplex<1>> curve_edges;
-  std::span<const local_id> curves; ///< per edge
+  std::span<const vec3> points;            ///< of the mesh
+  std::span<const simplex<2>> triangles;   ///< on CAD faces, oriented outwards
+  std::span<const local_id> faces;         ///< per triangle: its CAD face, or no_id inside the domain
+  std::span<const simplex<1>> curve_edges; ///< on CAD curves
+  std::span<const local_id> curves;        ///< per edge
 };
 
+/// The CAD as the triangles and edges of a fine skeleton show it.
 inline cad_mesh cad_of(const fine_skeleton& fine) {
   return {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves};
 }

@@ -32,10 +32,10 @@ enum class violation_cause : std::uint8_t {
 /// A mesh cut into parts. Without `side_states` what bounds the mesh is fixed, and where the tag changes.
 template <int D>
 struct decomposed_mesh {
-  const simplicial_mesh<D>& mesh;
-  const side_table<D>& sides; ///< `build_sides(mesh)`
+  const simplicial_mesh<D>& mesh; ///< it must outlive this
+  const side_table<D>& sides;     ///< `build_sides(mesh)`
   std::span<const side_state> side_states;
-  std::span<const local_id> part_of_element;
+  std::span<const local_id> part_of_element; ///< a part for each element
   /// Of fine lines (D = 2): the direction in which the line along a side leaves a vertex; empty where
   /// interfaces are as the mesh has them.
   std::function<vec3(local_id side, local_id vertex)> leaves = {};
@@ -44,8 +44,8 @@ struct decomposed_mesh {
 
 /// An angle that is too small.
 struct angle_violation {
-  double angle_deg = 0;
-  violation_cause cause = violation_cause::refused;
+  double angle_deg = 0;                             ///< the angle
+  violation_cause cause = violation_cause::refused; ///< why it is there
   std::array<local_id, 2> sides{no_id, no_id}; ///< the face itself, or the two sides that make the dihedral
   std::array<local_id, 2> edge{no_id, no_id};  ///< a dihedral's ridge, in D = 2 a vertex; no_id for a face
   local_id subdomain = no_id;                  ///< the subdomain a dihedral lies in
@@ -56,18 +56,20 @@ struct angle_violation {
                             &angle_violation::edge, &angle_violation::subdomain, &angle_violation::place,
                             &angle_violation::cad>;
 
+  /// Whether it is between two sides, and not inside one.
   bool is_dihedral() const { return edge[0] != no_id; }
 };
 
 /// A minimum and where it occurs.
 struct least_angle {
-  double angle_deg = 360; ///< 360 when there is nothing to measure
-  std::array<local_id, 2> sides{no_id, no_id};
-  std::array<local_id, 2> edge{no_id, no_id};
+  double angle_deg = 360;                      ///< 360 when there is nothing to measure
+  std::array<local_id, 2> sides{no_id, no_id}; ///< the side that has it, or the two that include it
+  std::array<local_id, 2> edge{no_id, no_id};  ///< the edge at which it is, if it is a dihedral
 };
 
+/// The smallest angles of a decomposition's interfaces.
 struct interface_angles {
-  std::size_t interface_faces = 0;
+  std::size_t interface_faces = 0;         ///< how many there are
   least_angle face_angle;                  ///< of interface faces; none in D = 2
   least_angle interface_dihedral;          ///< between two interface faces
   least_angle surface_dihedral;            ///< between an interface face and a fixed side
@@ -77,9 +79,11 @@ struct interface_angles {
                             &interface_angles::interface_dihedral, &interface_angles::surface_dihedral,
                             &interface_angles::violations>;
 
+  /// The smaller one of both kinds.
   double min_dihedral_deg() const {
     return std::min(interface_dihedral.angle_deg, surface_dihedral.angle_deg);
   }
+  /// How many violations have a cause.
   std::size_t count(violation_cause cause) const {
     return static_cast<std::size_t>(
         std::count_if(violations.begin(), violations.end(), [&](const auto& v) { return v.cause == cause; }));

@@ -30,7 +30,9 @@ struct partition_standing {
   double excess = 0;    ///< weight over the limits
   double cut = 0;       ///< weight of the edges between parts; refused sides are dear
 
+  /// The cut, with what non-manifold points count.
   double cost() const { return cut + penalty_of_point * defects.points; }
+  /// Whether it is lower, defects before excess before cost.
   bool is_better_than(const partition_standing& other) const {
     if (defects.edges != other.defects.edges)
       return defects.edges < other.defects.edges;
@@ -77,23 +79,30 @@ public:
       change_weight(static_cast<local_id>(p), 0);
   }
 
-  const simplicial_mesh<D>& mesh() const { return mesh_; }
-  const side_table<D>& sides() const { return sides_; }
+  const simplicial_mesh<D>& mesh() const { return mesh_; } ///< the mesh that the elements are of
+  const side_table<D>& sides() const { return sides_; }    ///< of that mesh
   const csr_graph& graph() const { return graph_; }
+  /// The elements around a point.
   std::span<const local_id> elements_at(local_id point) const { return defects_.around()[point]; }
+  /// The super-element that an element is in.
   local_id super_of(local_id element) const { return super_[index(element)]; }
-  std::size_t point_count() const { return mesh_.points.size(); }
-  local_id super_count() const { return graph_.node_count(); }
+  std::size_t point_count() const { return mesh_.points.size(); } ///< points of the mesh
+  local_id super_count() const { return graph_.node_count(); }    ///< how many super-elements there are
+  /// The part that a super-element is in now.
   local_id part_of(local_id super) const { return part_[index(super)]; }
+  /// The part that each super-element is in now.
   std::span<const local_id> part_of_supers() const { return part_; }
-  std::size_t part_count() const { return weights_.size(); }
+  std::size_t part_count() const { return weights_.size(); } ///< how many parts there are
+  /// The sum of its elements' weights.
   double weight_of_part(local_id part) const { return weights_[index(part)]; }
+  /// Above it a part is overweight.
   double limit_of_part(local_id part) const { return limits_[index(part)]; }
   /// May super-elements of this weight be moved just because something else cuts them off?
   bool is_light(double weight, local_id part) const {
     constexpr double light_fraction = 0.1;
     return weight <= light_fraction * limit_of_part(part);
   }
+  /// Whether a part is overweight.
   bool is_over_limit(local_id part) const { return weights_[index(part)] > limits_[index(part)]; }
   /// The parts over their limits.
   const std::set<local_id>& overweight() const { return overweight_; }
@@ -114,10 +123,11 @@ public:
 
   /// A place to go back to.
   struct checkpoint {
-    std::size_t trail_length;
-    partition_standing standing;
+    std::size_t trail_length;    ///< how many assignments had been made
+    partition_standing standing; ///< how good the partition was
   };
-  checkpoint mark() const { return {trail_.size(), standing_}; }
+  checkpoint mark() const { return {trail_.size(), standing_}; } ///< the state as it is now
+  /// Takes back every assignment since then.
   void go_back_to(const checkpoint& place) {
     for (; trail_.size() > place.trail_length; trail_.pop_back())
       put(trail_.back().first, trail_.back().second);
@@ -210,6 +220,7 @@ public:
     }
     return added;
   }
+  /// The sum of the super-elements' weights.
   double weight_of(std::span<const local_id> supers) const {
     double total = 0;
     for (const local_id s : supers)

@@ -27,14 +27,14 @@ namespace dovetail::redistribution_by {
 /// Memory: the new skeleton, the joined graph, a list of the points that come onto the skeleton, and of each
 /// worker a new piece and the largest old one.
 struct elements {
-  any_distributed_partitioner partitioner = partition::greedy{};
-  any_simplification_rule simplify_by = simplifier::paper{};
-  int super_elements = 2000; ///< about so many of each piece
-  double seam_weight = 4;    ///< of a side that is an interface already; of others it is 1
-  double imbalance = 1.03;   ///< largest over average rank that is tried for; a warning where it is more
-  any_executor run_tasks = parallel::serial{};
-  std::optional<spool> store = {}; ///< where new pieces are kept; none: in memory
-  progress on_progress = {};
+  any_distributed_partitioner partitioner = partition::greedy{}; ///< of the graph of super-elements
+  any_simplification_rule simplify_by = simplifier::paper{};     ///< what joins elements to super-elements
+  int super_elements = 2000;                                     ///< about so many of each piece
+  double seam_weight = 4;  ///< of a side that is an interface already; of others it is 1
+  double imbalance = 1.03; ///< largest over average rank that is tried for; a warning where it is more
+  any_executor run_tasks = parallel::serial{}; ///< loads, joins and cuts pieces
+  std::optional<spool> store = {};             ///< where new pieces are kept; none: in memory
+  progress on_progress = {};                   ///< told how the stages come along
 
   /// The summary has, beside what `describe_redistribution` says: super_elements, seams_before and
   /// seams_after (sides inside solids that were interfaces, and still are), interface_sides, depends_on_ranks

@@ -24,8 +24,8 @@ namespace redistribution_by {
 /// Partitions the graph of pieces, then evens it out. With about 20 pieces per rank, ranks are within 5 % of
 /// the average, and connected where the partitioner leaves them connected or it can be mended.
 struct pieces {
-  any_partitioner partitioner = partition::greedy{};
-  double imbalance = 1.02; ///< largest over average rank that is tried for
+  any_partitioner partitioner = partition::greedy{}; ///< of the graph of pieces
+  double imbalance = 1.02;                           ///< largest over average rank that is tried for
 
   template <int D>
   redistribution<D> operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const {

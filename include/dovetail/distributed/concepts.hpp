@@ -14,8 +14,8 @@ namespace dovetail {
 /// Which rank holds which piece.
 template <int D>
 struct redistribution {
-  std::vector<local_id> rank_of_piece;
-  report summary; ///< as `describe_redistribution` makes it
+  std::vector<local_id> rank_of_piece; ///< a rank for each piece
+  report summary;                      ///< as `describe_redistribution` makes it
   /// The same elements in other pieces, to which the ranks belong; empty: the pieces are those of the mesh.
   std::shared_ptr<const distributed_simplicial_mesh<D>> mesh = {};
 

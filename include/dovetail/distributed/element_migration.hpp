@@ -29,8 +29,8 @@ namespace dovetail {
 /// The new piece of each element of an old one, and the sides of its table that ought to be no interface,
 /// growing.
 struct moves_of_piece {
-  std::vector<local_id> new_piece_of_element;
-  std::vector<local_id> refused = {};
+  std::vector<local_id> new_piece_of_element; ///< by element
+  std::vector<local_id> refused = {};         ///< sides of the piece that ought to be no interface, growing
 };
 
 /// What goes where. Elements of one new piece are of one material.
@@ -47,9 +47,10 @@ struct element_moves {
   io::mesh_hasher hash;                             ///< of all elements, by place
 };
 
+/// A mesh cut elsewhere.
 template <int D>
 struct migrated_elements {
-  std::shared_ptr<distributed_simplicial_mesh<D>> mesh;
+  std::shared_ptr<distributed_simplicial_mesh<D>> mesh; ///< in its new pieces
   std::vector<std::uint8_t> avoided; ///< per side of its skeleton: not zero where it ought to be no interface
   std::size_t seams = 0;             ///< sides inside solids that were in the old skeleton and still are
   std::size_t cut_pieces = 0;        ///< whose elements went to several

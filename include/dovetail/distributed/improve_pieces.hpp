@@ -20,7 +20,7 @@ namespace dovetail {
 
 /// A mesh whose pieces were improved.
 struct improved_pieces {
-  distributed_mesh mesh;
+  distributed_mesh mesh;      ///< with the improved pieces
   quality_statistics quality; ///< of all of it
   /// "pieces", "elements" of those that were improved, before, "improver_seconds" over all workers
   report summary;
@@ -30,9 +30,10 @@ struct improved_pieces {
 /// The pieces' qualities together; each of them has been measured.
 quality_statistics quality_of_whole(const distributed_mesh& mesh);
 
+/// How pieces are improved.
 struct improving_options {
   std::optional<spool> store = {}; ///< where improved pieces are kept; none: in memory
-  progress on_progress = {};
+  progress on_progress = {};       ///< told how the pieces come along
   std::vector<local_id> only = {}; ///< the pieces to improve, growing; none: all
 };
 

@@ -25,10 +25,10 @@ namespace dovetail {
 /// `points[k]` of the piece is -1 - k.
 template <int D>
 struct piece_cut {
-  std::vector<local_id> points; ///< own points of the piece that come onto the skeleton, growing
-  std::vector<vec3> places;     ///< of these
-  std::vector<host> hosts;      ///< of these
-  std::vector<simplex<D - 1>> sides;
+  std::vector<local_id> points;      ///< own points of the piece that come onto the skeleton, growing
+  std::vector<vec3> places;          ///< of these
+  std::vector<host> hosts;           ///< of these
+  std::vector<simplex<D - 1>> sides; ///< by its points, outwards of the first of the new pieces beside it
   std::vector<std::array<local_id, 2>> subdomains; ///< of the new pieces; oriented outwards of [0]
   std::vector<std::uint8_t> refused;               ///< not zero: the side ought to have been removed
 
@@ -79,7 +79,7 @@ piece_cut<D> cut_piece(const simplicial_piece<D>& piece, const side_table<D>& ta
 /// The skeleton of the new pieces.
 template <int D>
 struct new_skeleton {
-  simplicial_skeleton<D> fine;
+  simplicial_skeleton<D> fine;        ///< their boundaries
   std::vector<std::uint8_t> avoided;  ///< per side: not zero where it ought to be no interface
   std::vector<local_id> number;       ///< per point of the old skeleton: its number in the new one, or no_id
   std::vector<local_id> first_of_cut; ///< per old piece: the number of the first of its own points

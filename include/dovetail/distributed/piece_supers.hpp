@@ -20,8 +20,8 @@ namespace dovetail {
 
 /// The super-element of each element of a piece, and the sides that ought to have been removed, growing.
 struct elements_of_supers {
-  std::vector<local_id> super_of_element;
-  std::vector<local_id> refused;
+  std::vector<local_id> super_of_element; ///< by element of the piece
+  std::vector<local_id> refused;          ///< sides of the piece that the bound refused to remove
 
   using fields = field_list<&elements_of_supers::super_of_element, &elements_of_supers::refused>;
 };

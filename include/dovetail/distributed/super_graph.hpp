@@ -83,13 +83,13 @@ struct simplified_piece {
   std::vector<local_id> super_at_side; ///< per side of the skeleton, as in `sides_of_piece`
   std::vector<double> penalty_of_side; ///< of each such side as an interface; 1 for a good one
 
-  using fields = field_list<&simplified_piece::graph, &simplified_piece::super_at_side,
+  using fields = field_list<&simplified_piece::graph, &simplified_piece::super_at_side, ///< what is stored
                             &simplified_piece::penalty_of_side>;
 };
 
 /// The super-elements of a whole mesh.
 struct joined_supers {
-  csr_graph graph;
+  csr_graph graph;                      ///< super-elements and what is between them
   std::vector<local_id> first_of_piece; ///< number of a piece's first super-element; the last is their number
   std::vector<std::array<local_id, 2>>
       at_side;                         ///< per side of the skeleton: behind and in front of it, or no_id

@@ -12,15 +12,16 @@ namespace dovetail {
 
 /// A model with the sizing that shows it: an ambient size and grid sources (possibly none), in its units.
 struct builtin_model_result {
-  occt_model model;
+  occt_model model; ///< the model itself
   double size;
-  std::vector<grid_source> sources;
-  dovetail::report report;
+  std::vector<grid_source> sources; ///< what shows it, beside the ambient size
+  dovetail::report report;          ///< what its making noted
 };
 
+/// A model as a list of them shows it.
 struct builtin_model_info {
-  std::string_view name;
-  std::string_view description;
+  std::string_view name;        ///< as `builtin_model` takes it
+  std::string_view description; ///< in a few words
 };
 
 /// What `builtin_model` accepts.

@@ -16,14 +16,16 @@
 
 namespace dovetail::io {
 
+/// How the pass is made.
 struct finishing_options {
   /// Give up each piece as soon as its files are complete. If the pass does not come to its end, these stay
   /// in the folder "unfinished" for a resumed run.
   bool release = false;
   double limit_seconds = 600; ///< wall clock per piece; the last resort
-  progress on_progress = {};
+  progress on_progress = {};  ///< told how the pieces come along
 };
 
+/// What the pass found.
 struct finished_mesh {
   std::uint64_t hash = 0;     ///< as `mesh_hash`
   quality_statistics quality; ///< `worst_element` is a global number

@@ -262,8 +262,8 @@ void write_hdf5_skeleton(const std::filesystem::path& path, const distributed_si
 /// boundary and the faces between subdomains; in D = 2 the edges of lines) and `<stem>.xdmf`, which names the
 /// pieces. About 21 bytes per tetrahedron. See docs/formats.md for the arrays.
 struct hdf5_writer {
-  int files = 0; ///< number of files of pieces; 0: one per subdomain, never more than subdomains
-  std::string stem = "mesh";
+  int files = 0;             ///< number of files of pieces; 0: one per subdomain, never more than subdomains
+  std::string stem = "mesh"; ///< what the names of the files begin with
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton, a number per point of it, and one loaded
   /// subdomain.

@@ -18,16 +18,18 @@ namespace dovetail::sizing {
 
 /// A JSON value with the line it stands on (the line of its key, for a member of an object).
 struct json_value {
+  /// What kind of value it is: `null`, `boolean`, `number`, `text`, `array` or `object`.
   enum class kind { null, boolean, number, text, array, object };
 
-  kind type = kind::null;
-  std::size_t line = 0;
-  bool boolean = false;
-  double number = 0;
-  std::string text = {};
+  kind type = kind::null;                                       ///< which kind it is
+  std::size_t line = 0;                                         ///< of the file, from 1
+  bool boolean = false;                                         ///< of a `kind::boolean`
+  double number = 0;                                            ///< of a `kind::number`
+  std::string text = {};                                        ///< of a `kind::text`
   std::vector<json_value> items = {};                           ///< of an array
   std::vector<std::pair<std::string, json_value>> members = {}; ///< of an object, in the file's order
 
+  /// The member of that name, or null.
   const json_value* find(std::string_view key) const {
     for (const auto& [name, value] : members)
       if (name == key)

@@ -33,10 +33,10 @@ public:
     file_.text("$EndMeshFormat\n");
   }
 
-  void integer(std::int64_t value) { write(static_cast<std::int32_t>(value)); }
-  void count(std::uint64_t value) { write(value); }
-  void real(double value) { write(value); }
-  void point(vec3 p) { real(p.x), real(p.y), real(p.z); }
+  void integer(std::int64_t value) { write(static_cast<std::int32_t>(value)); } ///< a number of four bytes
+  void count(std::uint64_t value) { write(value); }       ///< a number of eight bytes, not negative
+  void real(double value) { write(value); }               ///< a floating-point number
+  void point(vec3 p) { real(p.x), real(p.y), real(p.z); } ///< three floating-point numbers
   void line() {
     if (!binary_)
       file_.text("\n");
@@ -59,7 +59,8 @@ private:
   bool binary_;
 };
 
-/// Gmsh's numbers of element types.
+/// Gmsh's numbers of element types: `point`, `line`, `triangle`, `tetrahedron`, and of second order
+/// `quadratic_line`, `quadratic_triangle`, `quadratic_tetrahedron`.
 enum class msh_type {
   line = 1,
   triangle = 2,
@@ -81,9 +82,9 @@ inline int msh_type_of(int dimension, bool quadratic) {
 
 /// A physical group: what Gmsh calls a named set of entities of one dimension.
 struct physical_name {
-  int dimension;
-  local_id tag;
-  std::string name;
+  int dimension;    ///< of the entities
+  local_id tag;     ///< its number
+  std::string name; ///< as Gmsh shows it
 };
 
 /// The one section that is text in binary files too. Quotes and line breaks in names are replaced, and names

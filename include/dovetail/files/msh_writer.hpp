@@ -14,8 +14,8 @@ namespace dovetail::io {
 /// Writes `<stem>.msh`. Physical groups are groups of faces, and materials. In D = 2 the nodes are all in the
 /// block of the first CAD face.
 struct msh_writer {
-  bool binary = true;
-  std::string stem = "mesh";
+  bool binary = true;        ///< whether numbers are bytes or text
+  std::string stem = "mesh"; ///< what the name of the file begins with
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton with several times its size in work arrays, and
   /// one piece.
@@ -32,9 +32,9 @@ struct msh_writer {
 /// Writes `<stem>.msh` with one partitioned entity per CAD entity or interface and set of sharers; partition
 /// s + 1 is subdomain s. The format has no such files of triangles alone, so D = 3.
 struct partitioned_msh_writer {
-  bool ghosts = false; ///< one layer of elements that touch another partition in a point
-  bool binary = true;
-  std::string stem = "mesh_partitioned";
+  bool ghosts = false;                   ///< one layer of elements that touch another partition in a point
+  bool binary = true;                    ///< whether numbers are bytes or text
+  std::string stem = "mesh_partitioned"; ///< what the name of the file begins with
 
   /// As those of `msh_writer`.
   report operator()(const distributed_mesh& mesh, const std::filesystem::path& folder) const;

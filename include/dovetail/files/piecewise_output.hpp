@@ -33,8 +33,8 @@ struct piece_file {
 /// What is done for files beside taking pieces.
 template <class Result>
 struct output_task {
-  std::string name; ///< who an error tells of where the task cannot: "ranks_0001.vtu of rank 1"
-  std::function<Result()> run;
+  std::string name;            ///< who an error tells of where the task cannot: "ranks_0001.vtu of rank 1"
+  std::function<Result()> run; ///< does it; called once, by any worker
 };
 
 /// The files of one format in the making, in a folder for unfinished files. What `counts`, `open` and
@@ -76,7 +76,7 @@ public:
           return held.begin(mesh, unfinished);
         }) {}
 
-  explicit operator bool() const { return static_cast<bool>(begin_); }
+  explicit operator bool() const { return static_cast<bool>(begin_); } ///< whether it holds a writer
   piecewise_output<D> begin(const distributed_simplicial_mesh<D>& mesh,
                             const std::filesystem::path& unfinished) const {
     auto output = guarded([&] { return begin_(mesh, unfinished); });
@@ -138,7 +138,7 @@ public:
 
   /// Writers have a folder each, since some of their files may have the same names.
   std::filesystem::path of_writer(std::size_t number) const { return path_ / std::to_string(number); }
-  void keep(bool kept) { kept_ = kept; }
+  void keep(bool kept) { kept_ = kept; } ///< whether the folder stays at the end
 
   /// Removes what a killed run has left in a folder: files of meshes, complete or not, in the numbered
   /// folders of the formats. What is not ours stays, and the folder with it.

@@ -21,8 +21,8 @@ namespace dovetail::io {
 
 /// An entity on the boundary of another one, and whether it runs against the direction it has there.
 struct bounding_entity {
-  local_id entity = no_id;
-  bool reversed = false;
+  local_id entity = no_id; ///< its number within its dimension
+  bool reversed = false;   ///< whether it runs against the direction it has there
 
   friend constexpr auto operator<=>(const bounding_entity&, const bounding_entity&) = default;
 };
@@ -34,17 +34,19 @@ struct skeleton_entity {
   std::vector<bounding_entity> boundary; ///< entities of one dimension less; sorted, but a line's start first
 };
 
+/// The entities of a skeleton.
 struct skeleton_entities {
   /// By dimension: vertices (of one point each), lines, faces, volumes. Volume i is material i of a CAD
   /// model, or subdomain i of a partition.
   std::array<std::vector<skeleton_entity>, 4> of_dimension;
   /// Per point of the skeleton: dimension and index of its entity; {3, no_id} for points without triangles.
   std::vector<host> of_point;
+  /// An edge of the skeleton that lies on a line.
   struct edge {
     simplex<1> vertices; ///< in the direction of the line
-    local_id line;
+    local_id line;       ///< the line that it is on
   };
-  std::vector<edge> edges;
+  std::vector<edge> edges;           ///< of the skeleton, each once
   std::vector<local_id> of_triangle; ///< face of each triangle, or no_id
   std::vector<simplex<2>> triangles; ///< those of the skeleton, facing away from the lower volume
 };

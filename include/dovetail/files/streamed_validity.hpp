@@ -21,9 +21,10 @@ namespace dovetail::io {
 /// Numbers as ranges: little memory where they come in ascending runs.
 class number_ranges {
 public:
+  /// A run of numbers.
   struct range {
-    global_id first;
-    global_id last; ///< included
+    global_id first; ///< the smallest of them
+    global_id last;  ///< included
   };
 
   /// One more number; no range is needed for the one after the last.
@@ -125,7 +126,7 @@ public:
     return found;
   }
 
-  std::uint64_t elements() const { return elements_; }
+  std::uint64_t elements() const { return elements_; } ///< elements checked so far
   /// After `faults`, of a valid mesh.
   std::uint64_t points() { return inner_.count() + shared_.size(); }
 

@@ -102,7 +102,7 @@ struct vtk_encoding {
   bool compressed = false;        ///< by zlib
   vtk_expander expand = nullptr;  ///< what expands it
   std::string_view appended = {}; ///< the appended section, from behind its underscore
-  bool appended_base64 = false;
+  bool appended_base64 = false;   ///< whether what is appended is base64 and not raw bytes
   /// Bytes that may still be taken from the appended section, each of them twice, since the tags of cells
   /// serve two purposes: arrays that share theirs would let a small file expand without end.
   mutable std::uint64_t appended_left = 0;

@@ -18,7 +18,7 @@ namespace dovetail::io {
 template <class T>
 constexpr const char* vtk_type = nullptr;
 template <>
-inline constexpr const char* vtk_type<double> = "Float64";
+inline constexpr const char* vtk_type<double> = "Float64"; ///< what VTK's XML calls the type
 template <>
 inline constexpr const char* vtk_type<std::int32_t> = "Int32";
 template <>

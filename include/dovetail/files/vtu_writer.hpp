@@ -17,8 +17,8 @@ namespace dovetail::io {
 /// in D = 2 `lines.vtp` instead, the edges of CAD curves and of lines between subdomains. See docs/formats.md
 /// for the arrays.
 struct vtu_writer {
-  int files = 0; ///< number of VTU files; 0: one per subdomain, never more than subdomains
-  std::string stem = "mesh";
+  int files = 0;             ///< number of VTU files; 0: one per subdomain, never more than subdomains
+  std::string stem = "mesh"; ///< what the name of the file begins with
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton, twice its size in work arrays, and one loaded
   /// subdomain.

@@ -16,6 +16,7 @@ struct wraps : wrapped_policy<Self, Writer> {
   using wrapped_policy<Self, Writer>::wrapped_policy;
   using wrapped_policy<Self, Writer>::wrapped;
 
+  /// Writes as the wrapped writer does.
   template <int D>
     requires(mesh_writer<Writer, D>)
   report operator()(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder) const {

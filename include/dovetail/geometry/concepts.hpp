@@ -15,55 +15,59 @@ namespace dovetail {
 
 /// Point and derivative of a curve.
 struct curve_frame {
-  vec3 point;
-  vec3 derivative;
+  vec3 point;      ///< on the curve
+  vec3 derivative; ///< by the parameter
 };
 
 /// Point and first derivatives of a surface; the parametric normal is along cross(du, dv).
 struct surface_frame {
-  vec3 point;
-  vec3 du;
-  vec3 dv;
+  vec3 point; ///< on the surface
+  vec3 du;    ///< by the first parameter
+  vec3 dv;    ///< by the second parameter
 };
 
 /// The entities of a model and how they bound each other, as plain data.
 struct geometry_topology {
+  /// An end of curves.
   struct vertex {
-    vec3 point;
-    double tolerance = 0;
+    vec3 point;           ///< where it is
+    double tolerance = 0; ///< how far from it the ends of its curves may be
   };
+  /// An edge of the model.
   struct curve {
     std::array<local_id, 2> vertices{no_id, no_id}; ///< at t[0] and t[1]; equal for a closed curve
     std::array<double, 2> t{0, 0};                  ///< parameter range, t[0] < t[1]
     double tolerance = 0;                           ///< the largest distance between the curve and its faces
     bool degenerate = false;                        ///< a pole: one point, a line in parameter space
-    std::string name = {};
+    std::string name = {};                          ///< what the file calls it; may be empty
   };
   /// One passage of a face's boundary along a curve, in the order and direction that keeps the domain in the
   /// *parameter plane* on the left.
   struct coedge {
-    local_id curve = no_id;
-    bool reversed = false; ///< run from t[1] to t[0]
+    local_id curve = no_id; ///< the number of the curve
+    bool reversed = false;  ///< run from t[1] to t[0]
   };
+  /// A trimmed surface.
   struct face {
     std::vector<std::vector<coedge>> loops; ///< the outer loop and the holes, in any order
     std::vector<coedge> coedges; ///< all coedges of all loops, in loop order; `curve_uv` indexes these
     bool reversed = false;       ///< the oriented surface is opposite to the parametric normal
     std::array<local_id, 2> solids{no_id,
                                    no_id}; ///< [0] behind the oriented normal (inside), [1] in front of it
-    double tolerance = 0;
-    std::string name = {};
+    double tolerance = 0;                  ///< how far from it its curves may be
+    std::string name = {};                 ///< what the file calls it; may be empty
     std::string group = {}; ///< the group of faces that it belongs to: name, layer or colour it carries in
                             ///< the file; may be empty
   };
+  /// A body bounded by faces.
   struct solid {
-    std::string name = {};
+    std::string name = {}; ///< what the file calls it; may be empty
   };
 
-  std::vector<vertex> vertices;
-  std::vector<curve> curves;
-  std::vector<face> faces;
-  std::vector<solid> solids;
+  std::vector<vertex> vertices; ///< by number
+  std::vector<curve> curves;    ///< by number
+  std::vector<face> faces;      ///< by number
+  std::vector<solid> solids;    ///< by number
 };
 
 /// The role `geometry_model`: what the pipeline asks of a CAD model.

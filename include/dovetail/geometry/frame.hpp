@@ -18,6 +18,7 @@ struct chart_frame {
   vec3 v{0, 1, 0};
   vec3 n{0, 0, 1};
 
+  /// The parameters of the point below `p`.
   vec2 flat(vec3 p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
 };
 
@@ -35,6 +36,7 @@ inline chart_frame frame_along(vec3 origin, vec3 normal) {
 /// Weighted second moments of vectors about their mean.
 class vector_moments {
 public:
+  /// One vector with its weight.
   void add(vec3 a, double weight) {
     weight_ += weight;
     sum_ += weight * a;
@@ -42,6 +44,7 @@ public:
       for (int j = 0; j < 3; ++j)
         squares_[static_cast<std::size_t>(3 * i + j)] += weight * a[i] * a[j];
   }
+  /// The weighted mean of the vectors; 0 without any.
   vec3 mean() const { return weight_ > 0 ? sum_ / weight_ : sum_; }
 
   /// The direction in which the vectors spread most, by 64 steps of the power method from a fixed start.

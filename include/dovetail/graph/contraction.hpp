@@ -17,9 +17,9 @@ namespace dovetail {
 
 /// An undirected edge of a list.
 struct weighted_edge {
-  local_id a = no_id;
-  local_id b = no_id;
-  double weight = 1;
+  local_id a = no_id; ///< one end
+  local_id b = no_id; ///< the other end
+  double weight = 1;  ///< counts when the edge is cut
 };
 
 /// The graph with the given nodes and edges: parallel edges are merged (weights added), self loops dropped,
@@ -102,7 +102,7 @@ csr_graph contract(const G& graph, std::span<const local_id> label, local_id lab
 
 /// A part of a graph with the numbers its nodes have in the whole.
 struct subgraph {
-  csr_graph graph;
+  csr_graph graph;             ///< the part, its nodes numbered from 0
   std::vector<local_id> nodes; ///< of the whole, growing
 };
 
@@ -134,8 +134,8 @@ subgraph induced_subgraph(const G& graph, std::span<const local_id> label, local
 
 /// Connected components restricted to nodes of equal `label`, numbered in order of their smallest nodes.
 struct labelled_components {
-  std::vector<local_id> of_node;
-  local_id count = 0;
+  std::vector<local_id> of_node; ///< the component of each node
+  local_id count = 0;            ///< how many components there are
 };
 
 /// Components of the graph when only edges between nodes of the same label count. Linear.

@@ -46,6 +46,7 @@ struct csr_graph {
   &&weighted_graph<G> csr_graph(const G& graph); // NOLINT: converts
 
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
+  /// The neighbours of a node, ascending.
   std::span<const local_id> row(local_id node) const {
     const auto begin = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node)]);
     const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node) + 1]);

@@ -30,6 +30,7 @@ public:
     }
     return member;
   }
+  /// The weight of the whole set that `member` is in.
   double weight(local_id member) { return weight_[static_cast<std::size_t>(find(member))]; }
   /// Joins two sets; returns false when they are one already.
   bool unite(local_id a, local_id b) {
@@ -46,9 +47,10 @@ public:
 
   /// Sets numbered 0, 1, ... in order of their smallest members.
   struct numbered {
-    std::vector<local_id> of_member;
-    local_id count = 0;
+    std::vector<local_id> of_member; ///< the set of each member
+    local_id count = 0;              ///< how many sets there are
   };
+  /// The sets as they are now. Linear.
   numbered number_sets() {
     numbered sets;
     sets.of_member.resize(size());

@@ -35,7 +35,7 @@ public:
             return held(mesh, frozen, size);
         }) {}
 
-  explicit operator bool() const { return static_cast<bool>(call_); }
+  explicit operator bool() const { return static_cast<bool>(call_); } ///< whether it holds one
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   const improver_traits& actual_traits() const { return actual_traits_; }

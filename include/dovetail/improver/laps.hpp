@@ -8,6 +8,7 @@
 
 namespace dovetail::improvement {
 
+/// Laps of a stopwatch, written to a report.
 class laps {
 public:
   explicit laps(report& to) : to_(to) {}

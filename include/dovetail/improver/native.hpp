@@ -10,7 +10,8 @@ namespace improvement {
 
 /// Leaves the mesh as it is. Models `improver<none, D>`.
 struct none {
-  static constexpr improver_traits traits{.thread_safe = true};
+  static constexpr improver_traits traits{.thread_safe = true}; ///< it may run in several threads
+  /// Changes nothing; the report is empty.
   template <int D>
   report operator()(simplicial_mesh<D>&, const frozen_entities<D>& = {}, const any_sizing& = {}) const {
     report result;
@@ -21,8 +22,8 @@ struct none {
 
 } // namespace improvement
 
-using native_improver = improvement::native;
-using no_improver = improvement::none;
+using native_improver = improvement::native; ///< what the library improves meshes with by default
+using no_improver = improvement::none;       ///< leaves meshes as they are
 
 static_assert(improver<native_improver, 3> && surface_improver<native_improver>);
 static_assert(improver<no_improver, 3> && improver<no_improver, 2>);

@@ -23,7 +23,7 @@ namespace dovetail::improvement {
 template <class Operations>
 struct native_by {
   static constexpr improver_traits traits = native::traits;
-  native parameters = {};
+  native parameters = {}; ///< what it goes by
 
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},
                     const any_sizing& size = {}) const {

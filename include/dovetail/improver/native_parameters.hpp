@@ -7,7 +7,7 @@
 
 namespace dovetail::improvement {
 
-/// What is raised: see shape_measure.hpp.
+/// What is raised (see shape_measure.hpp): `minimum_dihedral`, `radius_ratio` or `mean_ratio`.
 enum class objective { minimum_dihedral, radius_ratio, mean_ratio };
 
 /// Improves a mesh of tetrahedra or triangles by flips and moves of free vertices, worst elements first to be
@@ -47,7 +47,9 @@ struct native {
     preset.search_iterations = 3;
     return preset;
   }
+  /// The preset for meshes that are to be good; `finest` and `hard` take longer.
   static native fine() { return {}; }
+  /// The preset for as good as it gets.
   static native finest() {
     native preset;
     preset.target_angle = 35;
@@ -58,6 +60,7 @@ struct native {
     preset.search_iterations = 12;
     return preset;
   }
+  /// The preset for small coarse meshes, to be raised whatever it costs.
   static native hard() {
     native preset = finest();
     preset.target_angle = 38;

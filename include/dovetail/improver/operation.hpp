@@ -52,7 +52,9 @@ enum class turn {
 ///
 /// Failure: none; what cannot be done is an attempt that returns false.
 ///
-/// Models: those that operations.hpp lists.
+/// Models: best_change (of edge removal and face removal), vertex_smoothing, shell_transformation,
+/// edge_contraction and vertex_insertion for D = 3; side_flip, triangle_smoothing, vertex_removal and
+/// side_insertion for D = 2. They are listed in operations.hpp.
 template <class O, int D>
 concept mesh_operation = requires(O& o, complex_of<D>& mesh, local_id e, const operation_limits<D>& limits,
                                   const recorded_tries& tries) {
@@ -99,7 +101,7 @@ public:
   operation_list(const operation_list&) = delete; // points into itself
   operation_list& operator=(const operation_list&) = delete;
 
-  operation_log& log() { return log_; }
+  operation_log& log() { return log_; } ///< what was tried and what came of it
 
   /// Tries to replace element `e` or to move its vertices; false when nothing helped.
   bool mend(local_id e, const operation_limits<D>& limits, bool is_hard) {

@@ -59,6 +59,7 @@ class recorded_tries {
 public:
   recorded_tries(operation_log& log, std::size_t first) : log_(log), first_(first) {}
 
+  /// Makes a try, times it and records what came of it.
   template <class Attempt>
   bool operator()(Attempt&& attempt, std::size_t name = 0) const {
     return log_.record(first_ + name, attempt);

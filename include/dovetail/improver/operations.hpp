@@ -20,6 +20,7 @@ namespace dovetail::improvement {
 
 /// In the order they are tried.
 struct native_operations {
+  /// What is done to tetrahedra, by the measure of shape.
   template <shape_measure Measure>
   using on_tetrahedra = operation_list<3,                                                         //
                                        best_change<edge_removal<Measure>, face_removal<Measure>>, //
@@ -27,6 +28,7 @@ struct native_operations {
                                        shell_transformation<Measure>,                             //
                                        edge_contraction<Measure>,                                 //
                                        vertex_insertion<Measure>>;
+  /// What is done to triangles.
   using on_triangles = operation_list<2,                  //
                                       side_flip,          //
                                       triangle_smoothing, //

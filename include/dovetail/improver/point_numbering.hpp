@@ -13,9 +13,9 @@ namespace dovetail::improvement {
 /// Numbers for `count` free points, ascending: those that no fixed point has. `is_fixed` says of every number
 /// in use so far whether it is kept.
 struct point_numbering {
-  std::vector<local_id> of_free;
-  std::vector<local_id> gaps; ///< numbers before the last fixed point that nothing takes
-  std::size_t size = 0;       ///< of the new list of points
+  std::vector<local_id> of_free; ///< the numbers of the free points, ascending
+  std::vector<local_id> gaps;    ///< numbers before the last fixed point that nothing takes
+  std::size_t size = 0;          ///< of the new list of points
 
   point_numbering(const std::vector<bool>& is_fixed, std::size_t count) {
     of_free.reserve(count);

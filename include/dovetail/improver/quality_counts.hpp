@@ -13,13 +13,18 @@
 
 namespace dovetail::improvement {
 
+/// Counts of the poor elements of a mesh.
 struct quality_counts {
+  /// Counts of one class.
   struct of_class {
+    /// All of the class, those that are inverted, and those whose smallest dihedral angle is below the two
+    /// limits; the latter count inverted ones too.
     std::size_t elements = 0, inverted = 0, bad = 0, low = 0;
     double min_angle = 180, max_angle = 0; ///< of dihedrals, degrees; of elements that are not inverted
   };
-  of_class limited, free;
+  of_class limited, free; ///< elements that the fixed boundary limits, and the others
 
+  /// Sets counters of a report, named by `when` and the class.
   void write_to(report& to, const std::string& when) const {
     for (const auto& [name, counts] : {std::pair{"limited", limited}, std::pair{"free", free}}) {
       const std::string prefix = when + " " + name + " ";
@@ -40,6 +45,7 @@ public:
   quality_counter(double low_angle, double bad_angle)
       : cos_low_(cosine(low_angle)), cos_bad_(cosine(bad_angle)) {}
 
+  /// Counts an inverted element.
   void add_inverted(bool is_limited) {
     auto& counted = class_of(is_limited);
     ++counted.elements;
@@ -57,6 +63,7 @@ public:
     extreme.of_smallest = std::max(extreme.of_smallest, of_smallest);
     extreme.of_largest = std::min(extreme.of_largest, of_largest);
   }
+  /// The counts so far.
   quality_counts result() const {
     quality_counts result = counts_;
     set_angles(result.limited, of_limited_);

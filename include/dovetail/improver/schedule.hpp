@@ -8,12 +8,13 @@
 
 namespace dovetail::improvement {
 
+/// How often sweeps are made.
 template <int D>
 struct schedule_limits {
   int passes = 8;           ///< sweeps with what is tried always
   int hard_passes = 8;      ///< sweeps with the hard operations as well
   double least_gain = 0.02; ///< two sweeps in a row that mend a smaller part of what they try are the last
-  operation_limits<D> operations = {};
+  operation_limits<D> operations = {}; ///< what the operations keep to
 };
 
 /// Stops by counts and gains, never by time. What differs between dimensions is in `Poor`, the poor elements
@@ -30,18 +31,19 @@ struct schedule_limits {
 template <class Poor, class Operations>
 class schedule {
 public:
-  static constexpr int dimension = Poor::dimension;
+  static constexpr int dimension = Poor::dimension; ///< of the elements
 
   /// `mesh` and `poor` must outlive the schedule.
   schedule(complex_of<dimension>& mesh, Poor& poor) : poor_(poor), operations_(mesh) {}
 
+  /// Sweeps until nothing more comes of it, first without the hard operations and then with them.
   void run(const schedule_limits<dimension>& limits) {
     poor_.aim(limits.operations);
     sweep_until_settled(limits, false);
     sweep_until_settled(limits, true);
   }
-  operation_log& log() { return operations_.log(); }
-  int passes() const { return passes_; }
+  operation_log& log() { return operations_.log(); } ///< what was tried and what came of it
+  int passes() const { return passes_; }             ///< sweeps made so far
 
 private:
   /// Until two sweeps in a row did not pay.

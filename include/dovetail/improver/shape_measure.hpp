@@ -21,14 +21,16 @@ namespace dovetail::improvement {
 /// A vector of the number type that a measure is evaluated in.
 template <class T>
 struct triple {
-  T x, y, z;
+  T x, y, z; ///< the components
 
   friend constexpr triple operator-(triple a, triple b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 };
+/// The vector product.
 template <class T>
 constexpr triple<T> cross(triple<T> a, triple<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// The scalar product.
 template <class T>
 constexpr T dot(triple<T> a, triple<T> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -59,6 +61,7 @@ inline constexpr double tiny<double> = 1e-200;
 /// of 180 - x is as bad as one of about 0.63 x. Regular tetrahedron 8/9. A value of sin^2(x), x < 90 degrees,
 /// says that no dihedral angle is under x. Negative, with the same magnitude, for an inverted element.
 struct minimum_dihedral {
+  /// How much further from 90 degrees an obtuse angle has to be to count as much as an acute one.
   static constexpr double obtuse_weight = 2.5;
 
   template <class T>

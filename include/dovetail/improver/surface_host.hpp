@@ -19,9 +19,9 @@ namespace dovetail {
 /// A point of a surface: its place, the unit normal there (along the normals of the mesh's triangles; zero
 /// where the surface is singular) and its parameters.
 struct host_point {
-  vec3 point;
-  vec3 normal;
-  vec2 uv;
+  vec3 point;  ///< on the surface
+  vec3 normal; ///< of unit length
+  vec2 uv;     ///< of the surface
 };
 
 /// The surface under a mesh of triangles, any kind of surface behind two functions. An empty one stands for
@@ -39,7 +39,7 @@ struct surface_host {
   /// Vertices move in planes without calls, and keep the parameters they started from.
   std::function<vec3(local_id face)> plane_normal = {};
 
-  explicit operator bool() const { return static_cast<bool>(project); }
+  explicit operator bool() const { return static_cast<bool>(project); } ///< whether there is a surface
 };
 
 /// Whether every face that is named is known to be a plane, or there is no host.

@@ -15,17 +15,21 @@ struct wraps : wrapped_policy<Self, Improver> {
   using wrapped_policy<Self, Improver>::wrapped_policy;
   using wrapped_policy<Self, Improver>::wrapped;
 
+  /// Those of the wrapped improver.
   static constexpr improver_traits traits = Improver::traits;
 
+  /// Those of a wrapped improver that holds another one.
   improver_traits actual_traits() const requires dovetail::detail::has_actual_traits<Improver> {
     return wrapped.actual_traits();
   }
+  /// Improves as the wrapped improver does.
   template <int D>
     requires(improver<Improver, D>)
   report operator()(simplicial_mesh<D>& mesh, const frozen_entities<D>& frozen,
                     const any_sizing& size) const {
     return wrapped(mesh, frozen, size);
   }
+  /// The same on a surface.
   report operator()(simplicial_mesh<2>& mesh, const frozen_entities<2>& frozen, const any_sizing& size,
                     const surface_host& host) const requires surface_improver<Improver> {
     return wrapped(mesh, frozen, size, host);

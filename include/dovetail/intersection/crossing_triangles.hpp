@@ -23,7 +23,7 @@ using triangle_pair = std::pair<local_id, local_id>;
 /// Parameters of the octree.
 struct crossing_parameters {
   std::size_t leaf_size = 40; ///< no further subdivision at or below this many triangles (paper: 100)
-  int depth_limit = 16;
+  int depth_limit = 16;       ///< cells are not cut further beyond it
 };
 
 /// Crossing pairs among `triangles`, sorted, each once. A pair for which `excluded(i, j)` is true is not

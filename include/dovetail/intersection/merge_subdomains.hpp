@@ -57,7 +57,7 @@ public:
       : sizes_(static_cast<std::size_t>(subdomains), 1), started_with_(subdomains),
         allowed_(std::max(largest_fraction * subdomains, std::clamp(subdomains / 4, 1, 2) * 1.0)) {}
 
-  local_id subdomains() const { return static_cast<local_id>(sizes_.size()); }
+  local_id subdomains() const { return static_cast<local_id>(sizes_.size()); } ///< how many there are now
   /// Subdomains that are no more, since their interfaces crossed something or no attempt could mesh them.
   local_id merged() const { return started_with_ - subdomains(); }
   /// How many original subdomains the largest one is made of.

@@ -19,8 +19,8 @@ namespace dovetail {
 /// A crossing of two triangles, or of two edges of lines.
 struct surface_crossing {
   std::array<local_id, 2> cad_faces; ///< no_id for an interface face
-  vec3 center;
-  double size; ///< mean edge length of the two triangles, or length of the edges
+  vec3 center;                       ///< where it is
+  double size;                       ///< mean edge length of the two triangles, or length of the edges
 };
 
 /// How the crossings found are to be removed.
@@ -31,7 +31,7 @@ struct suppression_plan {
   std::string lines_at_fault = {}; ///< why, when the merges are for lines that cross in a parameter plane
   std::string folds = {};          ///< why, when regions are folded over; in `surface_crossings`
   bool merges_suffice = true;      ///< false where lines are at fault that no merge removes
-  std::size_t crossings = 0;
+  std::size_t crossings = 0;       ///< how many crossings were found
 
   bool empty() const { return merges.empty() && surface_crossings.empty() && lines_at_fault.empty(); }
 };

@@ -24,7 +24,7 @@ inline box3 box_of(std::span<const vec3> points, const simplex<2>& triangle) {
 /// bytes per triangle; made in O(n).
 class triangle_blocks {
 public:
-  static constexpr std::size_t block_size = 32;
+  static constexpr std::size_t block_size = 32; ///< triangles of a block, at most
 
   triangle_blocks(std::span<const vec3> points, std::span<const simplex<2>> triangles)
       : triangles_(triangles.size()), boxes_((triangles.size() + block_size - 1) / block_size) {
@@ -34,6 +34,7 @@ public:
   }
 
   std::size_t size() const { return boxes_.size(); }
+  /// The box around the triangles of a block.
   const box3& box(std::size_t block) const { return boxes_[block]; }
 
   /// Calls `visit(t)` for the triangles of a block, by growing number.

@@ -23,7 +23,7 @@ namespace dovetail {
 
 /// One dihedral: an element at one of its ridges, passed from side `from` to side `to`.
 struct dihedral {
-  local_id element;
+  local_id element;         ///< the element whose dihedral it is
   int ridge;                ///< local ridge of the element
   std::array<int, 2> sides; ///< its local sides, in passing order: {from, to}
 };
@@ -35,7 +35,7 @@ struct dihedral {
 /// manifold every ridge has one fan.
 template <int D>
 struct ridge_table {
-  static constexpr std::size_t per_element = numbering::ridges<D>.size();
+  static constexpr std::size_t per_element = numbering::ridges<D>.size(); ///< ridges of an element
 
   std::vector<simplex<D - 2>> vertices;                      ///< sorted
   std::vector<std::array<local_id, per_element>> of_element; ///< ridge of each (element, local ridge)
@@ -51,6 +51,7 @@ struct ridge_table {
   std::span<const std::uint32_t> fan(std::size_t f) const {
     return std::span(dihedral_codes).subspan(dihedral_begins[f], dihedral_begins[f + 1] - dihedral_begins[f]);
   }
+  /// A dihedral in one number: element, which of its ridges, and whether it is passed backwards.
   static constexpr std::uint32_t encode(std::uint32_t element, std::uint32_t ridge, bool flipped) {
     return (element * static_cast<std::uint32_t>(per_element) + ridge) * 2 + (flipped ? 1 : 0);
   }

@@ -14,6 +14,7 @@ namespace dovetail {
 /// equal; those of different ones are so by a chance of 2^-64.
 class chain_sum {
 public:
+  /// Adds one oriented simplex.
   template <std::size_t N>
   void add(const std::array<local_id, N>& side) {
     std::size_t descents = 0; // in cyclic order, so that an even permutation keeps their parity

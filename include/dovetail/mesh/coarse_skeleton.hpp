@@ -26,7 +26,7 @@ struct skeleton_line {
 /// Coarse triangles of one CAD face between the same two subdomains, connected across edges that are no
 /// lines.
 struct skeleton_region {
-  local_id cad_face = no_id;
+  local_id cad_face = no_id;                        ///< the number of the face in the model
   std::array<local_id, 2> subdomains{no_id, no_id}; ///< behind the oriented triangles, and in front of them
   std::vector<local_id> triangles = {};             ///< of the coarse surface mesh, growing
   std::vector<local_id> fixed_points = {}; ///< coarse vertices inside the region that interfaces touch
@@ -36,15 +36,16 @@ struct skeleton_region {
 /// one. Its key is the sorted vertices; `vertices` starts with the smallest.
 struct skeleton_face {
   simplex<2> vertices{no_id, no_id, no_id};
-  std::array<local_id, 2> subdomains{no_id, no_id};
-  local_id side = no_id;  ///< of the coarse mesh
+  std::array<local_id, 2> subdomains{no_id, no_id}; ///< the smaller number first
+  local_id side = no_id;                            ///< of the coarse mesh
   bool is_curved = false; ///< has an edge on the CAD surface, and leaves its coarse plane when remeshed
 };
 
+/// All that is between subdomains, in coarse entities.
 struct coarse_skeleton {
-  std::vector<skeleton_line> lines; ///< sorted by `vertices`
-  std::vector<skeleton_region> regions;
-  std::vector<skeleton_face> faces; ///< sorted by key
+  std::vector<skeleton_line> lines;     ///< sorted by `vertices`
+  std::vector<skeleton_region> regions; ///< by their CAD face and subdomains
+  std::vector<skeleton_face> faces;     ///< sorted by key
 };
 
 /// Index of the line between two coarse vertices, or no_id. O(log lines).

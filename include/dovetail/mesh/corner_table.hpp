@@ -22,17 +22,22 @@ public:
   std::vector<local_id> constraint; ///< per corner: the segment its opposite side lies on, or no_id
   std::vector<local_id> corner_of;  ///< per vertex: one of its corners, or no_id
 
+  /// The corner after `c` in its triangle.
   static constexpr local_id next(local_id c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  /// The corner before `c` in its triangle.
   static constexpr local_id previous(local_id c) { return c % 3 == 0 ? c + 2 : c - 1; }
-  static constexpr local_id triangle_of(local_id c) { return c / 3; }
+  static constexpr local_id triangle_of(local_id c) { return c / 3; } ///< the triangle that corner `c` is of
 
+  /// How many numbers triangles have, freed ones included.
   local_id triangle_slots() const { return static_cast<local_id>(vertex.size() / 3); }
+  /// Whether triangle `t` has not been freed.
   bool alive(local_id t) const { return vertex[at(3 * t)] != no_id; }
   local_id tail(local_id c) const { return vertex[at(next(c))]; }     ///< start of the opposite side
   local_id head(local_id c) const { return vertex[at(previous(c))]; } ///< end of the opposite side
   /// True when the opposite side may be flipped, split or collapsed: not on the boundary, not constrained.
   bool free_side(local_id c) const { return twin[at(c)] != no_id && constraint[at(c)] == no_id; }
 
+  /// A new vertex without triangles; its number.
   local_id add_vertex() {
     corner_of.push_back(no_id);
     return static_cast<local_id>(corner_of.size()) - 1;

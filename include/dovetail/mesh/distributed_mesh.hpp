@@ -36,26 +36,26 @@ namespace dovetail {
 /// triangle; one on a CAD curve inside a piece names that piece twice.
 template <int D>
 struct simplicial_skeleton {
-  shared_array<vec3> points;
+  shared_array<vec3> points; ///< by their number in the skeleton
   /// The lowest-dimensional CAD entity of each point: {3, solid} on inner interfaces, {2, CAD face} on lines
   /// that are not on CAD curves.
   shared_array<host> point_hosts;
-  shared_array<simplex<D - 1>> sides;
+  shared_array<simplex<D - 1>> sides;               ///< each once, as said above
   shared_array<std::array<local_id, 2>> subdomains; ///< per side
   shared_array<local_id> side_hosts;   ///< per side: its CAD face (D = 3) or curve (D = 2), or no_id inside
   std::vector<simplex<1>> curve_edges; ///< mesh edges on CAD curves (D = 3; in D = 2 they are sides)
   std::vector<local_id> curves;        ///< the CAD curve of each such edge
 };
 
-using fine_skeleton = simplicial_skeleton<3>;
+using fine_skeleton = simplicial_skeleton<3>; ///< that of tetrahedral meshes
 
 /// The mesh of one subdomain. Its first `skeleton_points.size()` points are skeleton points, the others its
 /// own. In D = 2 the elements' tags are CAD faces.
 template <int D>
 struct simplicial_piece {
-  local_id subdomain = no_id;
-  local_id material = 0;
-  simplicial_mesh<D> mesh;
+  local_id subdomain = no_id;            ///< the number of the subdomain
+  local_id material = 0;                 ///< of all its elements; in D = 2 it has none of its own
+  simplicial_mesh<D> mesh;               ///< points and elements
   std::vector<local_id> skeleton_points; ///< index in the skeleton of each of the first points
 
   /// As bytes (`core/encoding.hpp`): tags only where they differ from the material.
@@ -72,6 +72,7 @@ struct simplicial_piece {
     if (!one_material)
       to.array(tags);
   }
+  /// The piece that was encoded. Throws `input_error` when the data end early.
   static simplicial_piece decode(byte_reader& from) {
     simplicial_piece piece;
     piece.subdomain = from.value<local_id>();
@@ -91,7 +92,7 @@ private:
   enum class tags_kept : std::uint8_t { none, material, each };
 };
 
-using mesh_piece = simplicial_piece<3>;
+using mesh_piece = simplicial_piece<3>; ///< a piece of tetrahedra
 
 /// Adds a piece's own points and its elements, with the piece's tags or else its material, to a mesh that
 /// starts with the points of the skeleton. O(size of the piece).
@@ -113,18 +114,19 @@ void append_piece(simplicial_mesh<D>& mesh, const simplicial_piece<D>& piece) {
 
 /// Known of a piece without loading it.
 struct piece_counts {
-  local_id material = 0;
-  global_id inner_points = 0;
-  global_id elements = 0;
+  local_id material = 0;      ///< of its elements
+  global_id inner_points = 0; ///< its points that are none of the skeleton
+  global_id elements = 0;     ///< how many elements it has
 
   using fields = field_list<&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements>;
 };
 
 /// What its store keeps in place of a piece that it has given up.
 struct piece_note {
+  /// A file of the piece.
   struct file {
-    std::string path; ///< absolute
-    std::uint64_t bytes = 0;
+    std::string path;        ///< absolute
+    std::uint64_t bytes = 0; ///< its size
 
     using fields = field_list<&file::path, &file::bytes>;
   };
@@ -148,8 +150,8 @@ struct mid_edge_nodes;
 /// A whole mesh without holding it: what writers, checks and statistics stream over.
 template <int D>
 struct distributed_simplicial_mesh {
-  simplicial_skeleton<D> skeleton;
-  std::vector<piece_counts> counts;
+  simplicial_skeleton<D> skeleton;                   ///< what is between the pieces
+  std::vector<piece_counts> counts;                  ///< by piece
   std::vector<quality_statistics> quality = {};      ///< of each piece; empty where nobody has measured it
   std::function<simplicial_piece<D>(local_id)> load; ///< loads piece p; pure
   /// Gives up the storage of piece p, which is not loaded again. A resumed run takes the files of the note
@@ -166,7 +168,7 @@ struct distributed_simplicial_mesh {
   std::vector<std::string> group_names;    ///< per CAD face: the group of faces it belongs to; may be empty
 };
 
-using distributed_mesh = distributed_simplicial_mesh<3>;
+using distributed_mesh = distributed_simplicial_mesh<3>; ///< a mesh of tetrahedra in pieces
 
 /// Which sides of a skeleton bound which subdomain, growing. A side with one subdomain on both of its sides
 /// is listed twice in a row.

@@ -26,6 +26,7 @@ enum class seam_fault {
   wrong_material    ///< element with a tag other than the subdomain's material
 };
 
+/// What a message calls a fault.
 inline std::string_view name_of(seam_fault kind) {
   constexpr std::array<std::string_view, 5> names{
       "moved skeleton point", "repeated skeleton point", "missing skeleton side",
@@ -35,15 +36,17 @@ inline std::string_view name_of(seam_fault kind) {
 
 /// The faults of one subdomain.
 struct subdomain_faults {
+  /// A kind of fault and how often it occurs.
   struct seam {
-    seam_fault kind;
-    std::int64_t count = 0;
+    seam_fault kind;        ///< which kind
+    std::int64_t count = 0; ///< how often
     local_id first = no_id; ///< the first example
   };
-  local_id subdomain = no_id;
-  validity inside;         ///< faults of the piece as a mesh by itself
-  std::vector<seam> seams; ///< faults between piece and skeleton, by kind
+  local_id subdomain = no_id; ///< the number of the subdomain
+  validity inside;            ///< faults of the piece as a mesh by itself
+  std::vector<seam> seams;    ///< faults between piece and skeleton, by kind
 
+  /// Notes a fault; of each kind the first entity is kept.
   void add(seam_fault kind, local_id entity) {
     for (auto& fault : seams)
       if (fault.kind == kind) {
@@ -52,7 +55,8 @@ struct subdomain_faults {
       }
     seams.push_back({kind, 1, entity});
   }
-  bool valid() const { return inside.valid() && seams.empty(); }
+  bool valid() const { return inside.valid() && seams.empty(); } ///< whether it has no faults
+  /// The faults in one line.
   std::string text() const {
     std::string line = "subdomain " + std::to_string(subdomain) + ": " + inside.text();
     for (const auto& fault : seams)
@@ -64,9 +68,9 @@ struct subdomain_faults {
 
 /// The subdomains that have faults; none for a valid mesh.
 struct distributed_validity {
-  std::vector<subdomain_faults> subdomains;
+  std::vector<subdomain_faults> subdomains; ///< those that have faults, by number
 
-  bool valid() const { return subdomains.empty(); }
+  bool valid() const { return subdomains.empty(); } ///< whether no subdomain has faults
   /// One line per faulty subdomain.
   std::string text() const {
     std::string lines;

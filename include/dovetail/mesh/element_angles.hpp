@@ -13,7 +13,7 @@
 
 namespace dovetail {
 
-inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
+inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi; ///< to turn radians into degrees
 
 /// Coordinates of the corners of an element.
 template <std::size_t N>

@@ -16,8 +16,8 @@ struct global_numbering {
   std::vector<global_id> first_point;   ///< global number of a piece's first inner point
   std::vector<global_id> first_element; ///< global number of a piece's first element
 
-  global_id points() const { return first_point.back(); }
-  global_id elements() const { return first_element.back(); }
+  global_id points() const { return first_point.back(); }     ///< of the whole mesh
+  global_id elements() const { return first_element.back(); } ///< of the whole mesh
 };
 
 /// O(pieces).

@@ -35,9 +35,10 @@ public:
     tree_ = box_tree(boxes);
   }
 
-  box3 bounds() const { return tree_.bounds(); }
-  const box_tree& tree() const { return tree_; }
+  box3 bounds() const { return tree_.bounds(); } ///< the box around the surface
+  const box_tree& tree() const { return tree_; } ///< the boxes of its triangles
 
+  /// Whether a point is inside.
   bool operator()(vec3 p) const {
     bool inside = false;
     tree_.for_each(

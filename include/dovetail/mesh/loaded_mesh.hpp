@@ -14,8 +14,8 @@ namespace dovetail::io {
 
 /// A named array of scalars, one per point.
 struct point_array {
-  std::string name;
-  std::vector<double> values;
+  std::string name;           ///< as the file calls it
+  std::vector<double> values; ///< by point
 };
 
 /// More point arrays than this no reader takes: each is as long as the mesh has points, however little of it

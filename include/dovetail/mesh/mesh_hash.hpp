@@ -21,6 +21,7 @@ namespace dovetail::io {
 /// Adds up the hashes of points and elements.
 class mesh_hasher {
 public:
+  /// Adds a point under its global number.
   void point(global_id id, vec3 at) {
     content_hash hash;
     hash.word(static_cast<std::uint64_t>(id));
@@ -51,6 +52,7 @@ public:
   /// Adds what another hasher has seen.
   void merge(const mesh_hasher& other) { sum_ += other.sum_; }
 
+  /// The hash of all that was added.
   std::uint64_t value() const {
     content_hash hash;
     hash.word(sum_);

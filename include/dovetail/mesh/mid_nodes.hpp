@@ -71,12 +71,12 @@ public:
   piece_nodes& operator=(const piece_nodes&) = delete;
 
   std::span<const local_id> shared() const { return shared_; } ///< numbers of nodes of the skeleton
-  std::span<const vec3> own() const { return own_; }
+  std::span<const vec3> own() const { return own_; }           ///< the nodes that no other piece has
   /// Of an element: each below `shared().size()`, or that and the number of one of its own.
   std::span<const local_id> of_element(std::size_t e) const {
     return {elements_ + e * per_element_, per_element_};
   }
-  std::size_t per_element() const { return per_element_; }
+  std::size_t per_element() const { return per_element_; } ///< how many nodes an element has
 
 private:
   void add_middles(const simplicial_piece<D>& piece, const mid_edge_nodes<D>& nodes,
@@ -142,6 +142,7 @@ template <int D>
 std::size_t skeleton_nodes(const distributed_simplicial_mesh<D>& mesh) {
   return mesh.skeleton.points.size() + (mesh.mid_nodes ? mesh.mid_nodes->points.size() : 0);
 }
+/// A point of the skeleton, or a node in the middle of one of its edges.
 template <int D>
 vec3 skeleton_node(const distributed_simplicial_mesh<D>& mesh, local_id node) {
   const auto at = static_cast<std::size_t>(node);

@@ -40,8 +40,10 @@ inline constexpr auto gmsh_nodes = [] {
 
 } // namespace numbering
 
+/// 3 for triangles, 6 for tetrahedra.
 template <int D>
 inline constexpr std::size_t edges_per_element = numbering::edges<D>.size();
+/// 6 for triangles, 10 for tetrahedra.
 template <int D>
 inline constexpr std::size_t quadratic_nodes = static_cast<std::size_t>(D) + 1 + edges_per_element<D>;
 
@@ -65,6 +67,7 @@ simplex<1> vertices_of_edge(const std::array<local_id, N>& element, const std::a
 template <int D>
 struct edge_table {
   std::vector<simplex<1>> vertices; ///< ascending, and so are the edges
+  /// The numbers of its edges, in the order of `numbering::edges<D>`.
   std::vector<std::array<local_id, edges_per_element<D>>> of_element;
 };
 

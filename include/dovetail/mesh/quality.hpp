@@ -52,11 +52,13 @@ inline std::array<double, 2> extreme_dihedral_angles(const std::array<vec3, 3>& 
 
 /// Counts of angles in one-degree bins: bin k holds [k, k+1), the last one 180 as well.
 struct angle_histogram {
-  std::array<std::int64_t, 180> bins{};
+  std::array<std::int64_t, 180> bins{}; ///< how many angles fall into each degree
 
+  /// Counts an angle; what is outside [0, 180] goes to the nearest bin.
   void add(double degrees) {
     ++bins[static_cast<std::size_t>(std::clamp(static_cast<int>(degrees), 0, 179))];
   }
+  /// Adds the counts of another one.
   void merge(const angle_histogram& other) {
     for (std::size_t k = 0; k < bins.size(); ++k)
       bins[k] += other.bins[k];
@@ -68,7 +70,7 @@ struct angle_histogram {
       count += bins[static_cast<std::size_t>(k)];
     return count;
   }
-  std::int64_t total() const { return below(180); }
+  std::int64_t total() const { return below(180); } ///< how many angles it has counted
 
   /// As bytes (`core/encoding.hpp`): where the bins that are not empty begin, how many there are from the
   /// first to the last, and these; a tenth of what they take in memory.
@@ -100,10 +102,10 @@ struct angle_histogram {
 /// Dihedrals are dihedral angles (D = 3) or corner angles (D = 2); face angles are the corner angles of an
 /// element's triangles, which for D = 2 are the same.
 struct quality_statistics {
-  std::int64_t elements = 0;
-  double min_dihedral_deg = 180; ///< 180 for an empty mesh
-  double max_dihedral_deg = 0;
-  double min_face_deg = 180;
+  std::int64_t elements = 0;          ///< how many were measured
+  double min_dihedral_deg = 180;      ///< 180 for an empty mesh
+  double max_dihedral_deg = 0;        ///< the largest of all
+  double min_face_deg = 180;          ///< the smallest of all
   double sum_of_min_dihedral_deg = 0; ///< over elements; see mean_min_dihedral_deg
   global_id worst_element = -1;       ///< the element with the smallest dihedral angle; the first of several
   angle_histogram min_dihedrals;      ///< each element's smallest dihedral angle
@@ -119,9 +121,11 @@ struct quality_statistics {
     return {min_dihedrals.below(6), min_dihedrals.below(12), min_dihedrals.below(18),
             min_dihedrals.below(24)};
   }
+  /// The mean over the elements of their smallest dihedral angle; 0 without elements.
   double mean_min_dihedral_deg() const {
     return elements == 0 ? 0 : sum_of_min_dihedral_deg / static_cast<double>(elements);
   }
+  /// Elements per million whose smallest dihedral angle is below that.
   double per_million_under(int degrees) const {
     return elements == 0
                ? 0

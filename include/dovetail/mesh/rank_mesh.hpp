@@ -18,9 +18,9 @@ namespace dovetail {
 /// What a rank shares with another one, by local ids. The other rank lists the same entities in the same
 /// order, under its own ids: what one packs along a list, the other unpacks along its own.
 struct rank_neighbour {
-  local_id rank = no_id;
-  std::vector<local_id> vertices;
-  std::vector<simplex<1>> edges; ///< each from the same end on both sides
+  local_id rank = no_id;          ///< the number of the other rank
+  std::vector<local_id> vertices; ///< those that both hold
+  std::vector<simplex<1>> edges;  ///< each from the same end on both sides
   /// Sides between two elements, one of each rank; D = 3. Outwards of this rank's element, so turned against
   /// that of the other rank; both start with the same vertex.
   std::vector<simplex<2>> faces;
@@ -39,12 +39,12 @@ struct rank_neighbour {
 /// come first. Numbers are those of nodes (mid_nodes.hpp).
 template <int D>
 struct rank_mesh {
-  local_id rank = 0;
-  local_id ranks = 1;
-  std::size_t owned_vertices = 0;
-  std::size_t owned_corners = 0; ///< the owned vertices before those in the middle of edges
-  std::size_t held_vertices = 0; ///< the owned ones with them; the others are of ghosts alone
-  std::size_t owned_elements = 0;
+  local_id rank = 0;              ///< the number of this rank
+  local_id ranks = 1;             ///< how many there are
+  std::size_t owned_vertices = 0; ///< of all its vertices, those that it owns come first
+  std::size_t owned_corners = 0;  ///< the owned vertices before those in the middle of edges
+  std::size_t held_vertices = 0;  ///< the owned ones with them; the others are of ghosts alone
+  std::size_t owned_elements = 0; ///< of all its elements, those that it owns come first
 
   simplicial_mesh<D> mesh;                ///< tags: materials (D = 3), CAD faces (D = 2)
   std::vector<global_id> vertex_ids;      ///< per vertex

@@ -6,6 +6,7 @@
 
 namespace dovetail {
 
+/// Whether a side may become an interface, and why not.
 enum class side_state : std::uint8_t {
   kept,    ///< may become an interface
   removed, ///< inside a super-element: can never become an interface

@@ -25,6 +25,7 @@ struct side_table {
   std::vector<std::pair<local_id, local_id>> further_elements;
 
   std::size_t size() const { return elements.size(); }
+  /// Whether it has one element only.
   bool is_boundary(local_id side) const { return elements[static_cast<std::size_t>(side)][1] == no_id; }
   /// More than two elements meet at the side.
   bool is_non_manifold(local_id side) const {

@@ -36,6 +36,7 @@ enum class mesh_fault {
   isolated_point     ///< point that no element uses
 };
 
+/// What a message calls a fault.
 inline std::string_view name_of(mesh_fault kind) {
   constexpr std::array<std::string_view, 12> names{"missing point",   "tags mismatch",     "non-finite point",
                                                    "repeated vertex", "duplicate element", "inverted element",
@@ -46,12 +47,13 @@ inline std::string_view name_of(mesh_fault kind) {
 
 /// One kind of fault: how often it occurs, and the first few entities that have it.
 struct fault_count {
-  static constexpr std::size_t max_examples = 10;
+  static constexpr std::size_t max_examples = 10; ///< so many entities are kept
 
-  mesh_fault kind;
-  std::int64_t count = 0;
+  mesh_fault kind;                ///< which kind
+  std::int64_t count = 0;         ///< how often
   std::vector<local_id> examples; ///< the first ones; what they number is said at `mesh_fault`
 
+  /// Counts an entity, and keeps it if it is one of the first.
   void add(local_id entity) {
     if (++count <= static_cast<std::int64_t>(max_examples))
       examples.push_back(entity);
@@ -67,9 +69,10 @@ struct validity_options {
 
 /// The kinds of fault found, in the order of `mesh_fault`; empty for a valid mesh.
 struct validity {
-  std::vector<fault_count> faults;
+  std::vector<fault_count> faults; ///< one entry for each kind that occurs
 
-  bool valid() const { return faults.empty(); }
+  bool valid() const { return faults.empty(); } ///< whether there are no faults
+  /// How often a kind of fault occurs.
   std::int64_t count(mesh_fault kind) const {
     for (const fault_count& fault : faults)
       if (fault.kind == kind)

@@ -34,8 +34,8 @@ public:
           return held.with_lines(lines)(input, size);
         }) {}
 
-  const std::string& name() const { return name_; }
-  explicit operator bool() const { return static_cast<bool>(call_); }
+  const std::string& name() const { return name_; } ///< the name it was given, for reports; may be empty
+  explicit operator bool() const { return static_cast<bool>(call_); } ///< whether it holds one
 
   any_line_keeping_mesher with_lines(std::vector<std::vector<vec3>> lines) const {
     any_line_keeping_mesher changed = *this;

@@ -65,15 +65,17 @@ public:
     return form;
   }
 
+  /// Whether the mesher has a form for background meshes.
   bool has_form_for_background() const { return background_ != nullptr; }
 
-  explicit operator bool() const { return static_cast<bool>(call_); }
+  explicit operator bool() const { return static_cast<bool>(call_); } ///< whether it holds one
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
   const mesher_traits& actual_traits() const { return actual_traits_; }
+  /// What the mesher that it holds says.
   double elements_per_inverse_cubed_size() const { return elements_per_inverse_cubed_size_; }
   double elements_per_subdomain() const { return elements_per_subdomain_; }
-  std::vector<any_mesher> fallbacks() const { return fallbacks_; }
+  std::vector<any_mesher> fallbacks() const { return fallbacks_; } ///< those of the mesher that it holds
   mesher_result<D> operator()(const mesher_input<D>& input, const any_sizing& size) const {
     if (!call_)
       throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");

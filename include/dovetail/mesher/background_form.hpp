@@ -16,19 +16,21 @@ namespace dovetail {
 /// A mesher with the others of its type that are tried after it, in place of its own fallbacks.
 template <class Mesher>
 struct mesher_in_turn {
-  static constexpr mesher_traits traits = Mesher::traits;
+  static constexpr mesher_traits traits = Mesher::traits; ///< those of the mesher
 
-  Mesher first;
-  std::vector<Mesher> others = {};
+  Mesher first;                    ///< the mesher itself
+  std::vector<Mesher> others = {}; ///< what is tried after it, in their order
 
-  std::string name() const { return policy_name(first); }
-  mesher_traits actual_traits() const { return policy_traits(first); }
+  std::string name() const { return policy_name(first); }              ///< that of the first
+  mesher_traits actual_traits() const { return policy_traits(first); } ///< those of the first
+  /// The others, in their order.
   std::vector<mesher_in_turn> fallbacks() const {
     std::vector<mesher_in_turn> each;
     for (const Mesher& other : others)
       each.push_back({other});
     return each;
   }
+  /// Calls the first.
   template <int D>
   mesher_result<D> operator()(const mesher_input<D>& input, const any_sizing& size) const {
     return first(input, size);

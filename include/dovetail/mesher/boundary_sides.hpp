@@ -22,15 +22,15 @@ class boundary_sides {
 public:
   /// One triangle as a set of three vertices.
   struct entry {
-    local_id middle; ///< vertices in growing order: lowest (the bucket), middle, highest
-    local_id highest;
+    local_id middle;  ///< vertices in growing order: lowest (the bucket), middle, highest
+    local_id highest; ///< of its three vertices
     std::array<local_id, 2> listed{no_id, no_id}; ///< index of the input triangle of even and odd parity
   };
   /// An entry, and the parity with which the side that was asked for is oriented.
   struct match {
-    local_id entry = no_id;
-    int parity = 0;
-    explicit operator bool() const { return entry != no_id; }
+    local_id entry = no_id; ///< a number among `entries()`; no_id where there is none
+    int parity = 0;         ///< of the side that was asked for: an index of `entry::listed`
+    explicit operator bool() const { return entry != no_id; } ///< whether there is an entry
   };
 
   /// Throws `mesher_error` when a triangle is degenerate or listed twice in the same direction.
@@ -59,6 +59,7 @@ public:
         return {static_cast<local_id>(k), parity(side)};
     return {};
   }
+  /// All triangles, each once whatever its directions.
   const std::vector<entry>& entries() const { return entries_; }
   /// The input triangle that is oriented like the side asked for; no_id when only its reverse was listed.
   local_id listed(match m) const {

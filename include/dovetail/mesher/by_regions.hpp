@@ -15,13 +15,14 @@ namespace dovetail::mesher {
 /// Fills every region of a piece by M and joins them along their lines.
 template <surface_mesher M>
 struct by_regions {
+  /// It keeps the boundary, and is as safe in threads as M.
   static constexpr mesher_traits traits{.keeps_boundary = true,
                                         .thread_safe = is_thread_safe<M>(),
                                         .accepts_non_manifold = true,
                                         .repeats_in_process = true,
                                         .may_crash = false};
 
-  M remesher = {};
+  M remesher = {}; ///< meshes each region
 
   /// As above, and what a mesher behind one type says of the one that it holds.
   mesher_traits actual_traits() const {

@@ -25,8 +25,8 @@ struct mesher_traits {
 /// The closed, oriented boundary of one piece: sides with outward orientation; voids are inner shells.
 template <int D>
 struct mesher_input {
-  simplicial_mesh<D - 1> boundary;
-  local_id material = 0;
+  simplicial_mesh<D - 1> boundary; ///< points and oriented sides
+  local_id material = 0;           ///< of the elements to be made
 };
 
 /// In D = 2 the boundary are the edges of the lines, each passed with the piece on its left. An edge inside
@@ -35,13 +35,14 @@ template <>
 struct mesher_input<2> {
   simplicial_mesh<1> boundary;
   local_id material = 0;
-  std::vector<surface_region> regions = {};
+  std::vector<surface_region> regions = {}; ///< what the piece consists of
 };
 
+/// What a mesher has made of a piece.
 template <int D>
 struct mesher_result {
   simplicial_mesh<D> mesh; ///< the input's points first, unchanged; then the new ones
-  report summary;
+  report summary;          ///< what it counted
 };
 
 template <>

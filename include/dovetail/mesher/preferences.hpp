@@ -65,6 +65,7 @@ concept has_background_form = requires(const M& m) {
   { m.for_background() } -> std::same_as<M>;
 };
 
+/// Predicted elements of a subdomain where the mesher does not name another number.
 inline constexpr double default_elements_per_subdomain = 31250;
 
 /// 0, for regular elements, when the mesher does not say.

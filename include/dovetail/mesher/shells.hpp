@@ -12,8 +12,8 @@ namespace dovetail {
 
 /// One connected body inside a boundary.
 struct bounded_body {
-  std::vector<simplex<2>> outer;
-  std::vector<std::vector<simplex<2>>> voids;
+  std::vector<simplex<2>> outer;              ///< oriented outwards
+  std::vector<std::vector<simplex<2>>> voids; ///< its voids, each a closed shell
 };
 
 /// Groups of triangles connected across edges, by lowest triangle; every triangle is in exactly one.

@@ -59,29 +59,37 @@ struct wraps : wrapped_policy<Self, Mesher>, detail::wrapped_calibration<Self, M
   using wrapped_policy<Self, Mesher>::wrapped_policy;
   using wrapped_policy<Self, Mesher>::wrapped;
 
+  /// Those of the wrapped mesher.
   static constexpr mesher_traits traits = Mesher::traits;
 
+  /// Those of a wrapped mesher that holds another one.
   mesher_traits actual_traits() const requires detail::has_actual_traits<Mesher> {
     return wrapped.actual_traits();
   }
+  /// Of the pieces that the wrapped mesher does best with.
   double elements_per_subdomain() const requires piece_sizing_mesher<Mesher> {
     return wrapped.elements_per_subdomain();
   }
+  /// Whether the wrapped mesher, which holds another one, has one.
   bool has_form_for_background() const requires detail::knows_its_form<Mesher> {
     return wrapped.has_form_for_background();
   }
+  /// The form of the wrapped mesher, wrapped.
   Self for_background() const requires has_background_form<Mesher> {
     return this->around(wrapped.for_background());
   }
+  /// The fallbacks of the wrapped mesher, each wrapped.
   std::vector<Self> fallbacks() const requires has_fallbacks<Mesher> {
     std::vector<Self> each;
     for (Mesher& next : wrapped.fallbacks())
       each.push_back(this->around(std::move(next)));
     return each;
   }
+  /// The wrapped mesher told the lines, wrapped.
   Self with_lines(std::vector<std::vector<vec3>> lines) const requires line_keeping_mesher<Mesher> {
     return this->around(wrapped.with_lines(std::move(lines)));
   }
+  /// What the wrapped mesher makes.
   template <int D>
     requires(piece_mesher<Mesher, D>)
   mesher_result<D>

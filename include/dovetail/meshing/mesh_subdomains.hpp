@@ -27,17 +27,18 @@ namespace dovetail {
 template <int D>
 using piece_source = std::function<piece_input<D>(local_id)>;
 
-using subdomain_source = piece_source<3>;
+using subdomain_source = piece_source<3>; ///< where the boundaries of subdomains of tetrahedra come from
 
 /// A subdomain that no attempt could mesh.
 struct piece_failure {
-  local_id subdomain = no_id;
+  local_id subdomain = no_id;       ///< its number
   std::vector<std::string> reasons; ///< one per attempt, naming the policy unless its worker died
   bool timed_out = false; ///< some attempt reached the wall-clock limit: the mesh may differ next time
   std::size_t crossing_facets = 0; ///< boundary triangles that cross others; known when a file was written
   std::filesystem::path facets;    ///< OFF file of the offending facets, when one was written
 };
 
+/// How subdomains are meshed.
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
@@ -51,9 +52,10 @@ struct meshing_options {
   /// Called with every subdomain of D = 3 that failed on all attempts and the boundary that none could fill,
   /// to keep a record of it; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
-  progress on_progress = {};
+  progress on_progress = {}; ///< told how the subdomains come along
 };
 
+/// What became of the subdomains.
 template <int D>
 struct meshed_pieces {
   /// Per subdomain; counts are 0 where it failed. Of a report only "attempt", "stops_by_clock", and the
@@ -66,13 +68,14 @@ struct meshed_pieces {
   std::function<simplicial_piece<D>(local_id)> load;
   std::function<void(local_id, const piece_note&)>
       release; ///< of `distributed_simplicial_mesh`, with a spool
+  /// The note that was left in place of a piece that was given up.
   std::function<std::optional<piece_note>(local_id)> released;
   report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
                   ///< "stops_by_clock" (of pieces that a time limit has left to another attempt),
                   ///< "peak_rss_bytes", and the sums over workers "mesher_seconds" and "improver_seconds"
 };
 
-using meshing_result = meshed_pieces<3>;
+using meshing_result = meshed_pieces<3>; ///< that of tetrahedra
 
 /// Throws `usage_error` when no mesher was chosen, or a policy may not run in the executor's threads: what is
 /// known before anything is meshed.

@@ -31,17 +31,17 @@ namespace dovetail {
 /// What a mesher needs of one subdomain.
 template <int D>
 struct piece_input {
-  mesher_input<D> boundary;
+  mesher_input<D> boundary;              ///< as a mesher takes it
   std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
   content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
 };
 
-using subdomain_input = piece_input<3>;
+using subdomain_input = piece_input<3>; ///< that of tetrahedra
 
 /// What is known of a finished piece without loading it.
 struct piece_summary {
-  piece_counts counts;
-  quality_statistics quality;
+  piece_counts counts;        ///< how large it is
+  quality_statistics quality; ///< of its elements
   report summary; ///< children "mesher" and "improver"; counter "attempt": 0 unless it failed at first
 
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
@@ -50,8 +50,8 @@ struct piece_summary {
 /// A piece as it is kept: without numbers that only the present skeleton gives it.
 template <int D>
 struct finished_piece {
-  piece_summary summary;
-  simplicial_piece<D> piece;
+  piece_summary summary;     ///< what is known of it
+  simplicial_piece<D> piece; ///< its points and elements
 
   using fields = field_list<&finished_piece::summary, &finished_piece::piece>;
 };

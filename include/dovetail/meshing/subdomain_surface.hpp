@@ -16,7 +16,7 @@ namespace dovetail {
 /// The closed boundary of one subdomain on points of its own, oriented outwards.
 template <int D>
 struct subdomain_sides {
-  simplicial_mesh<D - 1> boundary;
+  simplicial_mesh<D - 1> boundary;       ///< points and oriented sides
   std::vector<local_id> skeleton_points; ///< per point: its number in the skeleton, growing
 };
 

@@ -22,6 +22,7 @@
 
 namespace dovetail {
 
+/// How triangles become a model.
 struct discrete_options {
   double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature curve
   double merge_tolerance =

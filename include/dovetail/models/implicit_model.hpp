@@ -16,6 +16,7 @@
 
 namespace dovetail {
 
+/// How a function becomes a model.
 struct implicit_options {
   int resolution = 48; ///< cells of the start triangulation along the longest side of the box
   /// Of the function; central differences when there is none.

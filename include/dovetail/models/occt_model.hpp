@@ -38,7 +38,7 @@ public:
   ~occt_model();
 
   const geometry_topology& topology() const { return *topology_; }
-  const TopoDS_Shape& shape() const;
+  const TopoDS_Shape& shape() const; ///< as it was read and healed
   const occt::brep& data() const { return *data_; }
   box3 bounds() const { return bounds_; }
   bool thread_safe() const { return false; }
@@ -69,8 +69,8 @@ static_assert(geometry_model<occt_model>);
 
 /// A model and what was found and done while making it.
 struct occt_read_result {
-  occt_model model;
-  dovetail::report report;
+  occt_model model;        ///< the model that was read
+  dovetail::report report; ///< what was counted on the way
 };
 
 /// Turns a shape into a model, healing as far as needed. Throws `geometry_error` naming the first entity that

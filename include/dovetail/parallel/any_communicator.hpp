@@ -34,14 +34,19 @@ public:
   any_communicator(C policy) // NOLINT: converts, as std::function does
       : state_(std::make_shared<state>(std::make_unique<model<C>>(std::move(policy)))) {}
 
-  int rank() const { return state_->link->rank(); }
+  int rank() const { return state_->link->rank(); } ///< the number of this rank
   int size() const { return state_->link->size(); }
-  bool leads() const { return rank() == 0; }
+  bool leads() const { return rank() == 0; } ///< whether this is rank 0
+  /// Whether other ranks are threads of this process.
   bool shares_process() const { return state_->link->shares_process(); }
+  /// What to wait at for messages, a file descriptor; -1 without one.
   int descriptor() const { return state_->link->descriptor(); }
+  /// Tells all other ranks that this one goes no further, and why.
   void abandon(const std::string& reason) { state_->link->abandon(reason); }
+  /// Waits until a message comes, or so long.
   void wait(std::chrono::milliseconds at_most) { state_->link->wait(at_most); }
 
+  /// Sends bytes to another rank. Throws `usage_error` when there is no such rank, or it is this one.
   void send(int to, std::int32_t tag, byte_buffer bytes) {
     if (to < 0 || to >= size() || to == rank())
       throw usage_error("rank " + std::to_string(rank()) + " cannot send to rank " + std::to_string(to) +
@@ -131,9 +136,10 @@ public:
 
   /// The sum of the values of all lower ranks, and of all ranks.
   struct scan {
-    std::int64_t before = 0;
-    std::int64_t in_all = 0;
+    std::int64_t before = 0; ///< of all lower ranks
+    std::int64_t in_all = 0; ///< of all ranks
   };
+  /// Sums by rank. Collective.
   scan exclusive_scan(std::int64_t value) {
     scan sums;
     int from = 0;

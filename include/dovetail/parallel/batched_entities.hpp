@@ -29,7 +29,7 @@ namespace dovetail {
 /// An entity that could not be made.
 struct entity_failure {
   std::size_t entity = 0; ///< its number in the call
-  std::string reason;
+  std::string reason;     ///< what its maker threw
 };
 
 namespace detail {

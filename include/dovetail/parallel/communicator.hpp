@@ -15,9 +15,9 @@ namespace dovetail {
 
 /// Bytes between two ranks. Who sends and who receives agree on the tag, which is 0 or more.
 struct rank_message {
-  int peer = 0; ///< who sent it
-  std::int32_t tag = 0;
-  byte_buffer bytes = {};
+  int peer = 0;           ///< who sent it
+  std::int32_t tag = 0;   ///< which sender and receiver agree on
+  byte_buffer bytes = {}; ///< what is sent
 };
 
 /// The role `communicator`: messages between the ranks of a run. What ranks do together (broadcast, gather,

@@ -18,7 +18,7 @@ namespace dovetail {
 
 /// What became of one task.
 struct task_outcome {
-  bool ok = false;
+  bool ok = false;        ///< whether it gave a result
   byte_buffer result;     ///< what the task returned, when ok
   std::string failure;    ///< why it failed, when not ok: the exception's text, a signal, a time limit
   bool crashed = false;   ///< the worker died (signal or exit) rather than throwing
@@ -35,10 +35,11 @@ struct task_outcome {
 struct run_options {
   std::vector<std::size_t> order = {}; ///< a permutation of the tasks, or empty for 0, 1, 2, ...
   double limit_seconds = 600;          ///< wall-clock limit of one task; the last resort
-  progress on_progress = {};
-  std::string stage = "tasks"; ///< the name progress is reported under
+  progress on_progress = {};           ///< told how the tasks come along
+  std::string stage = "tasks";         ///< the name progress is reported under
 };
 
+/// A task by its number; gives the bytes of its result.
 using task_function = std::function<byte_buffer(std::size_t)>;
 
 /// The role `executor`: run independent tasks and collect their encoded results.

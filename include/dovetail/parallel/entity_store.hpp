@@ -23,7 +23,7 @@ namespace dovetail {
 
 /// What a task says of something that it has made for a store.
 struct kept_value {
-  content_key key = {};
+  content_key key = {};                  ///< what it is kept under
   std::optional<byte_buffer> bytes = {}; ///< where the task cannot reach the store
 
   using fields = field_list<&kept_value::key, &kept_value::bytes>;
@@ -109,6 +109,7 @@ public:
     else
       memory_.insert_or_assign(key, std::move(bytes));
   }
+  /// Gives up what is kept under a key.
   void release(content_key key) {
     if (disk_)
       disk_->remove(name_of(key));

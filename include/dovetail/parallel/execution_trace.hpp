@@ -11,18 +11,18 @@ namespace dovetail {
 
 /// A task that gave a result. Times are seconds since its batch began.
 struct task_span {
-  std::size_t task = 0;
-  int worker = 0; ///< of the batch, by when they began
+  std::size_t task = 0; ///< its number in the batch
+  int worker = 0;       ///< of the batch, by when they began
   double begin = 0;
-  double seconds = 0;
-  std::size_t result_bytes = 0;
+  double seconds = 0;           ///< how long it took
+  std::size_t result_bytes = 0; ///< how large its result was
 
   friend bool operator==(const task_span&, const task_span&) = default;
 };
 
 /// The tasks that were given to an executor at once. Times are seconds since the trace began.
 struct batch_span {
-  std::string stage;
+  std::string stage; ///< what progress called it
   double begin = 0;
   double end = 0;
   std::vector<task_span> tasks = {}; ///< by number
@@ -34,7 +34,7 @@ struct batch_span {
 
 /// What progress calls a stage, from one name to the next.
 struct stage_span {
-  std::string stage;
+  std::string stage; ///< what progress called it
   double begin = 0;
   double end = 0;
 
@@ -43,22 +43,22 @@ struct stage_span {
 
 /// What the memory of a rank goes with.
 struct mesh_sizes {
-  double background_elements = 0;
-  double skeleton_sides = 0;
-  double largest_piece = 0; ///< its elements; 0 where none of these are known
+  double background_elements = 0; ///< of the whole background mesh
+  double skeleton_sides = 0;      ///< of the whole skeleton
+  double largest_piece = 0;       ///< its elements; 0 where none of these are known
 
-  bool are_known() const { return largest_piece > 0; }
+  bool are_known() const { return largest_piece > 0; } ///< whether there are any
   friend bool operator==(const mesh_sizes&, const mesh_sizes&) = default;
 };
 
 /// As `parallel::traced` makes it, in the order in which things began.
 struct execution_trace {
-  int workers = 1;
-  double elements = 0; ///< of the mesh that was made, when known
-  mesh_sizes sizes = {};
-  double seconds = 0;
-  std::vector<stage_span> stages = {};
-  std::vector<batch_span> batches = {};
+  int workers = 1;                      ///< how many ran tasks
+  double elements = 0;                  ///< of the mesh that was made, when known
+  mesh_sizes sizes = {};                ///< of the mesh that was made
+  double seconds = 0;                   ///< of the whole run
+  std::vector<stage_span> stages = {};  ///< in the order they began
+  std::vector<batch_span> batches = {}; ///< in the order they were given
 
   friend bool operator==(const execution_trace&, const execution_trace&) = default;
 };

@@ -27,13 +27,14 @@ namespace dovetail {
 template <encodable Result, encodable Note>
 class kept_results {
 public:
+  /// What is known of a result without loading it.
   using summary_type = std::remove_cvref_t<decltype(std::declval<Result&>().summary)>;
 
   /// What a task says of the result that it has made.
   struct receipt {
-    kept_value kept = {};
-    summary_type summary = {};
-    bool is_reused = false; ///< it was there
+    kept_value kept = {};      ///< where it is
+    summary_type summary = {}; ///< what is known of it
+    bool is_reused = false;    ///< it was there
 
     using fields = field_list<&receipt::kept, &receipt::summary, &receipt::is_reused>;
   };

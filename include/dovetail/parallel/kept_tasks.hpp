@@ -21,10 +21,11 @@
 
 namespace dovetail {
 
+/// Runs tasks whose values are kept.
 struct kept_tasks {
-  const any_executor& run_tasks;
-  entity_store& store;
-  progress on_progress = {};
+  const any_executor& run_tasks; ///< what runs them
+  entity_store& store;           ///< where the values are kept
+  progress on_progress = {};     ///< told how the tasks come along
 
   /// Runs `task(i)` for each size, the largest first, and then `take(i, what it gave)` in turn. Throws
   /// `mesh_error` that names stage and task when one fails, what `map_tasks` throws, and `cancelled`.

@@ -24,10 +24,10 @@ namespace dovetail {
 /// What became of one task, with the value that it returned.
 template <class T>
 struct task_result {
-  std::optional<T> value;   ///< nothing when the task failed
-  std::string failure = {}; ///< why it failed: see `task_outcome`
-  bool crashed = false;
-  bool timed_out = false;
+  std::optional<T> value;           ///< nothing when the task failed
+  std::string failure = {};         ///< why it failed: see `task_outcome`
+  bool crashed = false;             ///< it ended its process
+  bool timed_out = false;           ///< it took too long
   double seconds = 0;               ///< the task's own wall time
   std::uint64_t peak_rss_bytes = 0; ///< of the worker that ran it, when known
 };

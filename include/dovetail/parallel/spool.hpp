@@ -80,7 +80,8 @@ public:
   /// Whether all ranks of a run have this spool.
   bool is_common() const { return is_common_; }
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_; } ///< where the blobs are
+  /// The file of a blob, there or not.
   std::filesystem::path path_of(std::string_view name) const {
     return folder_ / (std::string(name) + blob_suffix);
   }

@@ -17,6 +17,7 @@ public:
     if (runs_in_threads(run) && !model.thread_safe())
       own_.emplace(model);
   }
+  /// The model to query; valid as long as this.
   const any_geometry& get() const { return own_ ? *own_ : *shared_; }
 
 private:

@@ -13,6 +13,7 @@ namespace dovetail::parallel {
 /// A model of `executor` for tasks that may run side by side in one process; TetGen and Gmsh may not. A task
 /// that crashes ends the process, and one that hangs is not interrupted.
 struct threads {
+  /// Where types tell, a policy that may not run in threads does not compile with it.
   static constexpr bool uses_threads = true;
 
   int worker_count = 0; ///< 0: one per processor that this process may use

@@ -35,13 +35,18 @@ struct wraps : wrapped_policy<Self, Executor> {
   using wrapped_policy<Self, Executor>::wrapped_policy;
   using wrapped_policy<Self, Executor>::wrapped;
 
+  /// The outcomes of the wrapped executor.
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
                                 const run_options& options) const {
     return wrapped.run(count, task, options);
   }
+  /// How many tasks the wrapped executor runs at a time.
   int workers() const { return wrapped.workers(); }
+  /// Whether its tasks run in this process.
   bool shares_process() const { return wrapped.shares_process(); }
+  /// Between the ranks of the wrapped executor.
   any_communicator network() const requires detail::has_network<Executor> { return wrapped.network(); }
+  /// What one of its processes makes for all.
   byte_buffer once(const std::function<byte_buffer()>& work) const requires detail::does_once<Executor> {
     return wrapped.once(work);
   }

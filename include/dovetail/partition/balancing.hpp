@@ -31,17 +31,22 @@ public:
   }
   movable_parts(csr_graph&&, std::span<local_id>, std::vector<double>) = delete; // it would be gone
 
-  const csr_graph& graph() const { return graph_; }
-  std::size_t node_count() const { return part_.size(); }
-  std::size_t part_count() const { return limits_.size(); }
+  const csr_graph& graph() const { return graph_; }         ///< the graph that is partitioned
+  std::size_t node_count() const { return part_.size(); }   ///< nodes of the graph
+  std::size_t part_count() const { return limits_.size(); } ///< how many parts there are
+  /// The weight of one node.
   double weight_of_node(local_id node) const { return graph_.node_weights[index(node)]; }
-  local_id part_of(local_id node) const { return part_[index(node)]; }
+  local_id part_of(local_id node) const { return part_[index(node)]; } ///< the part that a node is in now
+  /// The sum of the weights of a part's nodes.
   double weight(local_id part) const { return weights_[index(part)]; }
+  /// What the weight of a part should not exceed.
   double limit(local_id part) const { return limits_[index(part)]; }
-  local_id nodes_in(local_id part) const { return counts_[index(part)]; }
+  local_id nodes_in(local_id part) const { return counts_[index(part)]; } ///< how many nodes a part has
+  /// Weight over limit: above 1 it is overweight.
   double relative_weight(local_id part) const { return weight(part) / limit(part); }
-  move_gains& gains() { return gains_; }
+  move_gains& gains() { return gains_; } ///< what moving nodes would gain
 
+  /// Gives a node to another part.
   void move(local_id node, local_id to) {
     local_id& from = part_[index(node)];
     weights_[index(from)] -= weight_of_node(node);
@@ -69,6 +74,7 @@ class part_balancer {
 public:
   explicit part_balancer(movable_parts& parts) : parts_(parts) {}
 
+  /// Moves nodes until no part is overweight, or none may be moved.
   void run() {
     bool is_balanced = true;
     for (local_id p = 0; p < static_cast<local_id>(parts_.part_count()); ++p)

@@ -13,8 +13,8 @@ namespace dovetail {
 
 /// A smaller graph and the node of it that each node of the larger one went to.
 struct coarsened_graph {
-  csr_graph graph;
-  std::vector<local_id> node_of;
+  csr_graph graph;               ///< the smaller graph
+  std::vector<local_id> node_of; ///< by node of the larger graph
 };
 
 /// Matches each node, in an order that `seed` determines, with the free neighbour of heaviest edge; pairs

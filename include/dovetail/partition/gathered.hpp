@@ -54,7 +54,7 @@ namespace partition {
 /// redistribution by elements, a graph of 2 million nodes for a billion elements.
 template <graph_partitioner P>
 struct gathered {
-  P partitioner;
+  P partitioner; ///< what partitions on rank 0
 
   static constexpr bool depends_on_ranks() { return false; }
   std::vector<local_id> operator()(any_communicator& network, const distributed_csr_graph& graph,

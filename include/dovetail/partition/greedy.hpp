@@ -12,8 +12,8 @@ namespace dovetail::partition {
 /// Coarsens by heavy edges, bisects the small graph by greedy growing, refines on the way back. About
 /// n log n; about half of METIS's time, with cuts some 10 % larger (docs/partitioners.md).
 struct greedy {
-  double imbalance = 1.03; ///< heaviest part over average part
-  std::uint64_t seed = 1;
+  double imbalance = 1.03;        ///< heaviest part over average part
+  std::uint64_t seed = 1;         ///< other seeds give other parts
   int coarse_nodes_per_part = 30; ///< coarsening stops there
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts.

@@ -26,6 +26,7 @@ public:
       : parts_(graph, part, std::move(limits)) {}
   partition_refiner(csr_graph&&, std::span<local_id>, std::vector<double>) = delete; // it would be gone
 
+  /// Balances, then lowers the cut until a pass gains nothing or `max_passes` are done.
   void refine(int max_passes = 8) {
     part_balancer(parts_).run();
     for (int pass = 0; pass < max_passes && improve_cut(); ++pass) {

@@ -30,18 +30,18 @@ public:
                      " elements, more than the limit of " + number_text(limit, 3) +
                      "; give larger sizes or raise the limit"),
         predicted(predicted_elements) {}
-  double predicted;
+  double predicted; ///< elements that the sizes ask for
 };
 
 /// What is known before the background mesh: sizes of the mesh and of its decomposition.
 struct mesh_plan {
-  double predicted_elements = 0;
-  double relative_error = 0; ///< estimated: of the integral of sizes, and of what meshers make of it
-  int subdomains = 1;
-  double coarse_scale = 1; ///< factor between coarse and final size
-  double size_scale = 1;   ///< factor between final size and that given (`generate_options::enlarged_above`)
+  double predicted_elements = 0; ///< elements of the mesh at the given sizes, enlarged ones if they are
+  double relative_error = 0;     ///< estimated: of the integral of sizes, and of what meshers make of it
+  int subdomains = 1;            ///< how many parts the background mesh is to be cut into
+  double coarse_scale = 1;       ///< factor between coarse and final size
+  double size_scale = 1; ///< factor between final size and that given (`generate_options::enlarged_above`)
 
-  using fields = field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error,
+  using fields = field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, ///< what is stored
                             &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::size_scale>;
 };
 
@@ -96,13 +96,14 @@ element_prediction predict_mesh(const surface_mesh& surface, const geometry_topo
 template <int D>
 any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>& bounds);
 
+/// A background mesh, and what it was made by.
 template <int D>
 struct background_result {
-  simplicial_background<D> mesh;
-  mesh_plan plan;
+  simplicial_background<D> mesh; ///< the coarse mesh
+  mesh_plan plan;                ///< what was known before it was made
   std::vector<size_ball> bounds; ///< where the surface asks for smaller sizes (D = 2)
   any_sizing size;               ///< the field given, times the plan's factor, within these bounds
-  report summary;
+  report summary;                ///< what its stages report
 
   /// All but the field, which is a function.
   using fields = field_list<&background_result::mesh, &background_result::plan, &background_result::bounds,

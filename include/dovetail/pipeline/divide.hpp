@@ -19,14 +19,14 @@ namespace dovetail {
 /// A background mesh cut into parts, and what the steps after that need to know of how it came about.
 template <int D>
 struct divided_background {
-  side_table<D> sides;
+  side_table<D> sides; ///< of the background mesh
   /// D = 3: the elements behind and in front of each surface triangle, or no_id.
   elements_at_triangles beside_surface;
-  std::vector<double> weights; ///< predicted elements, per coarse element
-  std::vector<side_state> side_states;
-  decomposition pieces;
-  interface_angles angles;
-  report simplification, partition;
+  std::vector<double> weights;         ///< predicted elements, per coarse element
+  std::vector<side_state> side_states; ///< by side: what the simplification decided
+  decomposition pieces;                ///< the parts
+  interface_angles angles;             ///< of the interfaces between the parts
+  report simplification, partition;    ///< of the two steps
 
   /// All but the sides, which follow from the mesh.
   using fields = field_list<&divided_background::weights, &divided_background::side_states,

@@ -28,34 +28,36 @@ namespace dovetail {
 
 /// What is said of the region that a point is in.
 struct region_mark {
-  vec3 place;
+  vec3 place;                ///< a point of the region
   local_id material = no_id; ///< `no_id`: it is left empty
 };
 
+/// What `fill` goes by beside the sizes.
 struct fill_options {
-  double growth = 0.25; ///< of the sizes that the surface has of itself, per length
-  std::vector<region_mark> marks = {};
+  double growth = 0.25;                ///< of the sizes that the surface has of itself, per length
+  std::vector<region_mark> marks = {}; ///< what is said of regions, each by a point in it
   /// More predicted elements are refused before anything is meshed; the indices of a mesh in memory end soon
   /// after.
   double largest_prediction = 2e8;
   any_executor run_regions = parallel::serial{}; ///< what the regions are meshed by
-  progress on_progress = {};
+  progress on_progress = {};                     ///< told how the regions come along
 };
 
 /// A region that was filled.
 struct filled_region {
-  local_id material = 0;
-  std::size_t elements = 0;
-  double volume = 0;
+  local_id material = 0;    ///< its number, that of its elements' tags
+  std::size_t elements = 0; ///< how many it has
+  double volume = 0;        ///< of its elements together
 };
 
+/// A filled surface.
 struct filled_surface {
   simplicial_mesh<3> mesh; ///< the surface's points first, then those inside; tags: materials
   /// Per triangle of the surface: the materials behind it and before it, where its normal points to; `no_id`
   /// where it is empty.
   std::vector<std::array<local_id, 2>> materials_beside;
-  std::vector<filled_region> regions;
-  quality_statistics quality;
+  std::vector<filled_region> regions; ///< those that were filled
+  quality_statistics quality;         ///< of all elements
   report summary; ///< "triangles", "regions", "voids", "elements"; children "checks", "regions",
                   ///< "sizes", "meshing"
 };

@@ -43,15 +43,15 @@ struct generated {
   distributed_simplicial_mesh<D> mesh;
   simplicial_background<D> background;        ///< without a volume where there is one subdomain
   std::vector<local_id> subdomain_of_element; ///< of the background mesh
-  mesh_plan plan;
-  interface_angles coarse_angles; ///< of the coarse skeleton, before merges
-  interface_angles fine_angles;
-  quality_statistics quality;
+  mesh_plan plan;                             ///< what was known before anything was meshed
+  interface_angles coarse_angles;             ///< of the coarse skeleton, before merges
+  interface_angles fine_angles;               ///< of the interfaces of the mesh
+  quality_statistics quality;                 ///< of all elements
   std::vector<piece_failure> failures;
   report summary; ///< children: background, simplification, partition, skeleton, intersection, meshing
 };
 
-using generate_result = generated<3>;
+using generate_result = generated<3>; ///< a mesh of tetrahedra
 
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
 /// for the same model, field, mesher and options. For runs that differ in the simplification, the partitioner

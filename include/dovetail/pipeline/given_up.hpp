@@ -29,6 +29,7 @@ public:
       return {};
     return run_tasks_.once([&] { return kept_->find_value<report>(key_of(background)); });
   }
+  /// Stores the account of a decomposition that is given up.
   void keep(const background_result<D>& background, const report& account) {
     if (kept_ && run_tasks_.leads())
       kept_->keep_value(key_of(background), account);

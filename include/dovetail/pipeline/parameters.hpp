@@ -58,8 +58,8 @@ struct generate_options {
   /// memory.
   std::optional<spool> store = std::nullopt;
   std::filesystem::path failure_folder =
-      {}; ///< where facets of failed subdomains are written; empty: nowhere
-  progress on_progress = {};
+      {};                    ///< where facets of failed subdomains are written; empty: nowhere
+  progress on_progress = {}; ///< told how the stages come along
 };
 
 /// One sweep of each kind towards 28 degrees: few elements have a smaller angle where the mesher has a form
@@ -97,18 +97,19 @@ template <class Mesher = default_mesher, class Partitioner = partition::greedy,
           class Rule = simplifier::paper, class BackgroundImprover = improvement::native,
           class SurfaceMesher = remesh::patch_remesher>
 struct parameters {
-  Mesher mesh_it{};
-  Partitioner partition_it{};
-  Improver improve_it{};
-  Executor run_tasks{};
-  generate_options options{};
-  Rule simplify_by{};
+  Mesher mesh_it{};           ///< makes the elements of a subdomain
+  Partitioner partition_it{}; ///< cuts the graph of super-elements
+  Improver improve_it{};      ///< improves the elements of a subdomain
+  Executor run_tasks{};       ///< runs the tasks
+  generate_options options{}; ///< all that is no policy
+  Rule simplify_by{};         ///< says which sides are to be no interfaces
   /// Makes the coarse elements good (D = 3), so that clean interfaces are found everywhere.
   BackgroundImprover improve_background = detail::first_background_improver<BackgroundImprover>();
   /// Of the coarse surface and of regions; in D = 2 of the pieces too, unless a mesher was chosen.
   SurfaceMesher mesh_surface{};
 
   // Of each dimension a function, not one with a disjunction: of that compilers do not say what is missing.
+  /// A copy with another mesher of tetrahedra.
   template <boundary_keeping_mesher<3> M>
   auto with_mesher(M mesher) const {
     return with(std::move(mesher), partition_it, improve_it, run_tasks, simplify_by, improve_background,
@@ -120,11 +121,13 @@ struct parameters {
     return with(std::move(mesher), partition_it, improve_it, run_tasks, simplify_by, improve_background,
                 mesh_surface);
   }
+  /// A copy with another partitioner.
   template <graph_partitioner P>
   auto with_partitioner(P partitioner) const {
     return with(mesh_it, std::move(partitioner), improve_it, run_tasks, simplify_by, improve_background,
                 mesh_surface);
   }
+  /// A copy with another improver of tetrahedra.
   template <improver<3> I>
   auto with_improver(I improver) const {
     return with(mesh_it, partition_it, std::move(improver), run_tasks, simplify_by, improve_background,
@@ -136,6 +139,7 @@ struct parameters {
     return with(mesh_it, partition_it, std::move(improver), run_tasks, simplify_by, improve_background,
                 mesh_surface);
   }
+  /// A copy with another executor.
   template <executor E>
   auto with_executor(E executor) const {
     return with(mesh_it, partition_it, improve_it, std::move(executor), simplify_by, improve_background,
@@ -148,10 +152,12 @@ struct parameters {
     return with(mesh_it, partition_it, improve_it, run_tasks, std::move(rule), improve_background,
                 mesh_surface);
   }
+  /// A copy with another improver of the background mesh.
   template <improver<3> I>
   auto with_background_improver(I improver) const {
     return with(mesh_it, partition_it, improve_it, run_tasks, simplify_by, std::move(improver), mesh_surface);
   }
+  /// A copy with another mesher of surfaces.
   template <surface_mesher S>
   auto with_surface_mesher(S mesher) const {
     return with(mesh_it, partition_it, improve_it, run_tasks, simplify_by, improve_background,
@@ -207,6 +213,7 @@ struct parameters {
     return *this;
   }
 
+  /// A copy with other options.
   parameters with_options(generate_options different) const {
     parameters changed = *this;
     changed.options = std::move(different);

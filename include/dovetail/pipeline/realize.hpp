@@ -21,11 +21,11 @@ template <int D>
 struct realized {
   std::vector<local_id> subdomain_of_element;  ///< of the background mesh
   std::vector<local_id> material_of_subdomain; ///< all 0 in D = 2
-  coarse_skeleton coarse;
-  simplicial_skeleton<D> fine;
+  coarse_skeleton coarse;                      ///< what is between its subdomains, in coarse entities
+  simplicial_skeleton<D> fine;                 ///< the same, remeshed
   numbered_lines lines;     ///< in D = 2; in D = 3 they are given up when the patches are made
   remeshed_patches patches; ///< in D = 3; in D = 2 what lies between the lines are the pieces
-  report summary;
+  report summary;           ///< what was counted on the way
 };
 
 /// The lines, patches and matching segments made so far, by their keys. After a merge of subdomains most are
@@ -34,8 +34,8 @@ struct skeleton_store {
   explicit skeleton_store(const std::shared_ptr<entity_store>& store)
       : lines(store), patches(store), segments(store) {}
 
-  batched_entities<fine_line> lines;
-  region_store patches;
+  batched_entities<fine_line> lines;        ///< by the keys of lines
+  region_store patches;                     ///< patches by theirs
   batched_entities<face_segments> segments; ///< of lines, per interface face
   std::vector<content_key> patches_apart;   ///< growing; of a skeleton of which no two triangles cross
 };

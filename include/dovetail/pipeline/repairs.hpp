@@ -25,22 +25,23 @@ namespace dovetail {
 
 /// What repairs change: the subdomains of the background mesh's elements, and the sizes.
 struct decomposition_state {
-  std::vector<local_id> subdomain_of_element;
-  merge_account merges;
-  refined_sizing size; ///< the field given, smaller where something crossed
-  int refinements = 0;
-  local_id merged_after_failure = 0;
-  std::vector<std::string> warnings = {};
+  std::vector<local_id> subdomain_of_element; ///< by element of the background mesh
+  merge_account merges;                       ///< which subdomains were merged, and why
+  refined_sizing size;                        ///< the field given, smaller where something crossed
+  int refinements = 0;                        ///< repairs by smaller sizes so far
+  local_id merged_after_failure = 0;          ///< subdomains merged since a piece could not be meshed
+  std::vector<std::string> warnings = {};     ///< what the report is to tell
 };
 
 /// One repair: smaller sizes, merges, or the insight that only fewer subdomains would do.
 struct repair {
-  std::vector<size_ball> smaller_sizes = {};
-  std::vector<std::array<local_id, 2>> merges = {};
-  std::string too_many_merges = {}; ///< why fewer subdomains have to be made
-  bool is_after_failure = false;    ///< the merges are of pieces that no attempt could mesh
-  std::vector<std::string> warnings = {};
+  std::vector<size_ball> smaller_sizes = {};        ///< balls in which sizes get smaller
+  std::vector<std::array<local_id, 2>> merges = {}; ///< pairs of subdomains that become one
+  std::string too_many_merges = {};                 ///< why fewer subdomains have to be made
+  bool is_after_failure = false;                    ///< the merges are of pieces that no attempt could mesh
+  std::vector<std::string> warnings = {};           ///< what the report is to tell
 
+  /// Whether it repairs anything.
   bool changes_anything() const { return !smaller_sizes.empty() || !merges.empty(); }
 };
 

@@ -46,7 +46,7 @@ public:
   decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const divided_background<D>&,
                        const any_sizing&, const Parameters&, report = {}) = delete;
 
-  const merge_account& merges() const { return state_.merges; }
+  const merge_account& merges() const { return state_.merges; } ///< which subdomains were merged, and why
   /// The field given, smaller where something crossed.
   any_sizing size() const { return state_.size.everywhere(); }
   /// What was found and done so far: "crossings", "rounds", "refinements", "merges", "merged_after_failure",

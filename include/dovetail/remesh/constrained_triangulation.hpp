@@ -28,6 +28,7 @@ struct loop_triangulation {
   std::vector<local_id> misplaced; ///< segments that have the domain on their wrong side: a loop runs
                                    ///< backwards or lies inside another one of its kind
 
+  /// Whether it has all segments and no misplaced point.
   bool valid() const { return crossings.empty() && misplaced.empty(); }
 };
 

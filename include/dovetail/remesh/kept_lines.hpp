@@ -20,7 +20,7 @@ namespace dovetail {
 /// both; a question takes logarithmic time.
 class line_passages {
 public:
-  using directed_edge = std::array<local_id, 2>;
+  using directed_edge = std::array<local_id, 2>; ///< its start and its end
 
   line_passages(std::vector<directed_edge> listed, std::vector<directed_edge> passed)
       : listed_(std::move(listed)), passed_(std::move(passed)) {

@@ -17,7 +17,7 @@ namespace dovetail::remesh {
 /// Spacing of points along a line. A pure function of the line, its parameter range and the field: whoever
 /// asks for a shared line gets the same points.
 struct line_spacing {
-  int minimum_segments = 1;
+  int minimum_segments = 1;                                      ///< the line has at least so many
   double largest_turn = std::numeric_limits<double>::infinity(); ///< of the tangent per segment, in radians
   double smallest_turn_size = 0; ///< the turn never asks for segments shorter than this
   /// Few segments become one, two or four, mostly two. A triangle between three lines of as many segments

@@ -109,7 +109,7 @@ inline std::string folds_of(const patch_mesh& made) {
 /// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
 /// meshes, so each is built when it is needed and not held.
 struct region_set {
-  std::size_t count = 0;
+  std::size_t count = 0;                            ///< how many regions there are
   std::function<surface_region(std::size_t)> build; ///< without `surface` and `forbids`; pure
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
@@ -119,6 +119,7 @@ struct region_set {
   /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
 
+  /// A region with its boundary and the edges it must not have.
   surface_region region(std::size_t r) const {
     surface_region built = build(r);
     if (const auto more = forbidden_edges.find(r); more != forbidden_edges.end())
@@ -129,16 +130,18 @@ struct region_set {
 
 /// Meshes of regions by their keys, and what is asked of them so often that it is not read from them again.
 struct region_store {
+  /// A mesh that is in the store, in numbers.
   struct known_mesh {
-    std::size_t inner_points = 0, triangles = 0;
-    bool is_faulty = false; ///< folded over, or no mesh at all as its boundary crosses itself
-    surface_deviation deviation = {};
+    std::size_t inner_points = 0, triangles = 0; ///< points inside its boundary, and all triangles
+    bool is_faulty = false;              ///< folded over, or no mesh at all as its boundary crosses itself
+    surface_deviation deviation = {};    ///< how far it is from its surface
     double least_angle_deg = 180;        ///< of a triangle's corners, where it was asked for
     std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
   };
 
-  std::shared_ptr<entity_store> entities;
-  batched_entities<patch_mesh> meshes;
+  std::shared_ptr<entity_store> entities; ///< where the meshes are kept
+  batched_entities<patch_mesh> meshes;    ///< by their keys
+  /// What is known of the meshes that were asked for.
   std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
 
   explicit region_store(std::shared_ptr<entity_store> store) : entities(std::move(store)), meshes(entities) {}
@@ -178,13 +181,13 @@ struct meshed_regions {
 
 /// How `mesh_regions` works, beside the mesher.
 struct mesh_regions_options {
-  region_attempts attempts = {};
-  bool parameters = true; ///< false: the meshes come without `inner_uv`
+  region_attempts attempts = {}; ///< how often a region is tried
+  bool parameters = true;        ///< false: the meshes come without `inner_uv`
   bool deviation = false; ///< true: meshes on CAD faces have their `surface_deviation` in their summary
   bool angles = false;    ///< true: the others have their least corner angle there
-  double triangles_per_task = 4096;
-  progress on_progress = {};
-  std::string stage = "regions";
+  double triangles_per_task = 4096; ///< regions are joined to tasks of about so many
+  progress on_progress = {};        ///< told how the regions come along
+  std::string stage = "regions";    ///< what progress and report call it
 };
 
 namespace detail {

@@ -20,10 +20,10 @@ namespace dovetail {
 /// 3-space: a seam passes it twice with different parameters, a slit twice with equal ones, and a pole is a
 /// run of segments whose ends all have the same label.
 struct patch_boundary {
-  std::vector<vec2> uv;
-  std::vector<vec3> points;
-  std::vector<local_id> labels;
-  std::vector<std::array<local_id, 2>> segments;
+  std::vector<vec2> uv;                          ///< by vertex: its parameters
+  std::vector<vec3> points;                      ///< by vertex: where it is
+  std::vector<local_id> labels;                  ///< by vertex: of which vertex of 3-space it is a passage
+  std::vector<std::array<local_id, 2>> segments; ///< the start and the end of each
   /// Pairs of labels that no inner edge may join, because another patch already joins them by an edge that is
   /// not on the boundary.
   std::vector<std::array<local_id, 2>> forbidden_edges = {};
@@ -62,12 +62,13 @@ struct patch_mesh {
   /// Triangles whose normal disagrees with the surface's; empty unless the loops or the surface force them.
   std::vector<local_id> folded;
   std::vector<std::array<local_id, 2>> repeated_edges; ///< label pairs joined twice that could not be avoided
-  report summary;
+  report summary;                                      ///< what was counted on the way
 
   using fields = field_list<&patch_mesh::inner_uv, &patch_mesh::inner_points, &patch_mesh::triangles,
                             &patch_mesh::crossings, &patch_mesh::misplaced, &patch_mesh::folded,
                             &patch_mesh::repeated_edges, &patch_mesh::summary>;
 
+  /// Whether nothing is wrong with it.
   bool ok() const {
     return crossings.empty() && misplaced.empty() && folded.empty() && repeated_edges.empty();
   }

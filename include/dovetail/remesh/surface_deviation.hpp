@@ -30,6 +30,7 @@ inline constexpr double noticed_distance = 0.1;
 /// A surface that turns by more than this within `narrowest_turn` of a triangle has an edge there, to that
 /// triangle: on a surface that the size resolves, a triangle turns by less altogether.
 inline constexpr double turn_of_edge_deg = 45;
+/// The smallest part of the way across a triangle on which a turn is looked for.
 inline constexpr double narrowest_turn = 1.0 / 64;
 /// No mesh of a surface, however coarse, is as far from it as this, in sizes.
 inline constexpr double far_distance = 1;
@@ -54,6 +55,7 @@ inline void note_deviation(report& to, const std::string& face, const surface_de
   raise(*of_face);
 }
 
+/// What the report of a region's mesh says of it.
 inline surface_deviation deviation_in(const report& noted) {
   return {noted.get("points"), noted.get("centres"), noted.get("cut_off"), noted.get("gap")};
 }

@@ -15,10 +15,10 @@ namespace dovetail {
 
 /// A region of a surface, of a skeleton or of a piece, whose boundary points are the labels of its boundary.
 struct surface_region {
-  patch_boundary boundary;
-  any_surface surface;
-  local_id face = no_id; ///< the CAD face; the tag of the region's elements
-  bool reversed = false; ///< elements are oriented against the parameter plane
+  patch_boundary boundary; ///< what bounds it
+  any_surface surface;     ///< what it is on
+  local_id face = no_id;   ///< the CAD face; the tag of the region's elements
+  bool reversed = false;   ///< elements are oriented against the parameter plane
   /// Whether no inner edge may join two labels, since another region might do so or a line does; may be
   /// empty.
   std::function<bool(local_id, local_id)> forbids = {};
@@ -52,6 +52,7 @@ public:
       first_[face] = static_cast<local_id>(r);
     }
   }
+  /// Whether there is a region on the face.
   bool has(local_id face) const {
     return face >= no_id && place(face) < first_.size() && first_[place(face)] != no_id;
   }

@@ -15,9 +15,9 @@ namespace dovetail::remesh {
 
 /// A plane with orthonormal axes; parameters are coordinates along them.
 struct plane_surface {
-  vec3 origin;
-  vec3 x_axis{1, 0, 0};
-  vec3 y_axis{0, 1, 0};
+  vec3 origin;          ///< where both parameters are 0
+  vec3 x_axis{1, 0, 0}; ///< along the first parameter
+  vec3 y_axis{0, 1, 0}; ///< along the second parameter
 
   /// The plane of a triangle, seen so that (a, b, c) is counter-clockwise; a is the origin.
   static plane_surface of_triangle(vec3 a, vec3 b, vec3 c) {

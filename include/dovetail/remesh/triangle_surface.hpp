@@ -25,7 +25,7 @@ public:
     }
   }
 
-  bool straight() const { return at_.size() < 3; }
+  bool straight() const { return at_.size() < 3; } ///< whether it has no displacements
 
   /// Value and derivative at s, which is held in [0, 1].
   std::pair<vec3, vec3> operator()(double s) const {
@@ -108,7 +108,7 @@ public:
     const double s = side_at_[i][j];
     return (1 - s) * corner_uv_[(i + 1) % 3] + s * corner_uv_[(i + 2) % 3];
   }
-  vec2 corner_uv(std::size_t i) const { return corner_uv_[i]; }
+  vec2 corner_uv(std::size_t i) const { return corner_uv_[i]; } ///< the parameters of corner `i`
 
 private:
   std::array<double, 3> barycentric(vec2 uv) const {

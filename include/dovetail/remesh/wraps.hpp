@@ -14,9 +14,12 @@ struct wraps : wrapped_policy<Self, Mesher> {
   using wrapped_policy<Self, Mesher>::wrapped_policy;
   using wrapped_policy<Self, Mesher>::wrapped;
 
+  /// Whether the wrapped mesher says nothing against it.
   static constexpr bool thread_safe = is_thread_safe<Mesher>();
 
+  /// The same of a wrapped mesher that may hold another one.
   bool may_run_in_threads() const { return dovetail::may_run_in_threads(wrapped); }
+  /// What the wrapped mesher makes.
   patch_mesh operator()(const any_surface& surface, const patch_boundary& boundary,
                         const any_sizing& size) const {
     return wrapped(surface, boundary, size);

@@ -25,7 +25,7 @@ struct aspect_ratio {
   double volume_ratio = 0.46;       ///< worse faces are removed; 0: none
   double surface_dihedral_deg = 50; ///< smaller corners between lines of the surface are removed; 0: none
   double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed; 0: none
-  refusal_penalty penalty_of_refusal = {};
+  refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
   side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
     side_judgement judged{std::vector<double>(sides.size()), volume_ratio, volume_dihedral_deg};

@@ -15,8 +15,8 @@ namespace dovetail {
 
 /// How good something is, and how good it would have to be. Neither is negative.
 struct deficit {
-  double value = 0;
-  double wanted = 0;
+  double value = 0;  ///< what it has
+  double wanted = 0; ///< what it would have to have
 
   /// The part of what is wanted that is there; smaller is worse, in whatever unit.
   double fraction() const { return value / wanted; }
@@ -32,21 +32,21 @@ struct side_judgement {
 
 /// One of the two sides of a dihedral that is too small.
 struct dihedral_side {
-  local_id side = no_id;
-  double quality = 0;
-  double weight = 0; ///< of the super-element that arises when the side is removed
+  local_id side = no_id; ///< the number of the side
+  double quality = 0;    ///< by itself; less is worse
+  double weight = 0;     ///< of the super-element that arises when the side is removed
 };
 
 /// A side of the mesh one dimension below, removed or refused there. It is a ridge of this mesh.
 struct side_below {
-  side_state state = side_state::kept;
-  double quality = 0;
-  deficit missed; ///< of a refused side: why it ought to have been removed
+  side_state state = side_state::kept; ///< what was decided about it
+  double quality = 0;                  ///< by itself; less is worse
+  deficit missed;                      ///< of a refused side: why it ought to have been removed
 };
 
 /// What becomes of the sides at a ridge.
 struct ridge_decision {
-  deficit missed;
+  deficit missed;             ///< what the dihedral at the ridge falls short of
   bool only_penalise = false; ///< false: they are removed; true: they stay, penalised like refused ones
 };
 

@@ -24,7 +24,7 @@ namespace dovetail {
 template <side_dual_graph G>
 class dihedral_runs {
 public:
-  static constexpr dihedral_id none = std::numeric_limits<dihedral_id>::max();
+  static constexpr dihedral_id none = std::numeric_limits<dihedral_id>::max(); ///< no dihedral
 
   /// The graph must outlive the runs.
   explicit dihedral_runs(const G& graph)
@@ -32,6 +32,7 @@ public:
     std::iota(other_end_.begin(), other_end_.end(), dihedral_id{0});
   }
 
+  /// How many dihedrals there are, ends of runs or not.
   std::size_t dihedral_count() const { return angle_.size(); }
   /// Is the dihedral at an end of a run?
   bool is_end(dihedral_id dihedral) const { return other_end_[dihedral] != none; }
@@ -39,6 +40,7 @@ public:
   bool is_name(dihedral_id dihedral) const { return is_end(dihedral) && dihedral <= other_end_[dihedral]; }
   /// Angle in degrees of the run with an end at `dihedral`.
   double angle(dihedral_id dihedral) const { return angle_[dihedral]; }
+  /// Whether `side` has been removed.
   bool is_removed(local_id side) const { return removed_[static_cast<std::size_t>(side)] != 0; }
 
   /// The two remaining sides that bound the run with an end at `dihedral`; the same one twice when it is the

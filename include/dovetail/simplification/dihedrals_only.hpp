@@ -11,9 +11,9 @@ namespace dovetail::simplifier {
 
 /// Of small dihedrals one side goes, however good it is by itself. Angles in degrees.
 struct dihedrals_only {
-  double surface_dihedral_deg = 50; ///< smaller corners between lines of the surface are removed
-  double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed
-  refusal_penalty penalty_of_refusal = {};
+  double surface_dihedral_deg = 50;        ///< smaller corners between lines of the surface are removed
+  double volume_dihedral_deg = 30;         ///< smaller dihedral angles between faces are removed
+  refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
   template <int D>
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {

@@ -29,7 +29,7 @@ struct flow_aligned {
   double volume_deg = 60;           ///< faces at a larger angle to the flow are removed; 90: none
   double surface_dihedral_deg = 50; ///< smaller corners between lines of the surface are removed; 0: none
   double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed; 0: none
-  refusal_penalty penalty_of_refusal = {};
+  refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
   /// Throws `usage_error` without a direction.
   template <int D>

@@ -79,7 +79,7 @@ static_assert(weighted_graph<element_dual<2>> && weighted_graph<element_dual<3>>
 template <int D>
 class side_dual {
 public:
-  static constexpr std::size_t dihedrals_per_element = numbering::ridges<D>.size();
+  static constexpr std::size_t dihedrals_per_element = numbering::ridges<D>.size(); ///< ridges of an element
 
   /// Throws `mesh_error` when `require_valid` refuses the mesh, unless it is known to be valid.
   side_dual(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
@@ -186,10 +186,11 @@ public:
   mesh_duals(const simplicial_mesh<D>& mesh, side_table<D>&& sides, const mesh_dual_options<D>& given = {})
       : mesh_duals(mesh, std::make_shared<const side_table<D>>(std::move(sides)), given) {}
 
-  const simplicial_mesh<D>& mesh() const { return *mesh_; }
+  const simplicial_mesh<D>& mesh() const { return *mesh_; } ///< the mesh, and its sides (`sides`)
   const side_table<D>& sides() const { return *sides_; }
+  /// The element-dual graph.
   element_dual<D> elements() const { return element_dual<D>(*sides_, weights_, span_of(fixed_)); }
-  side_dual<D> dihedrals() const { return {*mesh_, *sides_, mesh_state::valid}; }
+  side_dual<D> dihedrals() const { return {*mesh_, *sides_, mesh_state::valid}; } ///< the side-dual graph
 
 private:
   mesh_duals(const simplicial_mesh<D>& mesh, std::shared_ptr<const side_table<D>> sides,

@@ -14,11 +14,11 @@ namespace dovetail::simplifier {
 /// J. Chen et al. (2018), Section 3.3: no interface has a small angle of its own, and no two include one with
 /// each other or with the surface. Angles in degrees; 0 switches one off.
 struct paper {
-  double surface_dihedral_deg = 50; ///< smaller corners between lines of the surface are removed
-  double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed
-  double surface_shape_deg = 0;     ///< edges that bound a smaller corner of a triangle are removed
-  double volume_shape_deg = 30;     ///< faces with a smaller corner are removed
-  refusal_penalty penalty_of_refusal = {};
+  double surface_dihedral_deg = 50;        ///< smaller corners between lines of the surface are removed
+  double volume_dihedral_deg = 30;         ///< smaller dihedral angles between faces are removed
+  double surface_shape_deg = 0;            ///< edges that bound a smaller corner of a triangle are removed
+  double volume_shape_deg = 30;            ///< faces with a smaller corner are removed
+  refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
   template <int D>
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {

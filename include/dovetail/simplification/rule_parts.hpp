@@ -13,9 +13,10 @@ namespace dovetail::simplifier {
 /// The penalty of a refused side: 1 + base for one that is as good as wanted, growing linearly to 1 + base +
 /// growth for one that has nothing of what is wanted.
 struct refusal_penalty {
-  double base = 10;
-  double growth = 200;
+  double base = 10;    ///< of a side that is as good as wanted, beyond 1
+  double growth = 200; ///< more for a side that has nothing of what is wanted
 
+  /// The penalty for what a side falls short of.
   double operator()(const deficit& missed) const {
     return 1 + base + growth * std::max(0.0, 1 - missed.fraction());
   }

@@ -14,7 +14,7 @@ namespace dovetail::simplifier {
 struct shape_only {
   double surface_deg = 0; ///< edges that bound a smaller corner of a triangle are removed; 0: none
   double volume_deg = 30; ///< faces with a smaller corner are removed
-  refusal_penalty penalty_of_refusal = {};
+  refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
   template <int D>
   side_judgement operator()(const simplicial_mesh<D>& mesh, const side_table<D>& sides) const {

@@ -39,9 +39,9 @@ std::vector<coupled_ridge<3>> coupled_ridges(const side_table<2>& edges, const s
 
 /// Both simplifications; the volume's is what the partition is made from.
 struct coupled_simplification {
-  simplification surface;
-  simplification volume;
-  report summary; ///< the two steps' reports are its children
+  simplification surface; ///< of the surface
+  simplification volume;  ///< of the volume, after the surface
+  report summary;         ///< the two steps' reports are its children
 };
 
 namespace detail {

@@ -26,40 +26,41 @@ struct contraction_bound {
 
 /// A side that must go, or is to be avoided, whatever its own quality.
 struct coupled_side {
-  local_id side = no_id;
-  ridge_decision decision;
+  local_id side = no_id;   ///< the number of the side
+  ridge_decision decision; ///< what is to become of it
 };
 
 /// A ridge whose sides must go, or are to be avoided, because of what was decided one dimension below.
 template <int D>
 struct coupled_ridge {
-  simplex<D - 2> vertices{};
-  ridge_decision decision;
+  simplex<D - 2> vertices{}; ///< of the ridge, sorted
+  ridge_decision decision;   ///< what is to become of its sides
 };
 
 /// A side that the bound refused, and what it falls short of: of its own quality, or a dihedral it bounds.
 struct refused_side {
-  local_id side = no_id;
-  deficit missed;
+  local_id side = no_id; ///< the number of the side
+  deficit missed;        ///< what it falls short of
 };
 
 /// A dihedral under the threshold between two fixed sides: nothing can be done about it.
 struct forced_dihedral {
-  std::array<local_id, 2> sides{};
-  double angle_deg = 0;
+  std::array<local_id, 2> sides{}; ///< both fixed
+  double angle_deg = 0;            ///< between them
 };
 
+/// What a simplification decided.
 struct simplification {
-  std::vector<side_state> side_states;
-  std::vector<local_id> super_of_element;
-  local_id super_count = 0;
+  std::vector<side_state> side_states;    ///< by side
+  std::vector<local_id> super_of_element; ///< by element
+  local_id super_count = 0;               ///< how many there are
   /// The EDG contracted: node = super-element. Edges that become one add up, each the weight of its side, for
   /// a refused one times its penalty.
   csr_graph graph;
   std::vector<refused_side> refused;   ///< sides in state `refused`, growing
   std::vector<double> quality;         ///< of each side, as the rule judged it
   std::vector<forced_dihedral> forced; ///< by growing angle; boundary against boundary included
-  report summary;
+  report summary;                      ///< what was counted on the way
 };
 
 } // namespace dovetail

@@ -17,7 +17,7 @@ struct automatic_options {
   double elements_across = 2;      ///< of walls and gaps; 0: proximity does not count
   bool inside = true;              ///< thin walls
   bool outside = false;            ///< gaps between faces
-  model_size_range range = {};
+  model_size_range range = {};     ///< no size is outside of it
 };
 
 /// The smallest of what curvature and proximity ask for, as one field of limited growth, precomputed in the

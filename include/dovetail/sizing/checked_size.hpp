@@ -27,10 +27,13 @@ double checked_size(const H& size, vec3 p) {
 /// A field whose every value is looked at: what is said of a bad one then names its place, and not what came
 /// of it.
 struct checked_sizing {
-  erased_sizing field;
+  erased_sizing field; ///< the field that is looked at
+  /// Its size at a point. Throws `sizing_error` that names the point when the size is not positive and
+  /// finite.
   double operator()(vec3 p) const { return checked_size(field, p); }
+  /// What the field says.
   double smallest_size_in(const box3& box) const { return field.smallest_size_in(box); }
-  double feature_size(vec3 p) const { return field.feature_size(p); }
+  double feature_size(vec3 p) const { return field.feature_size(p); } ///< that of the field
 };
 
 } // namespace dovetail

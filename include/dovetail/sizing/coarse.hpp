@@ -26,10 +26,12 @@ public:
       throw sizing_error("the factor of the coarse size is " + number_text(scale) + "; give 1 or more");
   }
 
+  /// The size at a point.
   double operator()(vec3 p) const {
     const double fine = fine_(p);
     return std::max(fine, std::min({scale_ * fine, 2 * dovetail::feature_size(fine_, p), largest_}));
   }
+  /// A lower bound over a box.
   double smallest_size_in(const box3& box) const { return dovetail::smallest_size_in(fine_, box); }
 
 private:

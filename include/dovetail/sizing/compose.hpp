@@ -82,6 +82,7 @@ public:
     const double least = dovetail::smallest_size_in(field_, box);
     return least > 0 ? std::clamp(least, lower_, upper_) : 0.0;
   }
+  /// What the field that is clamped says.
   double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); }
 
 private:

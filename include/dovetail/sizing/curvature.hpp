@@ -20,9 +20,10 @@ struct model_size_range {
   double growth = 0.25; ///< of the size per length, away from where it is small
 };
 
+/// How curvature gives sizes.
 struct curvature_options {
-  double elements_per_circle = 24;
-  model_size_range range = {};
+  double elements_per_circle = 24; ///< edges along a full circle
+  model_size_range range = {};     ///< no size is outside of it
 };
 
 namespace sizing {

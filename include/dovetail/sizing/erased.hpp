@@ -23,6 +23,7 @@ public:
 
   double operator()(vec3 p) const { return held_->size(p); }
   double smallest_size_in(const box3& box) const { return held_->smallest_size_in(box); }
+  /// What the field that it holds says; infinite when that knows of none.
   double feature_size(vec3 p) const { return held_->feature_size(p); }
   /// The same field everywhere, evaluated faster in a box where it is a `narrowable_sizing_field`.
   erased_sizing faster_in(const box3& box) const {

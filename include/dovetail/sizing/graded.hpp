@@ -29,6 +29,7 @@
 
 namespace dovetail {
 
+/// How much and how exactly growth is limited.
 struct gradation_options {
   double slope = 0.25;                    ///< growth of the size per length; above 0
   double relative_error = 0.10;           ///< estimated in every leaf
@@ -105,7 +106,7 @@ public:
     return least;
   }
 
-  double slope() const { return options_.slope; }
+  double slope() const { return options_.slope; } ///< growth of the size per length
   /// The largest relative error estimated in any leaf: interpolation, and where values start between the
   /// samples.
   double error_bound() const { return error_; }

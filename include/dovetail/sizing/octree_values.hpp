@@ -17,12 +17,12 @@ namespace dovetail::sizing {
 /// What fields that are precomputed on an octree have in common; how it is refined and filled is theirs.
 class octree_values {
 public:
-  std::size_t leaf_count() const { return tree_.leaf_count(); }
+  std::size_t leaf_count() const { return tree_.leaf_count(); } ///< leaves of the octree
 
 protected:
   explicit octree_values(const box3& cube) : tree_(cube) {}
 
-  using corner_ids = std::array<std::uint32_t, 8>;
+  using corner_ids = std::array<std::uint32_t, 8>; ///< where the sizes at a leaf's eight corners are
 
   /// At a point of a leaf.
   double interpolated(std::size_t leaf, vec3 p) const {
@@ -70,7 +70,7 @@ protected:
       least_below_[tree_.parent(node)] = std::min(least_below_[tree_.parent(node)], least_below_[node]);
   }
 
-  octree tree_;
+  octree tree_; ///< the cells
   std::vector<corner_ids>
       corners_;                ///< per leaf, corner k at the upper end of x, y, z where bits 0, 1, 2 are set
   std::vector<double> values_; ///< per corner

@@ -20,7 +20,7 @@ namespace dovetail {
 
 /// A place and the size wanted there.
 struct sized_point {
-  vec3 point;
+  vec3 point; ///< where the size is wanted
   double size = 0;
 };
 
@@ -68,8 +68,8 @@ public:
   double feature_size(vec3) const { return std::numeric_limits<double>::infinity(); }
 
   std::size_t size() const { return tree_->points().size(); }
-  double growth() const { return growth_; }
-  double largest() const { return largest_; }
+  double growth() const { return growth_; }   ///< of the size per length
+  double largest() const { return largest_; } ///< the size where no point is near
 
 private:
   class tree {

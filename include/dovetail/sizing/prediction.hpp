@@ -27,6 +27,7 @@ inline constexpr double elements_per_unit = D == 3   ? 6 * std::numbers::sqrt2
                                             : D == 2 ? 4 / std::numbers::sqrt3
                                                      : 1;
 
+/// How exactly a number of elements is predicted.
 struct prediction_options {
   /// Elements of edge length 1 per unit of volume or area; 0 takes `elements_per_unit<D>`.
   double density = 0;
@@ -34,6 +35,7 @@ struct prediction_options {
   std::size_t largest_cells = 1'000'000; ///< stop there with the error reached, about 1 s
 };
 
+/// A predicted number of elements.
 struct element_prediction {
   double elements = 0;       ///< predicted number of elements in total
   double relative_error = 0; ///< estimated; above the one asked for only when `largest_cells` was hit
@@ -47,13 +49,14 @@ namespace sizing {
 /// A cell of the integration domain with its integral of h^-D and the error estimated for it.
 template <int D>
 struct integration_cell {
-  std::array<vec3, D + 1> corners;
-  double measure;
-  std::size_t owner; ///< the mesh element it is a part of
-  double integral = 0;
-  double error = 0;
+  std::array<vec3, D + 1> corners; ///< of the cell, a simplex
+  double measure;                  ///< its area or volume
+  std::size_t owner;               ///< the mesh element it is a part of
+  double integral = 0;             ///< of h^-D over the cell
+  double error = 0;                ///< estimated, of the integral
 };
 
+/// The area or volume of a simplex.
 template <int D>
 double measure_of(const std::array<vec3, D + 1>& c) {
   if constexpr (D == 3)
@@ -62,6 +65,7 @@ double measure_of(const std::array<vec3, D + 1>& c) {
     return 0.5 * norm(cross(c[1] - c[0], c[2] - c[0]));
 }
 
+/// An element as one cell, whose integral is still to be found.
 template <int D>
 integration_cell<D> cell_of_element(const simplicial_mesh<D>& mesh, std::size_t element) {
   std::array<vec3, D + 1> corners;
@@ -75,6 +79,7 @@ inline double largest_unsampled(const box3& domain) {
   return domain.diagonal() / 24;
 }
 
+/// Elements per measure at size `h`, up to a constant: h^-D.
 template <int D>
 double density_at(double h) {
   return D == 3 ? 1 / (h * h * h) : 1 / (h * h);
@@ -188,8 +193,8 @@ double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::
 
 /// The integral of h^-D over an element, and the error estimated for it.
 struct integral_estimate {
-  double integral = 0;
-  double error = 0;
+  double integral = 0; ///< of h^-D
+  double error = 0;    ///< estimated, of the integral
 };
 
 /// The elements first, first + 1, ... last - 1 of a mesh, before any is split: what `predict_elements` begins

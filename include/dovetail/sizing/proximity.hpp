@@ -13,11 +13,12 @@
 
 namespace dovetail {
 
+/// How the distance between faces gives sizes.
 struct proximity_options {
-  double elements = 2;  ///< edges across
-  bool inside = true;   ///< through the solids: thin walls
-  bool outside = false; ///< through what is around them: gaps
-  model_size_range range = {};
+  double elements = 2;         ///< edges across
+  bool inside = true;          ///< through the solids: thin walls
+  bool outside = false;        ///< through what is around them: gaps
+  model_size_range range = {}; ///< no size is outside of it
 };
 
 namespace sizing {
@@ -31,7 +32,7 @@ public:
     tree_.put_in_order(samples_);
   }
 
-  const std::vector<surface_sample>& samples() const { return samples_; }
+  const std::vector<surface_sample>& samples() const { return samples_; } ///< the samples that it searches
 
   /// The sample of least height above the plane through `from` with unit normal `direction`, of at most
   /// `reach`, that looks back; `slack` is the distance between samples. Null when there is none.

@@ -17,7 +17,7 @@ namespace dovetail {
 
 /// A place where the size must not exceed `size` within `radius` of the center.
 struct size_ball {
-  vec3 center;
+  vec3 center; ///< where the ball is
   double radius = 0;
   double size = 0;
 };
@@ -74,8 +74,9 @@ public:
   bounded_size(any_sizing field, std::vector<size_ball> bounds, double growth)
       : field_(std::move(field)), bounds_(std::move(bounds), growth), growth_(growth) {}
 
-  double operator()(vec3 p) const { return bounds_(p, field_(p)); }
-  double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); }
+  double operator()(vec3 p) const { return bounds_(p, field_(p)); }               ///< the size at a point
+  double feature_size(vec3 p) const { return dovetail::feature_size(field_, p); } ///< that of the given field
+  /// A lower bound over a box.
   double smallest_size_in(const box3& box) const {
     const double of_field = dovetail::smallest_size_in(field_, box);
     const double least = bounds_(box.center(), 1e300) - 0.5 * growth_ * box.diagonal();

@@ -39,22 +39,24 @@ enum class source_growth {
 /// A point (dimension 0), line (1) or triangle (2) with, at each corner, the radii and spacing; they vary
 /// linearly in between. Radii and spacing in the unit of the model.
 struct grid_source {
-  int dimension = 0; ///< corners in use: dimension + 1
-  std::array<vec3, 3> corners{};
-  std::array<double, 3> inner_radius{};
-  std::array<double, 3> outer_radius{};
-  std::array<double, 3> spacing{};
-  source_growth growth = source_growth::to_ambient;
-  std::string name = {}; ///< for messages; may be empty
+  int dimension = 0;                    ///< corners in use: dimension + 1
+  std::array<vec3, 3> corners{};        ///< a point uses the first, a line two
+  std::array<double, 3> inner_radius{}; ///< by corner; the size is `spacing` within it
+  std::array<double, 3> outer_radius{}; ///< by corner; how far the source reaches, as `growth` says
+  std::array<double, 3> spacing{};      ///< by corner; the size inside
+  source_growth growth = source_growth::to_ambient; ///< how the size grows between the radii
+  std::string name = {};                            ///< for messages; may be empty
 };
 
 /// A source of equal radii and spacing at all its corners.
 inline grid_source point_source(vec3 at, double inner, double outer, double spacing) {
   return {0, {at, at, at}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
 }
+/// A line from `a` to `b` with the same radii and spacing at both ends.
 inline grid_source line_source(vec3 a, vec3 b, double inner, double outer, double spacing) {
   return {1, {a, b, b}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
 }
+/// A triangle with the same radii and spacing at its corners.
 inline grid_source triangle_source(vec3 a, vec3 b, vec3 c, double inner, double outer, double spacing) {
   return {2, {a, b, c}, {inner, inner, inner}, {outer, outer, outer}, {spacing, spacing, spacing}};
 }
@@ -140,8 +142,8 @@ public:
     return {ambient_, std::move(sources), largest_slope_};
   }
 
-  double ambient() const { return ambient_; }
-  const std::vector<grid_source>& sources() const { return sources_; }
+  double ambient() const { return ambient_; }                          ///< the size outside of all sources
+  const std::vector<grid_source>& sources() const { return sources_; } ///< as they were given
 
   /// The length beyond which a mesh would step over a source: half the smallest of, over the sources that
   /// reach p, the inner radius or the distance to the source, whichever is larger. Infinite where none

@@ -15,12 +15,12 @@ namespace dovetail::sizing {
 
 /// A point of a face. The normal is the oriented one: it points out of the solid behind the face.
 struct surface_sample {
-  vec3 point;
-  vec3 normal;
-  vec2 uv;
-  double curvature = 0; ///< largest absolute principal curvature
-  local_id face = no_id;
-  double spacing = 0; ///< what the rule gave for the other members
+  vec3 point;            ///< on the face
+  vec3 normal;           ///< of unit length; zero where the parametrisation is singular
+  vec2 uv;               ///< its parameters on the face
+  double curvature = 0;  ///< largest absolute principal curvature
+  local_id face = no_id; ///< the number of the face in the model
+  double spacing = 0;    ///< what the rule gave for the other members
 };
 
 /// Where sampling ends, however small the spacing.
@@ -39,6 +39,7 @@ public:
   surface_sampler(const G& model, const Spacing& spacing, const sampling_limits& limits)
       : model_(model), spacing_(spacing), limits_(limits) {}
 
+  /// All samples, face by face.
   std::vector<surface_sample> run() {
     for (std::size_t f = 0; f < model_.topology().faces.size(); ++f)
       sample_face(static_cast<local_id>(f));

@@ -18,6 +18,7 @@
 
 namespace dovetail {
 
+/// How exactly a field is tabulated.
 struct table_options {
   double relative_error = 0.10;           ///< at the centre of every leaf
   std::size_t largest_leaves = 4'000'000; ///< stop refining there; `error_bound()` tells what was reached
@@ -43,7 +44,7 @@ public:
   const erased_sizing& field() const { return held_->field(); }
   /// The largest relative error found at the centre of a leaf.
   double error_bound() const { return held_->error(); }
-  std::size_t leaf_count() const { return held_->leaf_count(); }
+  std::size_t leaf_count() const { return held_->leaf_count(); } ///< leaves of the octree
 
 private:
   static constexpr double width_per_size = 2;

@@ -21,17 +21,18 @@ namespace sizing {
 
 /// A cube of the integration octree.
 struct volume_cell {
-  box3 box;
+  box3 box;                             ///< where the cube is
   std::vector<local_id> triangles = {}; ///< those that may pass through it; empty: wholly inside
-  double integral = 0;
-  double volume_inside = 0; ///< by the same samples
-  double error = 0;         ///< of the quadrature, or of what the field's bound allows
-  double variance = 0;      ///< squared error of the sampled part inside, for cut cells
+  double integral = 0;                  ///< of h^-3 over the part of the cube that is inside
+  double volume_inside = 0;             ///< by the same samples
+  double error = 0;                     ///< of the quadrature, or of what the field's bound allows
+  double variance = 0;                  ///< squared error of the sampled part inside, for cut cells
 };
 
 /// A fixed pseudo-random sequence in [0, 1), so that samples do not line up with axis-parallel surfaces.
 class sample_sequence {
 public:
+  /// The next number.
   double next() {
     state_ += 0x9e3779b97f4a7c15ULL;
     std::uint64_t z = state_;

@@ -16,6 +16,7 @@ struct wraps : wrapped_policy<Self, Field> {
   using wrapped_policy<Self, Field>::wrapped_policy;
   using wrapped_policy<Self, Field>::wrapped;
 
+  /// The size by the wrapped field.
   double operator()(vec3 p) const { return wrapped(p); }
   double smallest_size_in(const box3& box) const requires bounded_below_sizing_field<Field> {
     return wrapped.smallest_size_in(box);
@@ -23,6 +24,7 @@ struct wraps : wrapped_policy<Self, Field> {
   double feature_size(vec3 p) const requires feature_aware_sizing_field<Field> {
     return wrapped.feature_size(p);
   }
+  /// The part of the wrapped field that counts in the box, wrapped.
   Self within(const box3& box) const requires narrowable_sizing_field<Field> {
     return this->around(wrapped.within(box));
   }

@@ -11,12 +11,12 @@ namespace dovetail {
 
 /// Remeshed lines with numbered points.
 struct numbered_lines {
-  std::vector<skeleton_line> keys; ///< as in the coarse skeleton
-  std::vector<fine_line> lines;
+  std::vector<skeleton_line> keys;              ///< as in the coarse skeleton
+  std::vector<fine_line> lines;                 ///< in their order, as in the coarse skeleton
   std::vector<local_id> first_point;            ///< per line: number of its first inner point
   std::vector<local_id> number_of_coarse_point; ///< no_id where the coarse point is not on the skeleton
-  std::vector<vec3> points;
-  std::vector<host> hosts; ///< {3, no_id} inside the domain
+  std::vector<vec3> points;                     ///< by their number
+  std::vector<host> hosts;                      ///< {3, no_id} inside the domain
 
   /// The numbers along a line, both ends included, from coarse vertex `from`.
   std::vector<local_id> along(local_id line, local_id from) const {
@@ -29,6 +29,7 @@ struct numbered_lines {
       std::reverse(numbers.begin(), numbers.end());
     return numbers;
   }
+  /// The number of a point of the coarse skeleton.
   local_id number_of(local_id coarse_point) const {
     return number_of_coarse_point[static_cast<std::size_t>(coarse_point)];
   }

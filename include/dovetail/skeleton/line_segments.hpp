@@ -9,8 +9,8 @@ namespace dovetail {
 
 /// Other segments for a line; none leave it as it is.
 struct line_segments {
-  int count = 0;
-  double bias = 0;
+  int count = 0;   ///< how many; 0 leaves the line as it is
+  double bias = 0; ///< in (-1, 1): the first segments are longer by it, and the last shorter
 
   friend auto operator<=>(const line_segments&, const line_segments&) = default;
 };

@@ -82,6 +82,7 @@ public:
     }
   }
 
+  /// Whether a region must not have the chord between two points.
   bool forbids(local_id region, local_id a, local_id b) const {
     const auto& at_a = regions_at_[static_cast<std::size_t>(a)];
     const auto& at_b = regions_at_[static_cast<std::size_t>(b)];

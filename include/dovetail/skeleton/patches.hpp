@@ -16,8 +16,8 @@ namespace dovetail {
 
 /// A patch, with the line that each of its segments belongs to (no_id at a pole).
 struct skeleton_patch {
-  patch_boundary boundary;
-  std::vector<local_id> line_of_segment;
+  patch_boundary boundary;               ///< its loops
+  std::vector<local_id> line_of_segment; ///< by segment of the boundary
 };
 
 namespace detail {
@@ -182,8 +182,8 @@ inline simplex<2> key_order(const skeleton_face& face) {
 
 /// An interface face as a patch: the straight triangle, with the edges that lie on the CAD surface curved.
 struct interface_face_patch {
-  remesh::triangle_surface surface;
-  skeleton_patch patch;
+  remesh::triangle_surface surface; ///< the curved triangle
+  skeleton_patch patch;             ///< its boundary
 };
 
 /// The lines of an interface face: of each side of its key order, from corner i + 1 to corner i + 2.

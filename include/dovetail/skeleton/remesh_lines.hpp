@@ -20,9 +20,9 @@ namespace dovetail {
 
 /// The points between the two ends of a line, in key order.
 struct fine_line {
-  std::vector<vec3> points;
-  std::vector<double> t; ///< curve parameters, for a line on a CAD curve
-  std::vector<vec2> uv;  ///< face parameters, for a line on a CAD face
+  std::vector<vec3> points; ///< in the order of the line
+  std::vector<double> t;    ///< curve parameters, for a line on a CAD curve
+  std::vector<vec2> uv;     ///< face parameters, for a line on a CAD face
 
   using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>;
 };

@@ -25,40 +25,41 @@ struct patch_failure {
   std::vector<local_id> removable_lines;        ///< lines at the fault that do not lie on CAD curves
   std::vector<std::array<vec3, 3>> folded = {}; ///< triangles that turn away from the surface
   std::vector<size_ball> edges = {};            ///< at the fault: their middles and lengths
-  std::string reason;
+  std::string reason;                           ///< what the mesher said
 };
 
 /// The patches of a fine skeleton; the regions come first and the interface faces behind them.
 struct remeshed_patches {
   std::vector<local_id> first_triangle; ///< of each patch, in the skeleton; and the end
   local_id line_points = 0;             ///< of the skeleton: the first ones
-  std::vector<content_key> keys;
-  std::vector<patch_failure> failures; ///< the skeleton is incomplete when there are any
+  std::vector<content_key> keys;        ///< by patch: what it is a function of
+  std::vector<patch_failure> failures;  ///< the skeleton is incomplete when there are any
 };
 
+/// A skeleton whose patches are remeshed.
 struct remeshed_skeleton {
-  fine_skeleton fine;
-  remeshed_patches patches;
-  report summary;
+  fine_skeleton fine;       ///< all patches together
+  remeshed_patches patches; ///< patch by patch
+  report summary;           ///< what was counted on the way
 };
 
 /// What is remeshed: a skeleton of a coarse surface and what lies inside it, with its lines. All of it
 /// outlives the calls that it is given to.
 struct skeleton_to_remesh {
-  const any_geometry& model;
-  const surface_mesh& surface;
-  std::span<const vec3> coarse_points;
-  const coarse_skeleton& skeleton;
-  const numbered_lines& lines;
+  const any_geometry& model;           ///< what the surface is of
+  const surface_mesh& surface;         ///< the coarse surface
+  std::span<const vec3> coarse_points; ///< of the coarse mesh
+  const coarse_skeleton& skeleton;     ///< its lines, regions and interface faces
+  const numbered_lines& lines;         ///< its lines, remeshed
   const refined_sizing& size;
-  std::span<const local_id> material_of_subdomain;
+  std::span<const local_id> material_of_subdomain; ///< by subdomain
 };
 
 /// The patches of a skeleton before they are put together; they lie in the store that they were made with.
 struct skeleton_patches {
-  meshed_regions meshes;
-  std::vector<patch_failure> failures;
-  std::size_t made = 0; ///< that were not in the store
+  meshed_regions meshes;               ///< regions first, then interface faces
+  std::vector<patch_failure> failures; ///< those that could not be remeshed
+  std::size_t made = 0;                ///< that were not in the store
 };
 
 namespace detail {

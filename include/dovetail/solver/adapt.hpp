@@ -26,7 +26,7 @@ struct adaptable_mesh {
   /// 2). Edges between two ids (D = 3), and points between two (D = 2), stay where they are. Sides that are
   /// not listed have none.
   std::vector<simplex<D - 1>> sides = {};
-  std::vector<local_id> side_ids = {};
+  std::vector<local_id> side_ids = {}; ///< by side: its id
   /// Per element: the part of the adaptation that made it, for solvers in parallel; not looked at.
   std::vector<local_id> subdomains = {};
 };
@@ -46,7 +46,7 @@ struct mesh_extent {
 /// than they were; a warning tells of more.
 template <int D>
 struct adapted : generated<D> {
-  any_geometry model;
+  any_geometry model;               ///< the model that the mesh is on
   std::vector<local_id> id_of_face; ///< per face of the model, which side_hosts and tags (D = 2) refer to
   std::vector<local_id>
       material_of_solid;                  ///< per solid of the model: `material` of pieces is a solid (D = 3)
@@ -57,12 +57,12 @@ struct adapted : generated<D> {
 /// so that boundaries hardly shrink from one adaptation to the next.
 template <int D>
 struct boundary_model {
-  any_geometry model;
-  std::vector<local_id> id_of_face;
-  std::vector<local_id> material_of_solid;
-  std::vector<std::string> warnings;
-  std::vector<local_id> id_of_curve = {}; ///< D = 2
-  mesh_extent before = {};                ///< of the mesh
+  any_geometry model;                      ///< what is meshed
+  std::vector<local_id> id_of_face;        ///< by face of the model: the id of the mesh
+  std::vector<local_id> material_of_solid; ///< by solid of the model: the material of the mesh
+  std::vector<std::string> warnings;       ///< what the report is to tell
+  std::vector<local_id> id_of_curve = {};  ///< D = 2
+  mesh_extent before = {};                 ///< of the mesh
   /// Of a model that was given: the mesh's boundary, by which ids and materials are found as soon as the
   /// model is triangulated; the three lists are empty until then.
   std::optional<std::conditional_t<D == 3, mesh_boundary, adaptable_mesh<2>>> named_by = {};

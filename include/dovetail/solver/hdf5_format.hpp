@@ -24,8 +24,8 @@ namespace dovetail::io {
 /// PETSc's `-dm_plex_create_from_hdf5_xdmf` looks for them, which takes no second order; XDMF's order of
 /// nodes is VTK's. Ghosts are left out. See docs/formats.md for the arrays.
 struct xdmf_format {
-  static constexpr bool second_order = true;
-  std::string stem = "ranks";
+  static constexpr bool second_order = true; ///< it has nodes in the middle of edges where the mesh has
+  std::string stem = "ranks";                ///< what the names of the files begin with
 
   std::string name() const { return "xdmf"; }
   std::vector<std::string> files_of_all() const { return {stem + ".h5", stem + ".xdmf"}; }
@@ -117,8 +117,8 @@ static_assert(shared_rank_format<xdmf_format, 2> && shared_rank_format<xdmf_form
 /// `<stem>.vtkhdf`: VTK's HDF format, version [1, 0], a partition per rank with the arrays of `pvtu_format`.
 /// Elements of second order are those of VTK.
 struct vtkhdf_format {
-  static constexpr bool second_order = true;
-  std::string stem = "ranks";
+  static constexpr bool second_order = true; ///< it has nodes in the middle of edges where the mesh has
+  std::string stem = "ranks";                ///< what the name of the file begins with
 
   std::string name() const { return "vtkhdf"; }
   std::vector<std::string> files_of_all() const { return {stem + ".vtkhdf"}; }

@@ -25,9 +25,9 @@ rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const ra
 
 /// How large the mesh of a rank is, ghosts with it.
 struct rank_counts {
-  std::uint64_t vertices = 0;
-  std::uint64_t elements = 0;
-  std::uint64_t sides = 0; ///< on CAD faces (D = 3) or curves (D = 2)
+  std::uint64_t vertices = 0; ///< those that it holds, and those of ghosts
+  std::uint64_t elements = 0; ///< its own, and ghosts
+  std::uint64_t sides = 0;    ///< on CAD faces (D = 3) or curves (D = 2)
 };
 
 /// What counting in the result of `make_rank_mesh` would give. Loads no piece; for ghosts those that have
@@ -39,10 +39,11 @@ rank_counts count_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const ra
 /// A mesh numbered for ranks: what each of them needs to make its own.
 template <int D>
 struct rank_source {
-  const distributed_simplicial_mesh<D>& mesh;
-  rank_numbering numbers;
-  bool ghosts = false;
+  const distributed_simplicial_mesh<D>& mesh; ///< the whole mesh
+  rank_numbering numbers;                     ///< who owns what
+  bool ghosts = false; ///< whether ranks get elements of others that touch their vertices
 
+  /// The mesh of one rank, or its counts alone (`counts_of`).
   rank_mesh<D> mesh_of(local_id rank) const { return make_rank_mesh<D>(mesh, numbers, rank, ghosts); }
   rank_counts counts_of(local_id rank) const { return count_rank_mesh<D>(mesh, numbers, rank, ghosts); }
 };

@@ -17,8 +17,8 @@ namespace dovetail::io {
 /// of the lowest rank. Of second order the nodes are a grid function of H1_3D_P2. Ghosts are left out: MFEM
 /// makes its own.
 struct mfem_format {
-  static constexpr bool second_order = true;
-  std::string stem = "mesh";
+  static constexpr bool second_order = true; ///< it has nodes in the middle of edges where the mesh has
+  std::string stem = "mesh";                 ///< what the names of the files begin with
 
   std::string name() const { return "mfem"; }
   std::vector<std::string> files_of_rank(local_id rank) const;

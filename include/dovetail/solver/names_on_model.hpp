@@ -27,10 +27,10 @@ namespace dovetail {
 
 /// The numbers of a mesh that the entities of a model have.
 struct model_names {
-  std::vector<local_id> id_of_face;
+  std::vector<local_id> id_of_face;        ///< by face or curve of the model
   std::vector<local_id> material_of_solid; ///< D = 3
   std::vector<local_id> id_of_curve;       ///< D = 2
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;       ///< what the report is to tell
 };
 
 namespace detail {

@@ -17,8 +17,8 @@ std::string rank_digits(local_id rank);
 /// `<stem>.pvtu` and `<stem>_0000.vtu`, one per rank. What another rank owns has vtkGhostType 1; global ids
 /// are contiguous per rank. Elements of second order are those of VTK. See docs/formats.md for the arrays.
 struct pvtu_format {
-  static constexpr bool second_order = true;
-  std::string stem = "ranks";
+  static constexpr bool second_order = true; ///< it has nodes in the middle of edges where the mesh has
+  std::string stem = "ranks";                ///< what the names of the files begin with
 
   std::string name() const { return "pvtu"; }
   std::vector<std::string> files_of_rank(local_id rank) const {

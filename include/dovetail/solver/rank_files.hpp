@@ -28,9 +28,9 @@ namespace dovetail::io {
 template <class Format, class Redistributor = redistribution_by::pieces>
 struct rank_writer {
   int ranks = 1;
-  Format format = {};
-  Redistributor redistribute = {};
-  bool ghosts = false; ///< each rank also has the elements of others that touch its own
+  Format format = {};              ///< what files are written
+  Redistributor redistribute = {}; ///< which rank gets what
+  bool ghosts = false;             ///< each rank also has the elements of others that touch its own
 
   /// A model of `piecewise_mesh_writer`. Memory: the skeleton, 30 bytes per node of it, and a rank's mesh
   /// per worker. Further throws what the redistributor throws, and

@@ -17,9 +17,9 @@ namespace dovetail::io {
 /// `$GhostElements` names their owners. Elements of second order are complete ones. Each file costs n log n
 /// in the skeleton.
 struct rank_msh_format {
-  static constexpr bool second_order = true;
-  bool binary = true;
-  std::string stem = "ranks";
+  static constexpr bool second_order = true; ///< it has nodes in the middle of edges where the mesh has
+  bool binary = true;                        ///< whether numbers are bytes or text
+  std::string stem = "ranks";                ///< what the names of the files begin with
 
   std::string name() const { return "msh-ranks"; }
   std::vector<std::string> files_of_rank(local_id rank) const {

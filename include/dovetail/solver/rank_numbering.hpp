@@ -23,7 +23,7 @@ namespace dovetail::io {
 /// What every rank knows of all: O(skeleton + pieces). The skeleton's points are its nodes where the mesh has
 /// those in the middle of edges (mid_nodes.hpp).
 struct rank_numbering {
-  std::vector<local_id> rank_of_piece;
+  std::vector<local_id> rank_of_piece;         ///< a rank for each piece
   compressed_rows<local_id> pieces_of_rank;    ///< growing
   compressed_rows<local_id> ranks_at_point;    ///< per point of the skeleton, growing: the first is its owner
   std::vector<global_id> first_vertex;         ///< per rank, and the number of all vertices
@@ -33,7 +33,9 @@ struct rank_numbering {
   std::vector<global_id> first_middle_of_piece;  ///< id of the first middle of each piece's inner edges
   std::vector<global_id> first_element_of_piece; ///< id of each piece's first element
 
+  /// How many ranks there are.
   local_id ranks() const { return static_cast<local_id>(pieces_of_rank.size()); }
+  /// The lowest rank that has an element at a point of the skeleton; no_id without any.
   local_id owner_of_point(local_id point) const {
     const auto at = ranks_at_point[point];
     return at.empty() ? no_id : at.front();

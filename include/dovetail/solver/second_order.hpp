@@ -22,13 +22,14 @@
 
 namespace dovetail::io {
 
+/// How nodes are put in the middle of edges.
 struct second_order_options {
   double least_jacobian =
       0.1; ///< an element is inverted when `dovetail::least_jacobian` is below this, over 0
   /// Where the result is kept, and taken from by a resumed run, whose pieces may have been given up.
   std::optional<spool> store = {};
   double limit_seconds = 600; ///< wall clock per task; the last resort
-  progress on_progress = {};
+  progress on_progress = {};  ///< told how the pieces come along
 };
 
 /// Gives a distributed mesh its `mid_nodes`; the mesh itself does not change. Pieces are loaded one per

@@ -20,29 +20,31 @@ namespace dovetail {
 template <int D>
 struct triangulation {
   static_assert(D == 2 || D == 3);
-  static constexpr local_id corners = D + 1;
+  static constexpr local_id corners = D + 1; ///< vertices of an element, and its sides
   /// The vertex of ghosts.
   static constexpr local_id infinite = no_id;
 
   /// An element; one cache line holds two of D = 3.
   struct cell {
-    simplex<D> vertices;
+    simplex<D> vertices; ///< corners; side i is opposite vertex i
     /// Per side, which is opposite the vertex of the same place: the neighbour's side there, as `side_of`.
     std::array<local_id, static_cast<std::size_t>(D) + 1> across;
   };
 
-  std::vector<point_of<D>> points;
-  std::vector<cell> cells;    ///< some of them dead: those that `is_alive` denies
-  std::vector<local_id> dead; ///< which these are; they are used again from the back
+  std::vector<point_of<D>> points; ///< by number; ghosts have `infinite` in place of one
+  std::vector<cell> cells;         ///< some of them dead: those that `is_alive` denies
+  std::vector<local_id> dead;      ///< which these are; they are used again from the back
 
   /// The number of side `i` of element `e`.
   static constexpr local_id side_of(local_id e, local_id i) { return corners * e + i; }
+  /// The element that has a side.
   static constexpr local_id element_of(local_id side) { return side / corners; }
+  /// Which side of its element it is.
   static constexpr local_id place_of(local_id side) { return side % corners; }
 
   const cell& operator[](local_id e) const { return cells[detail::at(e)]; }
   cell& operator[](local_id e) { return cells[detail::at(e)]; }
-  const point_of<D>& point(local_id v) const { return points[detail::at(v)]; }
+  const point_of<D>& point(local_id v) const { return points[detail::at(v)]; } ///< where a vertex is
   local_id across(local_id side) const {
     return (*this)[element_of(side)].across[detail::at(place_of(side))];
   }
@@ -85,6 +87,7 @@ struct triangulation {
     cells.emplace_back();
     return static_cast<local_id>(cells.size()) - 1;
   }
+  /// Marks an element as dead, to be used again.
   void remove(local_id e) {
     (*this)[e].vertices[0] = dead_mark;
     dead.push_back(e);

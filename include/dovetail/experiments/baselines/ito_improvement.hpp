@@ -24,8 +24,9 @@ namespace dovetail::baselines {
 /// The summary is that of `improve_pieces` over both passes, with children "first pass", "collection" (its
 /// counter "elements": those collected), "second pass" and "writing back".
 struct ito_improvement {
-  int layers = 2;
+  int layers = 2; ///< of elements beside the interfaces
 
+  /// Improves `mesh`; `size` is the sizing field of its elements.
   improved_pieces operator()(const distributed_mesh& mesh, const any_improver<3>& improve,
                              const any_sizing& size, const any_executor& run_tasks,
                              const improving_options& options = {}) const;

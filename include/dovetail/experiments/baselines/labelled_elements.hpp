@@ -30,9 +30,9 @@ namespace dovetail::baselines {
 
 /// A mesh whose pieces are made of what has one label.
 struct labelled_mesh {
-  std::shared_ptr<distributed_mesh> mesh;
-  std::vector<local_id> labels; ///< of each piece, growing
-  global_id moved = 0;          ///< elements whose label is not the one of their old piece
+  std::shared_ptr<distributed_mesh> mesh; ///< the new pieces and what is between them
+  std::vector<local_id> labels;           ///< of each piece, growing
+  global_id moved = 0;                    ///< elements whose label is not the one of their old piece
 };
 
 /// The same progress, but with one name for all that is done from here on, and so have traces.
@@ -53,7 +53,7 @@ inline improving_options within_stage(const improving_options& options, const ch
 
 /// What is known of a piece whose elements have labels.
 struct labelled_piece {
-  io::mesh_hasher hash;
+  io::mesh_hasher hash;                         ///< of its elements and points
   std::vector<std::array<global_id, 2>> counts; ///< of each label, growing, and its elements
   std::vector<local_id> at_sides;               ///< labels of the elements at its sides of the skeleton
   kept_value kept;                              ///< the labels of all elements

@@ -25,8 +25,9 @@ namespace dovetail::baselines {
 /// (its counters: "elements", those that moved, "pieces", "largest_over_mean" of their elements) and "second
 /// pass".
 struct loehner_improvement {
-  int layers = 2;
+  int layers = 2; ///< of elements that a piece gets from each neighbour
 
+  /// Improves `mesh`; `size` is the sizing field of its elements.
   improved_pieces operator()(const distributed_mesh& mesh, const any_improver<3>& improve,
                              const any_sizing& size, const any_executor& run_tasks,
                              const improving_options& options = {}) const;

@@ -16,9 +16,9 @@ namespace dovetail::baselines {
 
 /// Subdomains whose boundaries are as fine as the mesh.
 struct bisected_surface {
-  fine_skeleton fine;
-  std::vector<local_id> material_of_subdomain;
-  report summary;
+  fine_skeleton fine;                          ///< the subdomains' boundaries
+  std::vector<local_id> material_of_subdomain; ///< a material for each subdomain
+  report summary;                              ///< what was counted on the way
 };
 
 /// Divides solids, given by their fine surface, until each subdomain has few faces, the largest first. A
@@ -45,14 +45,15 @@ struct bisected_surface {
 /// "whole" (subdomains with more than `most_faces` that no plane divides), "most_faces" and
 /// "interface_faces"; "least_dihedral_deg" is the smallest at a loop.
 struct recursive_bisection {
-  std::size_t most_faces = 20000;  ///< of a subdomain's boundary
-  std::size_t most_subdomains = 0; ///< no more cuts are made when there are so many; 0: any number
-  double good_dihedral_deg = 30;   ///< no other plane is tried where the least dihedral is this
-  double least_dihedral_deg = 8;   ///< a cut with a smaller one is none
-  double least_share = 0.1;        ///< of the faces, on either side of a cut
-  any_surface_mesher mesh_interface = {};
-  progress on_progress = {}; ///< of the subdomains that there are
+  std::size_t most_faces = 20000;         ///< of a subdomain's boundary
+  std::size_t most_subdomains = 0;        ///< no more cuts are made when there are so many; 0: any number
+  double good_dihedral_deg = 30;          ///< no other plane is tried where the least dihedral is this
+  double least_dihedral_deg = 8;          ///< a cut with a smaller one is none
+  double least_share = 0.1;               ///< of the faces, on either side of a cut
+  any_surface_mesher mesh_interface = {}; ///< makes the triangles of an interface
+  progress on_progress = {};              ///< of the subdomains that there are
 
+  /// Divides the bodies that `surface` bounds.
   bisected_surface operator()(fine_skeleton surface, std::vector<local_id> material_of_subdomain,
                               const any_sizing& size) const;
 };

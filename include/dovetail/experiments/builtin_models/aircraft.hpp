@@ -13,13 +13,15 @@ namespace aircraft {
 
 /// Where the parts are: the one place that both the shape and the grid sources are made from.
 struct planform {
-  wing_section root;
-  wing_section tip;
+  wing_section root; ///< at the body
+  wing_section tip;  ///< at the end
 
+  /// The section at a share `s` of the way from the root to the tip.
   wing_section at(double s) const {
     return {(1 - s) * root.leading_edge + s * tip.leading_edge, (1 - s) * root.chord + s * tip.chord,
             (1 - s) * root.thickness + s * tip.thickness};
   }
+  /// What is at the same place on the other side of the plane y = 0.
   planform mirrored() const {
     planform other = *this;
     other.root.leading_edge.y = -root.leading_edge.y;
@@ -27,19 +29,23 @@ struct planform {
     return other;
   }
 };
-inline constexpr planform wing{{{6.3, 0.2, 0}, 4.9, 0.07}, {{10.3, 5.0, 0}, 1.5, 0.08}};
+inline constexpr planform wing{{{6.3, 0.2, 0}, 4.9, 0.07}, {{10.3, 5.0, 0}, 1.5, 0.08}}; ///< the right wing
+/// The right half of the tailplane.
 inline constexpr planform tail{{{12.2, 0.15, 0}, 2.4, 0.08}, {{14.4, 2.7, 0}, 1.0, 0.09}};
-inline constexpr planform fin{{{10.6, 0, 0.2}, 3.6, 0.08}, {{13.5, 0, 3.1}, 1.3, 0.09}};
+inline constexpr planform fin{{{10.6, 0, 0.2}, 3.6, 0.08}, {{13.5, 0, 3.1}, 1.3, 0.09}}; ///< the fin
+/// What carries a store below the wing.
 inline constexpr planform pylon{{{8.7, 1.95, -0.02}, 1.9, 0.12}, {{8.9, 1.95, -0.7}, 1.7, 0.12}};
 
+/// A store below the wing: a spindle along x.
 struct store {
-  vec3 nose;
-  double length;
-  double radius;
+  vec3 nose;     ///< its foremost point
+  double length; ///< along x
+  double radius; ///< where it is thickest
 };
 inline constexpr store tank{{7.3, 1.95, -0.8}, 4.6, 0.3};     ///< carried by the pylon
 inline constexpr store missile{{8.9, 3.6, -0.38}, 3.0, 0.13}; ///< free, close below the wing
 
+/// The radius of the fuselage along x.
 inline std::vector<vec2> fuselage_profile() {
   constexpr double length = 15, radius = 0.9, base = 0.5, nose = 5, taper_from = 10;
   std::vector<vec2> profile;
@@ -59,6 +65,7 @@ inline std::vector<vec2> fuselage_profile() {
 
 } // namespace aircraft
 
+/// The aircraft cut out of its far-field box.
 inline occt::attributed_shape aircraft_shape() {
   using namespace aircraft;
   constexpr vec3 up{0, 0, 1}, sideways{0, 1, 0};

@@ -15,16 +15,16 @@ namespace dovetail::builtin {
 
 namespace combustor {
 
-inline constexpr double outer_radius = 100;
-inline constexpr double thickness = 4;
-inline constexpr double length = 240;
+inline constexpr double outer_radius = 100; ///< of the liner
+inline constexpr double thickness = 4;      ///< of its wall
+inline constexpr double length = 240;       ///< of the liner, along x
 
 /// A ring of equal holes, evenly spaced.
 struct hole_row {
-  double x;
-  double radius;
-  int holes;
-  double phase; ///< of the hole spacing
+  double x;      ///< where the ring is
+  double radius; ///< of each hole
+  int holes;     ///< how many there are in the ring
+  double phase;  ///< of the hole spacing
 };
 
 /// Staggered cooling holes with two rows of larger dilution holes among them.
@@ -40,6 +40,7 @@ inline std::vector<hole_row> hole_rows() {
 
 } // namespace combustor
 
+/// The liner with its holes.
 inline occt::attributed_shape combustor_shape() {
   using namespace combustor;
   const gp_Dir along(1, 0, 0);

@@ -11,18 +11,20 @@ namespace dovetail::builtin {
 
 namespace orbiter {
 
-inline constexpr double length = 32;
-inline constexpr double radius = 2.7;
+inline constexpr double length = 32;  ///< of the body
+inline constexpr double radius = 2.7; ///< of the body
 /// Half wing: strake root, kink, tip. It lies low, near the belly.
 inline constexpr wing_section strake{{9.5, 0.3, -1.2}, 19.5, 0.055};
+/// Where the leading edge of the wing bends.
 inline constexpr wing_section kink{{19.5, 4.4, -1.2}, 10.0, 0.08};
-inline constexpr wing_section tip{{25.5, 11.5, -1.2}, 4.6, 0.09};
-inline constexpr wing_section fin_root{{23.0, 0, 1.8}, 7.5, 0.1};
-inline constexpr wing_section fin_tip{{28.7, 0, 10.0}, 3.8, 0.1};
-inline constexpr vec3 pod_nose{23.5, 1.7, 1.9};
-inline constexpr double pod_length = 9.5;
-inline constexpr double pod_radius = 1.2;
+inline constexpr wing_section tip{{25.5, 11.5, -1.2}, 4.6, 0.09}; ///< the end of the wing
+inline constexpr wing_section fin_root{{23.0, 0, 1.8}, 7.5, 0.1}; ///< the lower end of the fin
+inline constexpr wing_section fin_tip{{28.7, 0, 10.0}, 3.8, 0.1}; ///< the upper end of the fin
+inline constexpr vec3 pod_nose{23.5, 1.7, 1.9}; ///< the foremost point of the pod beside the fin
+inline constexpr double pod_length = 9.5;       ///< of the pod
+inline constexpr double pod_radius = 1.2;       ///< of the pod
 
+/// What is at the same place on the other side of the plane y = 0.
 inline wing_section mirrored(wing_section s) {
   s.leading_edge.y = -s.leading_edge.y;
   return s;
@@ -43,6 +45,7 @@ inline std::vector<vec2> body_profile() {
 
 } // namespace orbiter
 
+/// The orbiter cut out of its far-field box.
 inline occt::attributed_shape orbiter_shape() {
   using namespace orbiter;
   constexpr vec3 up{0, 0, 1}, sideways{0, 1, 0};

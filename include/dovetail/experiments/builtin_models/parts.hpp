@@ -32,8 +32,8 @@ namespace dovetail::builtin {
 
 /// A solid whose faces all get one name.
 struct named_part {
-  TopoDS_Shape shape;
-  std::string name;
+  TopoDS_Shape shape; ///< the solid
+  std::string name;   ///< of all its faces
 };
 
 /// The smooth curve through points at given parameters, with the derivatives given at its ends.
@@ -55,9 +55,9 @@ inline TopoDS_Edge spline_edge(const std::vector<vec3>& points, const std::vecto
 
 /// One section of a wing: leading edge, chord along x, thickness relative to the chord.
 struct wing_section {
-  vec3 leading_edge;
-  double chord = 1;
-  double thickness = 0.08;
+  vec3 leading_edge;       ///< the foremost point
+  double chord = 1;        ///< its length along x
+  double thickness = 0.08; ///< of the chord
 };
 
 /// A section's outline: one curve over each side, smooth at the leading edge, sharp at the trailing edge.
@@ -136,6 +136,7 @@ inline std::vector<vec2> spindle_profile(double length, double radius, double no
   return profile;
 }
 
+/// Gives all faces of a shape one name.
 inline void name_faces(occt::attribute_map& names, const TopoDS_Shape& shape, const std::string& name) {
   const TopTools_IndexedMapOfShape faces = occt::sub_shapes(shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i)

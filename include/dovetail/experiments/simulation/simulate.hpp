@@ -30,8 +30,9 @@ struct simulated_machine {
   int granted_ahead = 2;         ///< tasks that a worker has, the one it is at included
 };
 
+/// The times of a stage.
 struct simulated_times {
-  std::string stage;
+  std::string stage;   ///< its name
   double alike = 0;    ///< in which all do the same
   double once = 0;     ///< in which all wait for one process, and until they know its result
   double tasks = 0;    ///< from the first grant to the last result at all ranks
@@ -46,9 +47,10 @@ inline double whole(const simulated_times& times) {
   return times.alike + times.once + times.tasks;
 }
 
+/// A simulated run.
 struct simulated_run {
-  std::vector<simulated_times> stages = {};
-  double seconds = 0;
+  std::vector<simulated_times> stages = {}; ///< in their order
+  double seconds = 0;                       ///< of the whole run
 };
 
 namespace detail {

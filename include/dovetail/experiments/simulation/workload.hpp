@@ -17,23 +17,24 @@ namespace dovetail::simulation {
 
 /// A task: its time on a worker, and the size of its result, which every rank gets.
 struct simulated_task {
-  double seconds = 0;
-  double bytes = 0;
+  double seconds = 0; ///< on a worker
+  double bytes = 0;   ///< of its result
 };
 
 /// What is done in a stage: what all do alike; what one process does for all, who wait and are told; and the
 /// tasks, where the next batch begins when the last is done.
 struct simulated_stage {
-  std::string stage;
-  double seconds_alike = 0;
-  std::vector<simulated_task> once = {};
-  std::vector<std::vector<simulated_task>> batches = {};
+  std::string stage;                                     ///< its name
+  double seconds_alike = 0;                              ///< in which all do the same
+  std::vector<simulated_task> once = {};                 ///< what one process does for all
+  std::vector<std::vector<simulated_task>> batches = {}; ///< of tasks
 };
 
+/// The work of a run.
 struct workload {
-  double elements = 0;
-  std::vector<simulated_stage> stages = {};
-  mesh_sizes sizes = {};
+  double elements = 0;                      ///< of the mesh that it makes
+  std::vector<simulated_stage> stages = {}; ///< in their order
+  mesh_sizes sizes = {};                    ///< what the memory of a rank goes with
 };
 
 /// The stages of a trace by their names, in the order in which they are first met; a batch belongs to the

@@ -14,16 +14,18 @@
 
 namespace dovetail::improvement {
 
+/// How long the search goes on.
 struct apex_search_limits {
   int iterations = 6;   ///< linearisations at most
   float enough = 2;     ///< stop when the worst value is above this
   float radius = 0.25F; ///< first trust radius, in units of the star's length
 };
 
+/// Searches the best position of a vertex by its star.
 template <shape_measure Measure>
 class apex_search {
 public:
-  using batch = star_batch<Measure>;
+  using batch = star_batch<Measure>; ///< the star, ready to be measured
 
   /// Moves `p` (local units) uphill; returns the worst value reached. O(iterations x star).
   float climb(const batch& star, triple<float>& p, const apex_search_limits& limits) {

@@ -18,8 +18,8 @@ namespace dovetail::improvement {
 template <class... Proposals>
 class best_change : Proposals... {
 public:
-  static constexpr std::array names{Proposals::name...};
-  static constexpr turn when = turn::always;
+  static constexpr std::array names{Proposals::name...}; ///< of the kinds of change, for reports
+  static constexpr turn when = turn::always;             ///< it is tried in all sweeps
 
   best_change() = default;
   best_change(const best_change&) = delete; // points into itself

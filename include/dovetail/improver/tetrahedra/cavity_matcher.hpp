@@ -15,8 +15,8 @@ namespace dovetail::improvement {
 
 /// What lies beyond a side of a cavity: the half side against it (`no_id` on the boundary of the mesh).
 struct cavity_side {
-  half_side outer;
-  bool is_fixed;
+  half_side outer; ///< across the side; `no_id` on the boundary of the mesh
+  bool is_fixed;   ///< whether the side must stay
 };
 
 /// Open addressing with linear probing; entries of earlier cavities are told apart by a stamp, so starting a
@@ -31,6 +31,7 @@ public:
       stamp_ = 1;
     }
   }
+  /// Puts in a side, by its sorted vertices.
   void offer(const std::array<local_id, 3>& key, cavity_side side) {
     std::size_t i = slot_of(key);
     while (table_[i].stamp == stamp_)

@@ -11,7 +11,7 @@
 
 namespace dovetail::improvement {
 
-inline constexpr int max_cavity = 128;
+inline constexpr int max_cavity = 128; ///< elements that a change takes out or puts in, at most
 
 namespace detail {
 

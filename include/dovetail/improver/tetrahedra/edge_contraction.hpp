@@ -7,11 +7,12 @@
 
 namespace dovetail::improvement {
 
+/// The operation that contracts an edge of an element.
 template <shape_measure Measure>
 class edge_contraction {
 public:
-  static constexpr std::array names{"contraction"};
-  static constexpr turn when = turn::hard;
+  static constexpr std::array names{"contraction"}; ///< for reports
+  static constexpr turn when = turn::hard;          ///< it is tried in the sweeps with hard operations
 
   /// Tries to move each free vertex of `e` onto each of the others.
   bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {

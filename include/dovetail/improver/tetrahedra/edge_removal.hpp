@@ -13,13 +13,13 @@
 
 namespace dovetail::improvement {
 
-using edge_ends = std::array<local_id, 2>;
+using edge_ends = std::array<local_id, 2>; ///< the two vertices of an edge
 
 /// Finds the best way to remove an edge. Holds the tables, so that nothing is allocated per call.
 template <shape_measure Measure>
 class edge_removal {
 public:
-  static constexpr const char* name = "edge removal";
+  static constexpr const char* name = "edge removal"; ///< for reports
 
   /// For best_change: each edge of `e`.
   template <class Offer>

@@ -12,10 +12,11 @@
 
 namespace dovetail::improvement {
 
+/// The change that removes a side between two elements.
 template <shape_measure Measure>
 class face_removal {
 public:
-  static constexpr const char* name = "face removal";
+  static constexpr const char* name = "face removal"; ///< for reports
 
   /// For best_change: each side of `e`.
   template <class Offer>

@@ -14,17 +14,20 @@
 
 namespace dovetail::improvement {
 
+/// How vertices may move.
 struct global_smoothing_limits {
   int passes = 1;              ///< sweeps over all free vertices
   bool must_raise_mean = true; ///< the mean value around a vertex must get better, not only the worst one
   float target = -2;           ///< no element under this may get worse, and none may fall under it
-  size_band band = {};
+  size_band band = {};         ///< edges stay within it
 };
 
+/// How many moves there were.
 struct global_smoothing_counts {
-  std::size_t tried = 0, accepted = 0;
+  std::size_t tried = 0, accepted = 0; ///< moves that were tried, and those of them that were kept
 };
 
+/// Moves free vertices to where an optimal Delaunay triangulation would have them.
 template <shape_measure Measure>
 class global_smoothing {
 public:

@@ -12,8 +12,8 @@ namespace dovetail::improvement {
 
 /// The elements to take out and those to put in their place, with their values.
 struct local_change {
-  bounded_list<local_id, max_cavity> old;
-  bounded_list<simplex<3>, max_cavity> fresh;
+  bounded_list<local_id, max_cavity> old;     ///< elements to take out
+  bounded_list<simplex<3>, max_cavity> fresh; ///< elements to put in
   bounded_list<float, max_cavity> values;
   float worst = 2; ///< the smallest of `values`
 
@@ -21,6 +21,7 @@ struct local_change {
     old.size = fresh.size = values.size = 0;
     worst = 2;
   }
+  /// Puts in an element of that value; false when there is no room.
   bool add(const simplex<3>& element, float value) {
     worst = std::min(worst, value);
     return fresh.push(element) && values.push(value);

@@ -103,8 +103,8 @@ inline void fix_vertices(tet_complex& mesh, const frozen_entities<3>& frozen) {
 
 } // namespace detail
 
-/// In which order the complex holds points and elements: as they come, or next to each other in memory what
-/// is next to each other in space (see curve_order.hpp), which is faster.
+/// In which order the complex holds points and elements: as they come (`as_given`), or next to each other in
+/// memory what is next to each other in space (`along_curve`, see curve_order.hpp), which is faster.
 enum class layout { as_given, along_curve };
 
 /// Takes the mesh's arrays over. Throws `mesh_error` when they are not a mesh or a frozen side is not in it;

@@ -16,6 +16,7 @@ struct operation_limits<3> {
   bool is_last_round = false; ///< over a few stubborn elements: larger cavities, more patience
 
   bool is_poor(const tet_complex& mesh, local_id e) const { return mesh.value(e) < target; }
+  /// The limits of the search for an apex.
   apex_search_limits search() const { return {.iterations = search_iterations, .enough = target}; }
 };
 

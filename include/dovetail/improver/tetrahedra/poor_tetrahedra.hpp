@@ -15,10 +15,11 @@
 
 namespace dovetail::improvement {
 
+/// Poor tetrahedra for a schedule.
 template <shape_measure Measure>
 class poor_tetrahedra {
 public:
-  static constexpr int dimension = 3;
+  static constexpr int dimension = 3; ///< of tetrahedra
 
   /// `surface` says which elements the fixed sides of `mesh` limit; both must outlive this.
   poor_tetrahedra(tet_complex& mesh, const surface_limits& surface) : mesh_(mesh), surface_(surface) {}
@@ -26,16 +27,18 @@ public:
   /// For the hard sweeps of each run together.
   effort_plan hard_effort = {};
 
+  /// Elements under `limits.target` are those meant from now on.
   void aim(const operation_limits<3>& limits) {
     target_ = limits.target;
     mesh_.set_target(limits.target);
   }
+  /// Forgets what was tried in vain, and for the hard operations gives new credit.
   void start(bool is_hard) {
     failed_at_.clear();
     if (is_hard)
       effort_ = effort(hard_effort, mesh_.element_count());
   }
-  double lacking() const { return mesh_.lacking(); }
+  double lacking() const { return mesh_.lacking(); } ///< what all elements together lack to the target
 
   /// The worst first in hard sweeps, whose effort is bounded.
   const std::vector<local_id>& list(bool is_hard) {
@@ -51,7 +54,9 @@ public:
       });
     return poor_;
   }
+  /// Whether `e` is poor and something has changed around it since it was tried in vain.
   bool is_due(local_id e) const { return mesh_.value(e) < target_ && !is_settled(e); }
+  /// Calls `mend` for a due element, with hard operations if there is credit for it.
   template <class Mend>
   void attempt(local_id e, bool is_hard, const Mend& mend) {
     stake_ += lack_of(e);

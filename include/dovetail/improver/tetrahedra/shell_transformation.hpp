@@ -12,11 +12,12 @@
 
 namespace dovetail::improvement {
 
+/// The operation that shrinks the shell of an edge, then removes it.
 template <shape_measure Measure>
 class shell_transformation {
 public:
-  static constexpr std::array names{"shell transformation"};
-  static constexpr turn when = turn::hard;
+  static constexpr std::array names{"shell transformation"}; ///< for reports
+  static constexpr turn when = turn::hard; ///< it is tried in the sweeps with hard operations
 
   /// Tries each edge of `e` until one can be removed.
   bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {

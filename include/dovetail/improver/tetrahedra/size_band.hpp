@@ -15,8 +15,9 @@ namespace dovetail::improvement {
 
 /// Squared lengths of the shortest and longest of some edges.
 struct edge_lengths {
-  double shortest = 1e300, longest = 0;
+  double shortest = 1e300, longest = 0; ///< squared
 
+  /// Takes in the edge between two points.
   void add(vec3 a, vec3 b) {
     const double squared = norm_squared(b - a);
     shortest = std::min(shortest, squared);
@@ -55,10 +56,12 @@ inline std::vector<float> present_sizes(const tet_complex& mesh) {
 /// without a field, the mean of the mesh's sizes at the change's first element: the lengths of the mesh as it
 /// was before the first change, so that changes of changes do not drift away.
 struct size_band {
-  const any_sizing* field = nullptr; ///< null or empty: no field
-  double shortest = 0.4, longest = 2;
+  const any_sizing* field = nullptr;  ///< null or empty: no field
+  double shortest = 0.4, longest = 2; ///< in sizes: the shortest and the longest edge that a change may make
 
+  /// Whether there is a sizing field.
   bool has_field() const { return field != nullptr && static_cast<bool>(*field); }
+  /// The size at the place of a change.
   double size_at(const tet_complex& mesh, const simplex<3>& element, vec3 place) const {
     if (has_field())
       return checked_size(*field, place);
@@ -67,6 +70,7 @@ struct size_band {
       sum += static_cast<double>(mesh.size_at(v));
     return sum / 4;
   }
+  /// Whether a change may be made, by its edges before and after.
   bool admits(const tet_complex& mesh, const edge_lengths& before, const edge_lengths& after,
               const simplex<3>& element, vec3 place) const {
     if (after.shortest >= before.shortest && after.longest <= before.longest)

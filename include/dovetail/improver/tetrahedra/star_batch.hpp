@@ -16,11 +16,12 @@ namespace dovetail::improvement {
 template <shape_measure Measure>
 class star_batch {
 public:
-  static constexpr int lanes = 16; ///< the batch is padded to a multiple of this
-  static constexpr int capacity = max_star;
+  static constexpr int lanes = 16;          ///< the batch is padded to a multiple of this
+  static constexpr int capacity = max_star; ///< sides that there is room for
   static_assert(capacity % lanes == 0);
-  using values = std::array<float, static_cast<std::size_t>(capacity)>;
+  using values = std::array<float, static_cast<std::size_t>(capacity)>; ///< one value for each side
 
+  /// Begins a star around a centre, of that length.
   void start(vec3 center, double length) {
     center_ = center;
     scale_ = 1 / length;
@@ -50,6 +51,7 @@ public:
     const vec3 d = scale_ * (p - center_);
     return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
   }
+  /// A position in the star as a point of the mesh.
   vec3 to_global(triple<float> p) const { return center_ + vec3{p.x, p.y, p.z} / scale_; }
 
   /// The value of every element with the vertex at `p` (local units); returns the smallest.
@@ -71,7 +73,7 @@ public:
       worst = detail::smaller(value, worst);
     return worst;
   }
-  int padded_size() const { return padded_; }
+  int padded_size() const { return padded_; } ///< sides, rounded up to whole vectors
 
 private:
   static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }

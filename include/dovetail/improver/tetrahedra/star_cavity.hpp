@@ -12,8 +12,8 @@ namespace dovetail::improvement {
 
 /// The elements to take out, and their outline: sides with the cavity on the inner side.
 struct star_cavity {
-  bounded_list<local_id, max_cavity> elements;
-  bounded_list<std::array<local_id, 3>, max_star> outline;
+  bounded_list<local_id, max_cavity> elements;             ///< elements to take out
+  bounded_list<std::array<local_id, 3>, max_star> outline; ///< the sides around them
   /// The half side that carries each side of the outline, inside the cavity.
   bounded_list<half_side, max_star> inner;
 

@@ -16,17 +16,19 @@ struct move_conditions {
   double sum = -1e9; ///< and the sum of the values is above this
 };
 
+/// The star of a vertex, and its move.
 template <shape_measure Measure>
 class star_move {
 public:
-  using star = bounded_list<local_id, max_star>;
+  using star = bounded_list<local_id, max_star>; ///< the elements at the vertex
 
   /// Takes the star of the free vertex `v`; false when it is too large. O(star).
   bool start(tet_complex& mesh, local_id v) {
     vertex_ = v;
     return collect_star(mesh, v, elements_);
   }
-  const star& elements() const { return elements_; }
+  const star& elements() const { return elements_; } ///< the elements at the vertex
+  /// The least value of the elements.
   float worst(const tet_complex& mesh) const { return worst_value(mesh, elements_.view()); }
   /// The points of the side opposite the vertex in `e`: (vertex, a, b, c) is positive.
   std::array<vec3, 3> opposite_side(const tet_complex& mesh, local_id e) const {

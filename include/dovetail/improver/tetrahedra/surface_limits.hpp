@@ -102,8 +102,9 @@ private:
 
 /// The smallest and largest cosine of an element's dihedral angles, and six times its signed volume.
 struct dihedral_cosines {
-  double least, most, six_volumes;
+  double least, most, six_volumes; ///< the smallest and the largest cosine, and six times the volume
 };
+/// The cosines and the volume of the element (p, q, r, s).
 inline dihedral_cosines dihedral_cosines_of(vec3 p, vec3 q, vec3 r, vec3 s) {
   const vec3 a = q - p, b = r - p, c = s - p;
   const vec3 na = cross(b, c), nb = cross(c, a), nc = cross(a, b), sum = na + nb + nc;

@@ -21,12 +21,15 @@ namespace dovetail::improvement {
 /// One side of one element as a single number, 4 x element + local side; `no_id` stands for "nothing there".
 using half_side = local_id;
 
+/// Side `side` of an element as one number.
 constexpr half_side half_side_of(local_id element, int side) {
   return static_cast<half_side>(4 * element + side);
 }
+/// The element of a half side.
 constexpr local_id element_of(half_side h) {
   return h >> 2;
 }
+/// Which side of its element it is.
 constexpr int side_of(half_side h) {
   return h & 3;
 }

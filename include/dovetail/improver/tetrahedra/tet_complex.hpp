@@ -51,27 +51,35 @@ public:
   // -- what there is ---------------------------------------------------------------------------------------
   /// Element ids are in [0, element_slots()); dead ones among them are skipped with `is_alive`.
   local_id element_slots() const { return static_cast<local_id>(elements_.size()); }
+  /// Vertices in use and gaps.
   local_id vertex_slots() const { return static_cast<local_id>(points_.size()); }
-  std::size_t element_count() const { return alive_; }
+  std::size_t element_count() const { return alive_; } ///< elements that are alive
   bool is_alive(local_id e) const { return elements_[index(e)][0] != no_id; }
+  /// The four vertices of an element.
   const simplex<3>& vertices(local_id e) const { return elements_[index(e)]; }
+  /// Corner `corner` of an element.
   local_id vertex(local_id e, int corner) const { return elements_[index(e)][index(corner)]; }
-  const vec3& point(local_id v) const { return points_[index(v)]; }
+  const vec3& point(local_id v) const { return points_[index(v)]; } ///< where a vertex is
   /// The vertices in [0, given_vertices()) came with the mesh, the others were added.
   local_id given_vertices() const { return given_vertices_; }
   /// What the caller knows a vertex by that came with the mesh.
   local_id given_number(local_id v) const { return numbers_.empty() ? v : numbers_[index(v)]; }
   half_side across(local_id e, int side) const { return across_[index(e)][index(side)]; }
+  /// Whether a side must stay.
   bool is_fixed(local_id e, int side) const { return ((fixed_sides_[index(e)] >> side) & 1U) != 0; }
+  /// Whether any side must stay.
   bool has_fixed_side(local_id e) const { return fixed_sides_[index(e)] != 0; }
-  local_id element_at(local_id v) const { return element_at_[index(v)]; }
-  vertex_kind kind(local_id v) const { return kinds_[index(v)]; }
+  local_id element_at(local_id v) const { return element_at_[index(v)]; } ///< an element that has the vertex
+  vertex_kind kind(local_id v) const { return kinds_[index(v)]; }         ///< what may be done with a vertex
+  /// Whether it was taken out.
   bool is_gap(local_id v) const { return kinds_[index(v)] == vertex_kind::removed; }
+  /// Whether it may be moved and taken out.
   bool is_free(local_id v) const { return kinds_[index(v)] == vertex_kind::free; }
-  bool has_tags() const { return !tags_.empty(); }
+  bool has_tags() const { return !tags_.empty(); } ///< whether elements have tags
+  /// The tag of an element; 0 where there are none.
   local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
-  float value(local_id e) const { return values_[index(e)]; }
-  const std::vector<float>& values() const { return values_; }
+  float value(local_id e) const { return values_[index(e)]; }  ///< the measure of an element
+  const std::vector<float>& values() const { return values_; } ///< by element, those of dead ones too
   /// The sum over all elements of what they lack to the target; kept up to date, O(1).
   double lacking() const { return lacking_; }
   /// What an element of this value lacks to the target, cubed: one really poor element weighs more than
@@ -101,31 +109,35 @@ public:
   local_id releasable() const { return releasable_; }
 
   // -- marks: a set of elements that is emptied in O(1) ----------------------------------------------------
+  /// Takes all marks off.
   void clear_marks() {
     if (++current_mark_ == 0) {
       std::fill(element_marks_.begin(), element_marks_.end(), 0U);
       current_mark_ = 1;
     }
   }
-  void mark(local_id e) { element_marks_[index(e)] = current_mark_; }
+  void mark(local_id e) { element_marks_[index(e)] = current_mark_; } ///< marks an element
+  /// Whether an element is marked.
   bool is_marked(local_id e) const { return element_marks_[index(e)] == current_mark_; }
 
   /// Whether the mesh may overlap itself, because some elements are (or were) flat or inverted. Then positive
   /// orientation does not prove that a new side is new; changes are checked for that.
   bool is_tangled() const { return is_tangled_; }
-  void set_tangled(bool tangled) { is_tangled_ = tangled; }
+  void set_tangled(bool tangled) { is_tangled_ = tangled; } ///< tells that elements may overlap each other
 
   // -- when things changed ---------------------------------------------------------------------------------
   /// Counts changes; starts at 1.
   std::uint32_t now() const { return now_; }
   /// When an element at `v` was last replaced or moved.
   std::uint32_t changed_at(local_id v) const { return changed_at_[index(v)]; }
-  void start_change() { ++now_; }
+  void start_change() { ++now_; } ///< begins a change: vertices touched from now on are of it
+  /// Notes that the elements at a vertex have changed.
   void touch(local_id v) { changed_at_[index(v)] = now_; }
   /// Takes a touch back.
   void set_changed_at(local_id v, std::uint32_t when) { changed_at_[index(v)] = when; }
 
   // -- changes ---------------------------------------------------------------------------------------------
+  /// Sets the measure of an element.
   void set_value(local_id e, float value) {
     lacking_ += deficit(value) - deficit(values_[index(e)]);
     values_[index(e)] = value;
@@ -139,7 +151,9 @@ public:
   }
   /// Takes the sizes over, one per vertex.
   void set_sizes(std::vector<float> sizes) { sizes_ = std::move(sizes); }
+  /// Moves a vertex; the measures of its elements are set separately.
   void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
+  /// Sets what may be done with a vertex.
   void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
   /// To be called once when all fixed vertices are known.
   void finish_kinds() {
@@ -154,6 +168,7 @@ public:
     }
     releasable_ = free - (end - kept);
   }
+  /// Makes a side stay.
   void fix_side(local_id e, int side) {
     fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
   }
@@ -254,9 +269,9 @@ public:
   }
 
   // -- the result ------------------------------------------------------------------------------------------
-  std::vector<vec3>& points() { return points_; }
-  std::vector<simplex<3>>& elements() { return elements_; }
-  std::vector<local_id>& tags() { return tags_; }
+  std::vector<vec3>& points() { return points_; }           ///< by vertex, to be changed in place
+  std::vector<simplex<3>>& elements() { return elements_; } ///< by element, to be changed in place
+  std::vector<local_id>& tags() { return tags_; }           ///< by element, to be changed in place
 
 private:
   static constexpr float gone = 2; ///< the value of a dead element

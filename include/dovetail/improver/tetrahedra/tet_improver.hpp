@@ -78,6 +78,7 @@ public:
                const any_sizing& size)
       : parameters_(parameters), mesh_(mesh), surface_(surface), size_(size) {}
 
+  /// Raises the poor elements to the target, then the worst ones once more.
   void raise(report& result) const {
     auto limits = limits_for(Measure::from_angle(parameters_.target_angle));
     poor_tetrahedra<Measure> poor(mesh_, surface_);

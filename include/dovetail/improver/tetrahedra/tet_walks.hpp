@@ -11,9 +11,10 @@ namespace dovetail::improvement {
 /// An array of fixed capacity that reports overflow instead of growing; no allocation.
 template <class T, int Capacity>
 struct bounded_list {
-  std::array<T, static_cast<std::size_t>(Capacity)> items;
+  std::array<T, static_cast<std::size_t>(Capacity)> items; ///< the first `size` of them are in use
   int size = 0;
 
+  /// Puts an item at the end; false when there is no room.
   bool push(T item) {
     if (size == Capacity)
       return false;
@@ -26,6 +27,7 @@ struct bounded_list {
   auto end() const { return items.begin() + size; }
   auto begin() { return items.begin(); }
   auto end() { return items.begin() + size; }
+  /// The items in use.
   std::span<const T> view() const { return {items.data(), static_cast<std::size_t>(size)}; }
 };
 
@@ -33,12 +35,13 @@ struct bounded_list {
 inline constexpr std::array<std::array<int, 4>, 6> edge_corners{
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
-inline constexpr int max_shell = 12;
-inline constexpr int max_star = 96;
+inline constexpr int max_shell = 12; ///< elements around an edge, at most
+inline constexpr int max_star = 96;  ///< elements at a vertex, at most
 
 /// A closed shell: element i is (a, b, ring[i], ring[i+1]), positively oriented like the elements are.
 struct edge_shell {
-  local_id a = no_id, b = no_id;
+  local_id a = no_id, b = no_id; ///< the vertices of the edge
+  /// The other vertices of the elements, and the elements, in order around the edge.
   bounded_list<local_id, max_shell> ring, elements;
 };
 

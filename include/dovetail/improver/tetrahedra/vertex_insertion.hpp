@@ -12,18 +12,20 @@
 
 namespace dovetail::improvement {
 
+/// How long a cavity is grown, and what new edges keep to.
 struct insertion_limits {
-  int growth = 12;  ///< elements added to the first cavity at most
-  int patience = 5; ///< growths without progress before giving up
-  apex_search_limits search = {};
-  size_band band = {};
+  int growth = 12;                ///< elements added to the first cavity at most
+  int patience = 5;               ///< growths without progress before giving up
+  apex_search_limits search = {}; ///< of the place of the new vertex
+  size_band band = {};            ///< edges stay within it
 };
 
+/// The operation that inserts a vertex near an element.
 template <shape_measure Measure>
 class vertex_insertion {
 public:
-  static constexpr std::array names{"insertion"};
-  static constexpr turn when = turn::hard;
+  static constexpr std::array names{"insertion"}; ///< for reports
+  static constexpr turn when = turn::hard;        ///< it is tried in the sweeps with hard operations
 
   /// Tries the middle of `e`, then that of each of its edges.
   bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {

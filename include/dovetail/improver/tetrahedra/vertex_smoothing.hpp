@@ -7,11 +7,12 @@
 
 namespace dovetail::improvement {
 
+/// The operation that moves the vertices of an element.
 template <shape_measure Measure>
 class vertex_smoothing {
 public:
-  static constexpr std::array names{"smoothing"};
-  static constexpr turn when = turn::always;
+  static constexpr std::array names{"smoothing"}; ///< for reports
+  static constexpr turn when = turn::always;      ///< it is tried in all sweeps
 
   /// Moves the free vertices of `e` in turn as long as it is poor.
   bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {

@@ -13,6 +13,7 @@ struct operation_limits<2> {
   double longest_edge = 2;  ///< removing a vertex makes no edge longer than this times the target length
   double least_step = 0.01; ///< of quality, for operations that add or remove a vertex
 
+  /// Whether a triangle is there and below the target.
   bool is_poor(const surface_complex& mesh, local_id t) const {
     return mesh.table.alive(t) && mesh.quality(t) < target;
   }

@@ -8,14 +8,16 @@
 
 namespace dovetail::improvement {
 
+/// Poor triangles for a schedule.
 class poor_triangles {
 public:
-  static constexpr int dimension = 2;
+  static constexpr int dimension = 2; ///< of triangles
 
   explicit poor_triangles(surface_complex& mesh) : mesh_(mesh) {}
 
+  /// Triangles under `limits.target` are those meant from now on.
   void aim(const operation_limits<2>& limits) { limits_ = limits; }
-  void start(bool) { failed_with_.clear(); }
+  void start(bool) { failed_with_.clear(); } ///< forgets what was tried in vain
 
   /// Lists the poor ones as well. O(triangles).
   double lacking() {
@@ -29,8 +31,11 @@ public:
         }
     return listed_;
   }
+  /// The poor triangles, in the order they are to be tried.
   const std::vector<local_id>& list(bool = false) const { return poor_; }
+  /// Whether `t` is poor and something has changed around it since it was tried in vain.
   bool is_due(local_id t) const { return limits_.is_poor(mesh_, t) && !is_settled(t); }
+  /// Calls `mend` for a due triangle.
   template <class Mend>
   void attempt(local_id t, bool, const Mend& mend) {
     mend();

@@ -10,6 +10,7 @@
 
 namespace dovetail::improvement {
 
+/// Flips and moves all that may be flipped and moved.
 class relaxation {
 public:
   /// `log` counts flips and moves under the names of the operations.

@@ -9,10 +9,11 @@
 
 namespace dovetail::improvement {
 
+/// The operation that flips sides of a triangle.
 class side_flip {
 public:
-  static constexpr std::array names{"edge removal"};
-  static constexpr turn when = turn::always;
+  static constexpr std::array names{"edge removal"}; ///< for reports
+  static constexpr turn when = turn::always;         ///< it is tried in all sweeps
 
   /// Tries the sides of `t` as long as it is poor.
   bool mend(surface_complex& mesh, local_id t, const operation_limits<2>& limits,

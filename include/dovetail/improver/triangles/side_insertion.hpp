@@ -13,10 +13,11 @@
 
 namespace dovetail::improvement {
 
+/// The operation that splits a side of a triangle.
 class side_insertion {
 public:
-  static constexpr std::array names{"insertion"};
-  static constexpr turn when = turn::hard;
+  static constexpr std::array names{"insertion"}; ///< for reports
+  static constexpr turn when = turn::hard;        ///< it is tried in the sweeps with hard operations
 
   explicit side_insertion(surface_complex& mesh) : s_(mesh), smooth_(mesh) {}
 

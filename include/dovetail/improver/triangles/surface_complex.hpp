@@ -19,7 +19,7 @@ namespace dovetail::improvement {
 
 /// A part of the surface that no fixed side crosses.
 struct surface_patch {
-  local_id tag = 0;
+  local_id tag = 0;      ///< of its triangles
   bool is_plane = false; ///< its vertices move in the plane exactly and need no host
   vec3 normal;           ///< of a plane patch
 };
@@ -34,29 +34,31 @@ class surface_complex {
 public:
   /// All that a move changes.
   struct location {
-    vec3 point, normal;
-    vec2 uv;
+    vec3 point, normal;  ///< of the vertex, and of the surface there
+    vec2 uv;             ///< on the surface
     local_id on = no_id; ///< triangle of the given mesh, where that is the host
   };
 
-  corner_table table;
-  std::vector<vec3> point;
+  corner_table table;       ///< the triangles
+  std::vector<vec3> point;  ///< by vertex: where it is
   std::vector<vec3> normal; ///< unit, of the host; zero where it is singular
-  std::vector<vec2> uv;
+  std::vector<vec2> uv;     ///< by vertex: its parameters on the surface
+  /// By vertex: the triangle of the given mesh that it is on, where that is the host.
   std::vector<local_id> on;
-  std::vector<local_id> patch;
-  std::vector<local_id> source;   ///< index of the point in the given mesh, no_id for new ones
-  std::vector<local_id> next_fan; ///< the next vertex at the same point; itself when alone
-  std::vector<double> size;       ///< target edge length
-  std::vector<surface_patch> patches;
-  local_id frozen = 0;
+  std::vector<local_id> patch;                  ///< by vertex: its patch
+  std::vector<local_id> source;                 ///< index of the point in the given mesh, no_id for new ones
+  std::vector<local_id> next_fan;               ///< the next vertex at the same point; itself when alone
+  std::vector<double> size;                     ///< target edge length
+  std::vector<surface_patch> patches;           ///< by their number
+  local_id frozen = 0;                          ///< how many vertices never move; they come first
   double shortest_edge = 0.4, longest_edge = 2; ///< times the target; see `keeps_length`
   const any_sizing* field = nullptr;            ///< null or empty: sizes are those of the given mesh
   const surface_host* host = nullptr;           ///< null or empty: `given` is the host
   triangle_host given;
 
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  bool inner(local_id v) const { return v >= frozen; }
+  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); } ///< an id as an index
+  bool inner(local_id v) const { return v >= frozen; } ///< whether a vertex may be moved
+  /// Whether the vertex's patch is plane.
   bool is_plane(local_id v) const { return patches[at(patch[at(v)])].is_plane; }
 
   // --- geometry of triangles ---
@@ -74,6 +76,7 @@ public:
   bool positive(local_id a, local_id b, local_id c) const {
     return positive(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
+  /// The `oriented_quality` of a triangle of three vertices (mesh/triangle_shape.hpp).
   double quality(local_id a, local_id b, local_id c) const {
     return dovetail::detail::oriented_quality(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
@@ -85,13 +88,16 @@ public:
     return agreement(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
   }
 
+  /// The length of the edge between two vertices.
   double length(local_id a, local_id b) const { return distance(point[at(a)], point[at(b)]); }
+  /// The length in sizes: the mean of those at the ends.
   double relative_length(local_id a, local_id b) const {
     return 2 * length(a, b) / (size[at(a)] + size[at(b)]);
   }
 
   // --- what operations may do ---
 
+  /// Whether the opposite side of a corner may be flipped and both new triangles are positive.
   bool may_flip(local_id c) const {
     if (!table.free_side(c))
       return false;
@@ -153,7 +159,9 @@ public:
 
   // --- changes ---
 
+  /// All that a move of the vertex changes.
   location location_of(local_id v) const { return {point[at(v)], normal[at(v)], uv[at(v)], on[at(v)]}; }
+  /// Moves a vertex.
   void place(local_id v, const location& where) {
     point[at(v)] = where.point;
     normal[at(v)] = where.normal;

@@ -9,10 +9,11 @@
 
 namespace dovetail::improvement {
 
+/// The operation that moves the vertices of a triangle.
 class triangle_smoothing {
 public:
-  static constexpr std::array names{"smoothing"};
-  static constexpr turn when = turn::always;
+  static constexpr std::array names{"smoothing"}; ///< for reports
+  static constexpr turn when = turn::always;      ///< it is tried in all sweeps
 
   explicit triangle_smoothing(surface_complex& mesh) : smooth_(mesh) {}
 

@@ -10,10 +10,11 @@
 
 namespace dovetail::improvement {
 
+/// The operation that moves a vertex onto a neighbour.
 class vertex_removal {
 public:
-  static constexpr std::array names{"contraction"};
-  static constexpr turn when = turn::hard;
+  static constexpr std::array names{"contraction"}; ///< for reports
+  static constexpr turn when = turn::hard;          ///< it is tried in the sweeps with hard operations
 
   /// Tries the inner vertices of `t` until one can be removed.
   bool mend(surface_complex& mesh, local_id t, const operation_limits<2>& limits,

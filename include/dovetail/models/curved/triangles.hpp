@@ -23,9 +23,9 @@ namespace dovetail::discrete {
 
 /// A triangle, and how far the control points of its cubic map are from where a plane one has them.
 struct curved_triangle {
-  std::array<vec3, 3> corners;
+  std::array<vec3, 3> corners;              ///< the corners of the plane triangle
   std::array<std::array<vec3, 2>, 3> along; ///< at corner i: towards corners i + 1 and i + 2
-  vec3 inner;
+  vec3 inner; ///< what is added inside, times six times the product of the barycentric coordinates
 };
 
 /// Makes the triangles of a surface curved. `smooth_of`: the smooth area of each triangle, between which are
@@ -38,6 +38,7 @@ public:
     find_tangents();
   }
 
+  /// All triangles, curved, in their order.
   std::vector<curved_triangle> run() const {
     std::vector<curved_triangle> made;
     for (std::size_t t = 0; t < mesh_.elements.size(); ++t)
@@ -217,9 +218,10 @@ public:
   /// From a point of the triangulated surface (or from the one nearest to a point beside it) to the smooth
   /// one, and how that changes along given directions.
   struct lift {
-    vec3 to;
-    std::array<vec3, 2> change;
+    vec3 to;                    ///< from the point to the smooth surface
+    std::array<vec3, 2> change; ///< of `to`, along each of the two directions
   };
+  /// The lift of a point, and its change along `du` and `dv`.
   lift at(vec3 p, vec3 du = {}, vec3 dv = {}) const {
     const auto& triangle = triangles_[nearest(p)];
     const auto& corners = triangle.corners; // named, since clang 14 captures no structured binding

@@ -47,13 +47,16 @@ public:
     on_surface_ = 1e-12 * space_tree_.bounds().diagonal();
   }
 
+  /// The point of the surface over a point of the plane.
   vec3 point(vec2 uv) const { return lifted(triangles_[locate(uv)], uv); }
 
+  /// The point and its derivatives.
   surface_frame frame(vec2 uv) const {
     const triangle& t = triangles_[locate(uv)];
     return {lifted(t, uv), frame_.u + t.slope.x * frame_.n, frame_.v + t.slope.y * frame_.n};
   }
 
+  /// The largest curvature, as estimated for the triangle there.
   double curvature(vec2 uv) const { return curvatures_[locate(uv)]; }
 
   /// Parameters of the point of the surface nearest p: of the chart, or of its continuation beyond the

@@ -21,6 +21,7 @@
 
 namespace dovetail {
 
+/// How surfaces are cut into charts.
 struct chart_options {
   double feature_angle_deg = 40; ///< an edge whose triangles turn by more is a feature edge
   double cone_angle_deg = 60;    ///< largest angle between a triangle's normal and its chart's mean normal
@@ -45,6 +46,7 @@ public:
     s_.chart_of = s_.smooth_of;
   }
 
+  /// Cuts until every chart can be projected.
   charted_surface run() {
     for (int round = 0; round < largest_rounds; ++round) {
       gather();

@@ -16,7 +16,7 @@ namespace dovetail {
 
 /// The surfaces with triangles split where charts end, and the charts.
 struct charted_surface {
-  simplicial_mesh<2> mesh;
+  simplicial_mesh<2> mesh;         ///< with split triangles
   std::vector<local_id> smooth_of; ///< per triangle: the smooth area; it changes across feature edges
   std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
   std::vector<local_id> group_of;  ///< per triangle: named group of the file, or no_id
@@ -42,6 +42,7 @@ public:
   contour_splitter(charted_surface& surface, std::vector<std::optional<corner_values>>& values)
       : s_(surface), values_(values) {}
 
+  /// Splits the triangles.
   void run() {
     const auto splits = collect_splits();
     const auto split_on = [&](local_id a, local_id b) -> const edge_split* {

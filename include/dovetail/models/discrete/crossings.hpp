@@ -18,6 +18,7 @@
 
 namespace dovetail::discrete {
 
+/// A point as text, for messages.
 inline std::string place(vec3 p) {
   return place_text(p);
 }

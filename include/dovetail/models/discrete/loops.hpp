@@ -16,9 +16,9 @@ namespace dovetail::discrete {
 
 /// A directed edge of a chart's boundary, the chart on its left.
 struct boundary_edge {
-  local_id from;
-  local_id to;
-  std::size_t triangle;
+  local_id from;        ///< the vertex where it starts
+  local_id to;          ///< the vertex where it ends
+  std::size_t triangle; ///< the triangle of the chart that has it
 };
 
 /// "No triangle": what lies across the boundary of a sheet.

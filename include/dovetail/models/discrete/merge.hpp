@@ -23,6 +23,7 @@ public:
       : s_(std::move(surface)), measures_(s_.mesh), cosine_(std::cos(merge_angle_deg * radians_per_degree)),
         neighbours_(element_neighbours(build_sides<2>(s_.mesh))) {}
 
+  /// Joins charts while any two may be joined.
   charted_surface run() {
     for (int round = 0; round < largest_rounds && merge_once(); ++round) {
     }

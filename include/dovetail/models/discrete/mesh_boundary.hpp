@@ -23,8 +23,8 @@ namespace dovetail {
 
 /// The body that a mesh of tetrahedra fills. Each connected part of a material is a solid of its own.
 struct mesh_boundary {
-  oriented_surfaces surfaces; ///< groups: the ids of sides, which are their names too
-  std::vector<local_id> material_of_solid;
+  oriented_surfaces surfaces;              ///< groups: the ids of sides, which are their names too
+  std::vector<local_id> material_of_solid; ///< the tag of its tetrahedra
 };
 
 namespace detail {

@@ -14,11 +14,12 @@
 
 namespace dovetail::discrete {
 
+/// The solids that closed shells bound, and the voids in them.
 struct shell_nesting {
   std::vector<local_id> solid_of;  ///< per shell
   std::vector<bool> is_inside_out; ///< per shell: its normals point into its solid
-  local_id solids = 0;
-  local_id voids = 0;
+  local_id solids = 0;             ///< how many there are
+  local_id voids = 0;              ///< how many shells bound a void
 };
 
 /// Each shell with points of its own. `shell_of` is per triangle; a shell's triangles are connected, so their

@@ -53,6 +53,7 @@ inline triangle_soup parse_obj(std::string_view data, const std::string& file) {
   return soup;
 }
 
+/// The triangles of an OFF file; polygons are cut into triangles. Throws `input_error` naming file and line.
 inline triangle_soup parse_off(std::string_view data, const std::string& file) {
   triangle_soup soup;
   text_scanner in(data, file);

@@ -19,7 +19,7 @@ struct oriented_shells {
   std::vector<bool> is_sheet;     ///< per shell: it is open
   std::size_t turned = 0;         ///< triangles that had to be turned
 
-  local_id count() const { return static_cast<local_id>(is_sheet.size()); }
+  local_id count() const { return static_cast<local_id>(is_sheet.size()); } ///< how many shells there are
 };
 
 /// One use of `oriented`.
@@ -27,6 +27,7 @@ class shell_orienter {
 public:
   shell_orienter(simplicial_mesh<2>& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
 
+  /// Orients shell after shell.
   oriented_shells run() {
     const auto sides = build_sides<2>(mesh_);
     const std::size_t n = triangles().size();

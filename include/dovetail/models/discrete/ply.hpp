@@ -16,23 +16,26 @@ namespace dovetail::discrete {
 
 /// What the header of a PLY file announces.
 struct ply_header {
+  /// A value of each item of an element.
   struct property {
-    std::string name;
-    std::string type;
+    std::string name;       ///< as the file calls it
+    std::string type;       ///< as the file calls it
     std::string count_type; ///< of a list; empty for a scalar
   };
+  /// A list of items of one kind.
   struct element {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<property> properties;
+    std::string name;                 ///< as the file calls it
+    std::size_t count = 0;            ///< how many items there are
+    std::vector<property> properties; ///< in the order they are stored
   };
 
-  bool text = false;
-  bool big_endian = false;
-  std::vector<element> elements;
-  std::size_t size = 0; ///< bytes up to the data
+  bool text = false;             ///< whether values are text
+  bool big_endian = false;       ///< of binary values
+  std::vector<element> elements; ///< in the order they are stored
+  std::size_t size = 0;          ///< bytes up to the data
 };
 
+/// Reads the header. Throws `input_error` naming the file when it is damaged.
 inline ply_header parse_ply_header(std::string_view data, const std::string& file) {
   ply_header header;
   const std::size_t end = data.find("end_header");
@@ -91,6 +94,7 @@ public:
         swap_(header.big_endian != (std::endian::native == std::endian::big)), scanner_(data_, file),
         file_(std::move(file)) {}
 
+  /// The next value, which is of that type. Throws `input_error` when the file ends before it.
   double next(const std::string& type) {
     if (text_)
       return next_word();

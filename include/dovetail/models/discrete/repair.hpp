@@ -28,17 +28,18 @@ namespace dovetail {
 /// boundary of a sheet, or more where surfaces between solids meet. The normals of closed surfaces point out
 /// of the material behind them, those of a sheet to the side that most of its triangles were listed with.
 struct oriented_surfaces {
-  simplicial_mesh<2> mesh;
+  simplicial_mesh<2> mesh;      ///< tags are surfaces
   std::vector<local_id> groups; ///< per triangle: index into `group_names`, or no_id
   std::vector<std::string> group_names;
   std::vector<local_id> group_numbers; ///< per group: its number in the soup
   std::vector<local_id> solid_of;      ///< per triangle: the solid behind it; no_id in sheets
   std::vector<local_id> front_of;      ///< per triangle: the solid in front of it; empty: nowhere is one
-  local_id solids = 0;
-  std::vector<local_id> corners = {}; ///< points where curves end, whatever their angle
+  local_id solids = 0;                 ///< how many the closed surfaces bound
+  std::vector<local_id> corners = {};  ///< points where curves end, whatever their angle
   report repairs; ///< counters: merged_points, degenerate, duplicates, turned, shells, sheets, solids, voids
 };
 
+/// What may be done to a soup.
 struct repair_options {
   double merge_tolerance =
       1e-6; ///< of the diagonal; points this near are one where the surface is open otherwise
@@ -77,6 +78,7 @@ public:
     diagonal_ = box.diagonal();
   }
 
+  /// All steps. Throws `geometry_error` when no surface can be made.
   oriented_surfaces run() {
     merge_points(0);
     drop_degenerate();

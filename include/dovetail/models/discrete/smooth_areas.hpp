@@ -52,6 +52,7 @@ public:
     lend_normals();
   }
 
+  /// The number of the area of each triangle.
   std::vector<local_id> run() {
     const auto areas = clusters(neighbours_, [&](std::size_t t, std::size_t next) {
       return group_of_[t] == group_of_[next] && turn(t, next) <= feature_angle_;

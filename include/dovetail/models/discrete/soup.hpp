@@ -22,8 +22,8 @@ namespace dovetail {
 
 /// Triangles on points that may repeat, in any orientation.
 struct triangle_soup {
-  std::vector<vec3> points;
-  std::vector<simplex<2>> triangles;
+  std::vector<vec3> points;          ///< as listed
+  std::vector<simplex<2>> triangles; ///< by the numbers of points
   /// Per triangle: its group, an index into `group_names`; without names any number of one's own; or no_id.
   /// Empty: none has a group.
   std::vector<local_id> groups = {};
@@ -96,7 +96,7 @@ public:
       line_text_.remove_suffix(1);
     return line_text_;
   }
-  bool at_line_end() { return rest().empty(); }
+  bool at_line_end() { return rest().empty(); } ///< whether no word is left on the line
 
   /// The next word of the line as a finite number.
   double number() {
@@ -111,11 +111,13 @@ public:
       fail("a finite number is expected instead of \"" + std::string(found) + "\"");
     return value;
   }
+  /// Three numbers.
   vec3 point() {
     const double x = number();
     const double y = number();
     return {x, y, number()};
   }
+  /// A whole number. Throws `input_error` when it is none.
   long integer() {
     const double value = number();
     if (value != std::floor(value) || std::abs(value) > 4e9)
@@ -123,6 +125,7 @@ public:
     return static_cast<long>(value);
   }
 
+  /// Throws `input_error` that names file and line.
   [[noreturn]] void fail(const std::string& what) const {
     throw input_error(file_ + ":" + std::to_string(line_) + ": " + what);
   }

@@ -15,6 +15,7 @@ namespace dovetail::discrete {
 inline constexpr std::size_t stl_header_size = 84; ///< 80 bytes of text, the 32-bit number of facets
 inline constexpr std::size_t stl_facet_size = 50;  ///< normal and corners as 12 floats, 2 bytes unused
 
+/// How many triangles the header of a binary STL file announces.
 inline std::size_t binary_stl_facets(std::string_view data) {
   static_assert(std::endian::native == std::endian::little, "STL and this reader are little-endian");
   std::uint32_t count = 0;
@@ -32,6 +33,7 @@ inline bool is_binary_stl(std::string_view data) {
   return !data.starts_with("solid") || head.find('\0') != std::string_view::npos;
 }
 
+/// The triangles of a binary STL file. Throws `input_error` when it is shorter than announced.
 inline triangle_soup parse_binary_stl(std::string_view data, const std::string& file) {
   const std::size_t count = binary_stl_facets(data);
   const std::size_t available = (data.size() - stl_header_size) / stl_facet_size;
@@ -95,6 +97,7 @@ inline triangle_soup parse_text_stl(std::string_view data, const std::string& fi
   return soup;
 }
 
+/// The triangles of an STL file of either kind. Throws `input_error` naming the file.
 inline triangle_soup parse_stl(std::string_view data, const std::string& file) {
   return is_binary_stl(data) ? parse_binary_stl(data, file) : parse_text_stl(data, file);
 }

@@ -23,6 +23,7 @@ public:
     find_rim();
   }
 
+  /// Removes borders until none is short.
   charted_surface run() {
     for (int round = 0; round < largest_rounds; ++round) {
       index_vertices();
@@ -244,6 +245,7 @@ public:
       : s_(std::move(surface)), measures_(s_.mesh), neighbours_(element_neighbours(build_sides<2>(s_.mesh))) {
   }
 
+  /// Moves triangles until none sticks out.
   charted_surface run() {
     members_.assign(s_.frames.size(), {});
     for (std::size_t t = 0; t < s_.chart_of.size(); ++t)

@@ -17,15 +17,15 @@ namespace dovetail::discrete {
 
 /// A curve of the model: mesh vertices in order, with the arc length up to each.
 struct polyline {
-  std::vector<local_id> vertices;
-  std::vector<double> lengths;
-  bool feature = false; ///< false: only the end of a chart within a smooth area
+  std::vector<local_id> vertices; ///< of the mesh; a closed curve ends where it starts
+  std::vector<double> lengths;    ///< from the start to each vertex
+  bool feature = false;           ///< false: only the end of a chart within a smooth area
 };
 
 /// What `topology_builder` makes: curve i of the topology is `curves[i]`, face i is chart i.
 struct curve_network {
-  geometry_topology topology;
-  std::vector<polyline> curves;
+  geometry_topology topology;   ///< entities and how they bound each other
+  std::vector<polyline> curves; ///< where the curves are
 };
 
 /// Joins the edges between charts to curves and charts' boundaries to loops of coedges.
@@ -36,6 +36,7 @@ public:
       : s_(surface), group_names_(group_names), corner_angle_(corner_angle_deg * radians_per_degree),
         neighbours_(element_neighbours(build_sides<2>(surface.mesh))) {}
 
+  /// The curves and loops.
   curve_network run() {
     collect_edges();
     find_breaks();

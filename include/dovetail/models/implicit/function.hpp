@@ -20,8 +20,9 @@ public:
   level_set(std::function<double(vec3)> value, std::function<vec3(vec3)> gradient, double length)
       : value_(std::move(value)), gradient_(std::move(gradient)), length_(length) {}
 
-  double value(vec3 p) const { return value_(p); }
+  double value(vec3 p) const { return value_(p); } ///< of the function
 
+  /// The function's gradient; by central differences where it is not given.
   vec3 gradient(vec3 p) const {
     if (gradient_)
       return gradient_(p);

@@ -14,16 +14,17 @@ namespace dovetail::implicit {
 
 /// Signed distance from a sphere.
 struct sphere {
-  vec3 center = {};
-  double radius = 1;
-  double operator()(vec3 p) const { return distance(p, center) - radius; }
+  vec3 center = {};                                                        ///< the middle
+  double radius = 1;                                                       ///< of the sphere
+  double operator()(vec3 p) const { return distance(p, center) - radius; } ///< the distance, negative inside
 };
 
 /// Signed distance from a torus around the z axis through `center`.
 struct torus {
   vec3 center = {};
-  double large_radius = 1;
-  double small_radius = 0.3;
+  double large_radius = 1;   ///< from the axis to the middle of the tube
+  double small_radius = 0.3; ///< of the tube
+  /// The distance, negative inside.
   double operator()(vec3 p) const {
     const vec3 q = p - center;
     return std::hypot(std::hypot(q.x, q.y) - large_radius, q.z) - small_radius;
@@ -32,9 +33,10 @@ struct torus {
 
 /// Signed distance from a box whose edges and corners are rounded.
 struct rounded_box {
-  vec3 center = {};
-  vec3 half_widths{1, 1, 1};
-  double rounding = 0.1; ///< at most the smallest half width
+  vec3 center = {};          ///< the middle
+  vec3 half_widths{1, 1, 1}; ///< half the width along each axis
+  double rounding = 0.1;     ///< at most the smallest half width
+  /// The distance, negative inside.
   double operator()(vec3 p) const {
     vec3 outside;
     double nearest_plane = -1e300;
@@ -49,8 +51,9 @@ struct rounded_box {
 
 /// A sheet around Schoen's gyroid, of about the given thickness.
 struct gyroid {
-  double period = 1;
-  double thickness = 0.2;
+  double period = 1;      ///< after which it repeats itself
+  double thickness = 0.2; ///< of the sheet
+  /// About the distance, negative inside the sheet.
   double operator()(vec3 p) const {
     const double k = 2 * 3.14159265358979323846 / period;
     const double g = std::sin(k * p.x) * std::cos(k * p.y) + std::sin(k * p.y) * std::cos(k * p.z) +
@@ -63,7 +66,8 @@ struct gyroid {
 
 /// Balls that flow together: sum of (radius / distance)^2 above 1. J. F. Blinn's blobs, with another law.
 struct metaballs {
-  std::vector<sphere> balls;
+  std::vector<sphere> balls; ///< which flow together
+  /// Negative inside.
   double operator()(vec3 p) const {
     double sum = 0;
     double largest = 1e-300;

@@ -34,8 +34,9 @@ public:
           std::max(1, static_cast<int>(std::ceil(extent[k] / width_ - 1e-9)));
   }
 
-  double cell_width() const { return width_; }
+  double cell_width() const { return width_; } ///< of a cell of the grid
 
+  /// The closed triangulation.
   triangle_soup run() {
     evaluate();
     for (int k = 0; k < cells_[2]; ++k)

@@ -20,14 +20,14 @@ namespace dovetail::occt {
 
 /// Everything an `occt_model` holds.
 struct brep {
-  TopoDS_Shape shape;
-  geometry_topology topology;
-  std::vector<GeomAdaptor_Curve> curves;          ///< empty for degenerate ones
-  std::vector<face_surface> surfaces;             ///< per face
-  std::vector<std::vector<coedge_curve>> coedges; ///< per face, as `topology.faces[f].coedges`
-  std::vector<TopoDS_Edge> edges;                 ///< per curve
-  std::vector<TopoDS_Face> faces;                 ///< per face, oriented FORWARD
-  std::vector<TopoDS_Solid> solids;
+  TopoDS_Shape shape;                                      ///< as read and healed
+  geometry_topology topology;                              ///< entities and how they bound each other
+  std::vector<GeomAdaptor_Curve> curves;                   ///< empty for degenerate ones
+  std::vector<face_surface> surfaces;                      ///< per face
+  std::vector<std::vector<coedge_curve>> coedges;          ///< per face, as `topology.faces[f].coedges`
+  std::vector<TopoDS_Edge> edges;                          ///< per curve
+  std::vector<TopoDS_Face> faces;                          ///< per face, oriented FORWARD
+  std::vector<TopoDS_Solid> solids;                        ///< by their number in the topology
   std::vector<std::pair<TopoDS_Edge, local_id>> collapsed; ///< edges that became a vertex, and that vertex
   std::vector<local_id> crossing;    ///< faces whose boundary crosses itself in the parameter plane
   std::vector<std::string> faults;   ///< what keeps the shape from being meshed, one sentence per entity

@@ -33,7 +33,8 @@ public:
       in_space_.Load(in_space);
   }
 
-  bool reversed() const { return reversed_; }
+  bool reversed() const { return reversed_; } ///< whether the loop runs against the edge
+  /// The parameters of the edge's ends.
   const std::array<double, 2>& edge_range() const { return edge_range_; }
   void set_projected(bool on) { projected_ = on; }
   /// A copy with caches of its own.
@@ -45,6 +46,7 @@ public:
     return copy;
   }
 
+  /// The parameters on the face at parameter `t` of the edge.
   vec2 at(double t, const face_surface& surface) const {
     const double s = (t - edge_range_[0]) / (edge_range_[1] - edge_range_[0]);
     const bool same_range = range_ == edge_range_;
@@ -54,6 +56,7 @@ public:
       uv = surface.project(to_vec3(in_space_.Value(t)), uv);
     return uv + (fading(s) * end_shift_[0] + fading(1 - s) * end_shift_[1]);
   }
+  /// Where the loop enters it; it leaves it at `end`.
   vec2 start(const face_surface& surface) const { return at(edge_range_[reversed_ ? 1 : 0], surface); }
   vec2 end(const face_surface& surface) const { return at(edge_range_[reversed_ ? 0 : 1], surface); }
 
@@ -68,9 +71,10 @@ public:
     return worst;
   }
 
+  /// Adds whole periods of the surface to all its parameters.
   void shift_by_periods(vec2 periods) { periods_ = periods_ + periods; }
-  void shift_start(vec2 by) { shift_end_of(reversed_ ? 1 : 0, by); }
-  void shift_end(vec2 by) { shift_end_of(reversed_ ? 0 : 1, by); }
+  void shift_start(vec2 by) { shift_end_of(reversed_ ? 1 : 0, by); } ///< moves the parameters near its start
+  void shift_end(vec2 by) { shift_end_of(reversed_ ? 0 : 1, by); }   ///< moves the parameters near its end
 
 private:
   /// 1 at s = 0, 0 from a tenth of the range on.

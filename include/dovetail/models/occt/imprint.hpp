@@ -28,6 +28,7 @@ inline std::vector<TopoDS_Shape> bodies_of(const brep& data) {
   return bodies;
 }
 
+/// A body of the model, for messages.
 inline std::string body_text(const brep& data, std::size_t b) {
   const bool solid = b < data.solids.size();
   const auto& faces = data.topology.faces;

@@ -20,11 +20,13 @@ namespace dovetail::occt {
 
 /// A coedge with the edge it belongs to (as oriented in the FORWARD face).
 struct loop_edge {
-  TopoDS_Edge edge;
-  coedge_curve curve;
+  TopoDS_Edge edge;   ///< as oriented in the FORWARD face
+  coedge_curve curve; ///< its parameters on the face
 };
 
+/// The boundary of a face.
 struct face_loops {
+  /// The loops, each in the order that keeps the domain on the left.
   std::vector<std::vector<loop_edge>> loops;
   std::vector<std::string> faults; ///< what keeps the face from being meshed; empty when nothing does
   std::string note = {};           ///< what was done beyond what every face needs

@@ -17,13 +17,14 @@ enum class length_unit {
   file        ///< the unit the file was written in
 };
 
-/// What of a shape is wanted: its solids, or all of its faces, whether they enclose solids or not.
+/// What of a shape is wanted: its `solids`, or all of its `faces`, whether they enclose solids or not.
 enum class wanted { solids, faces };
 
 } // namespace occt
 
+/// How a CAD file is read.
 struct occt_read_options {
-  occt::length_unit unit = occt::length_unit::millimetre;
+  occt::length_unit unit = occt::length_unit::millimetre; ///< of the model that is made
   /// For D = 2, `faces`: also open shells and single faces, such as a plane domain with holes and inner
   /// edges.
   occt::wanted entities = occt::wanted::solids;

@@ -31,6 +31,7 @@
 
 namespace dovetail::occt {
 
+/// What kind of file it is: `step`, `iges`, `brep` (as text), `binary_brep`, or `unknown`.
 enum class file_format { unknown, step, iges, brep, binary_brep };
 
 /// As much of a file as `format_of_content` should see: long comments may stand first.

@@ -24,6 +24,7 @@
 
 namespace dovetail::occt {
 
+/// In the cube of the shape's unit.
 inline double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);

@@ -33,12 +33,14 @@
 
 namespace dovetail::occt {
 
+/// A point of OCCT as a point of ours.
 inline vec3 to_vec3(const gp_XYZ& p) {
   return {p.X(), p.Y(), p.Z()};
 }
 inline vec3 to_vec3(const gp_Pnt& p) {
   return to_vec3(p.XYZ());
 }
+/// A point of ours as a point of OCCT.
 inline gp_Pnt to_pnt(vec3 p) {
   return {p.x, p.y, p.z};
 }
@@ -103,6 +105,7 @@ struct attributes {
 /// Attributes by shape, whatever its place in an assembly or orientation: all instances of a part share them.
 class attribute_map {
 public:
+  /// The attributes of a shape, or null.
   const attributes* find(const TopoDS_Shape& shape) const { return map_.Seek(key(shape)); }
   attributes& operator[](const TopoDS_Shape& shape) {
     const TopoDS_Shape k = key(shape);
@@ -128,8 +131,8 @@ private:
 
 /// A shape with attributes; `source` is the file or model name used in messages.
 struct attributed_shape {
-  TopoDS_Shape shape;
-  attribute_map names;
+  TopoDS_Shape shape;  ///< of any kind
+  attribute_map names; ///< what its file says of solids and faces
   std::string source = "shape";
   std::string file_unit; ///< length unit the file was written in, as it calls it; empty when it does not say
 };

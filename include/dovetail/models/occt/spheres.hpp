@@ -97,6 +97,7 @@ inline std::optional<gp_Ax3> turned_position(const gp_Ax3& given, const std::vec
   return turned;
 }
 
+/// In the square of the shape's unit.
 inline double area_of(const TopoDS_Face& face) {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);

@@ -50,9 +50,11 @@ public:
     const surface_frame middle = frame({0.5 * (box_[0][0] + box_[0][1]), 0.5 * (box_[1][0] + box_[1][1])});
     typical_ = {norm_squared(middle.du), norm_squared(middle.dv)};
   }
+  /// The parameter rectangle of the face: for u and v the smallest and the largest.
   const std::array<std::array<double, 2>, 2>& box() const { return box_; }
+  /// The period of the surface in u and v; 0 where it has none.
   const std::array<double, 2>& period() const { return period_; }
-  const GeomAdaptor_Surface& adaptor() const { return adaptor_; }
+  const GeomAdaptor_Surface& adaptor() const { return adaptor_; } ///< for what else OCCT says of it
   /// A copy with a cache of its own.
   face_surface independent_copy() const {
     face_surface copy = *this;
@@ -60,8 +62,9 @@ public:
     return copy;
   }
 
-  vec3 point(vec2 uv) const { return to_vec3(adaptor_.Value(uv.x, uv.y)); }
+  vec3 point(vec2 uv) const { return to_vec3(adaptor_.Value(uv.x, uv.y)); } ///< of the surface
 
+  /// The point and its first derivatives.
   surface_frame frame(vec2 uv) const {
     gp_Pnt p;
     gp_Vec du, dv;

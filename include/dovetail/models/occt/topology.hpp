@@ -16,6 +16,7 @@
 
 namespace dovetail::occt {
 
+/// A face's number and name, for messages.
 inline std::string face_text(const brep& data, local_id f) {
   const auto& name = data.topology.faces[static_cast<std::size_t>(f)].name;
   return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
@@ -29,6 +30,7 @@ public:
     result_.shape = shape;
   }
 
+  /// The whole model.
   brep build() {
     const TopTools_IndexedMapOfShape solids = sub_shapes(result_.shape, TopAbs_SOLID);
     for (int s = 1; s <= solids.Extent(); ++s)

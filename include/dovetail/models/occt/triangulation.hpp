@@ -9,6 +9,7 @@
 
 namespace dovetail {
 
+/// How fine OCCT's triangles are.
 struct triangulation_parameters {
   double deflection = 0; ///< largest distance to the surface, model units; 0 for a thousandth of the diagonal
   double angle = 0.35;   ///< largest turn of the normal along an edge, radians

@@ -87,6 +87,7 @@ private:
   std::string old_;
 };
 
+/// The name of a label; empty where it is a mere stand-in for one.
 inline std::string label_name(const TDF_Label& label) {
   Handle(TDataStd_Name) attribute;
   if (!label.FindAttribute(TDataStd_Name::GetID(), attribute))
@@ -101,6 +102,7 @@ inline std::string label_name(const TDF_Label& label) {
   return name;
 }
 
+/// The first layer of a label; empty where it has none.
 inline std::string label_layer(const TDF_Label& label, const Handle(XCAFDoc_LayerTool) & tool) {
   Handle(TColStd_HSequenceOfExtendedString) layers;
   if (!tool->GetLayers(label, layers) || layers.IsNull() || layers->IsEmpty())
@@ -108,6 +110,7 @@ inline std::string label_layer(const TDF_Label& label, const Handle(XCAFDoc_Laye
   return TCollection_AsciiString(layers->First()).ToCString();
 }
 
+/// The colour of a label as text; empty where it has none.
 inline std::string label_color(const TDF_Label& label, const Handle(XCAFDoc_ColorTool) & tool) {
   Quantity_Color color;
   if (!tool->GetColor(label, XCAFDoc_ColorSurf, color) && !tool->GetColor(label, XCAFDoc_ColorGen, color))
@@ -176,6 +179,7 @@ inline TopoDS_Shape document_shape(const Handle(TDocStd_Document) & document) {
   return all;
 }
 
+/// An empty document.
 inline Handle(TDocStd_Document) new_document() {
   Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
   XCAFDoc_DocumentTool::Set(document->Main());

@@ -20,16 +20,16 @@ namespace dovetail {
 
 /// A polygon (closed: the last point is joined to the first, and not repeated) or an open line.
 struct plane_path {
-  std::vector<vec2> points;
-  std::string name = {};
+  std::vector<vec2> points; ///< in order
+  std::string name = {};    ///< of the curves that it becomes; may be empty
 };
 
 /// Polygons bound the domain: what lies inside an odd number of them is meshed, so a polygon in another one
 /// is a hole, and one in that hole an island. Lines lie inside the domain; the mesh has edges along them.
 /// Paths may touch in common points only.
 struct plane_drawing {
-  std::vector<plane_path> polygons;
-  std::vector<plane_path> lines;
+  std::vector<plane_path> polygons; ///< closed
+  std::vector<plane_path> lines;    ///< open
 };
 
 namespace detail {

@@ -18,7 +18,8 @@ public:
       until_.push_back(until_.back() + norm(points_[i] - points_[i - 1]));
   }
 
-  double length() const { return until_.back(); }
+  double length() const { return until_.back(); } ///< of all its parts
+  /// The point at length `t` from the start.
   vec2 at(double t) const {
     const std::size_t i = part(t);
     if (t <= until_[i])
@@ -66,7 +67,7 @@ private:
 
 /// The curves of a drawing: those of its polygons in order, then those of its lines.
 struct plane_polylines {
-  std::vector<polyline> curves;
+  std::vector<polyline> curves;               ///< polygons first
   std::vector<std::array<local_id, 2>> ends;  ///< vertices of each curve
   std::vector<vec2> vertices;                 ///< where curves end
   std::vector<std::vector<local_id>> of_path; ///< curves of each path, polygons first, in its order

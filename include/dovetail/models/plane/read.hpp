@@ -39,7 +39,7 @@ inline void add_svg_paths(const xml_element& element, double chord_error, plane_
 
 } // namespace detail
 
-/// The <path> elements of an SVG file. A path with fill="none" is a line where it is open; all other subpaths
+/// The `path` elements of an SVG file. A path with fill="none" is a line where it is open; all other subpaths
 /// must be closed. Other shapes and transformations are refused rather than left out. Throws `input_error`
 /// naming the file.
 inline plane_drawing read_svg(const std::filesystem::path& file, double chord_error = 0) {

@@ -29,7 +29,7 @@ namespace dovetail::baselines {
 
 /// Triangles that span loops, seen from above counter-clockwise.
 struct spanning_surface {
-  std::vector<vec3> inner_points;
+  std::vector<vec3> inner_points;    ///< by number, after those of the loops
   std::vector<simplex<2>> triangles; ///< of the surface's points, the inner ones behind these
 };
 

@@ -19,8 +19,8 @@ namespace dovetail::baselines {
 
 /// A plane by its normal, of length 1, and its distance from the origin along it.
 struct cut_plane {
-  vec3 normal;
-  double offset = 0;
+  vec3 normal;       ///< of length 1
+  double offset = 0; ///< from the origin, along the normal
 };
 
 /// A closed surface in two parts. `loops` are the edges between them, each with what is below on its right:
@@ -32,6 +32,7 @@ struct surface_cut {
   bool simple = false;                         ///< no loop comes to a point twice, nor two to one point
 };
 
+/// The mean of a triangle's corners.
 inline vec3 centre_of_triangle(const simplicial_mesh<2>& mesh, std::size_t t) {
   vec3 sum{};
   for (const local_id v : mesh.elements[t])
