@@ -51,6 +51,7 @@ struct recovery_attempt {
   int level_steps = 5;           ///< changes for one target after which as much is in its way as before
   bool last_first = false;       ///< begins with the last edges
   std::size_t work = 20'000'000; ///< that is allowed, and some more for each triangle: about half a second
+  bool thorough = false;         ///< tries more to take each point off the boundary
 };
 
 /// Makes edges and triangles parts of the mesh one after the other.
@@ -81,7 +82,7 @@ public:
         break;
       divide_all(triangles, edges);
     }
-    if (splits_.undo_all([&](local_id v) { return removal_.remove_edges(v); }) > 0)
+    if (splits_.undo_all([&](local_id v) { return removal_.remove_edges(v); }, attempt_.thorough) > 0)
       throw mesher_error("the boundary could not be recovered: " + splits_.place_of_last() +
                          " stays divided");
     remove_points();
@@ -358,14 +359,14 @@ inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const 
   if (lacking.empty())
     return {};
   using attempt = detail::recovery_attempt;
-  // About one piece in a hundred of the hardest kinds (tests/mesher/random_pieces.hpp) needs a second one, and
-  // of those that need one about every third needs the next.
+  // About one piece in a hundred of the hardest kinds (tests/mesher/random_pieces.hpp) needs a second one,
+  // and of those that need one about every third needs the next.
   constexpr std::array attempts{attempt{},
                                 attempt{40, true, 10'000'000},
                                 attempt{15, false, 10'000'000},
-                                attempt{5, true, 20'000'000},
-                                attempt{40, false, 20'000'000},
-                                attempt{15, true, 20'000'000}};
+                                attempt{5, true, 40'000'000, true},
+                                attempt{40, false, 40'000'000, true},
+                                attempt{15, true, 40'000'000, true}};
   std::size_t operations = 0;
   for (std::size_t k = 0;; ++k) {
     detail::local_changes changes(mesh);
