@@ -261,6 +261,27 @@ inline surface walled_cells(dice& d) {
   return s;
 }
 
+/// A ball or a box with walls that end inside of it, each a triangle in a box of its own, so that none
+/// crosses another; some come as near as a thousandth of their length.
+inline surface ending_walls(dice& d) {
+  const int n = d.whole(1, 3), kept = d.whole(1, 10);
+  const double fill = 1 - d.power_between(-3, -0.3);
+  auto s = d.whole(0, 1) == 0 ? shapes::sphere(1, 2) : shapes::cube(4, 2, {-1, -1, -1});
+  const double step = 1.2 / n;
+  for (int box = 0; box < n * n * n; ++box) {
+    if (d.whole(1, 10) > kept)
+      continue;
+    const vec3 middle =
+        step * vec3{box % n + 0.5, box / n % n + 0.5, box / n / n + 0.5} - 0.6 * vec3{1, 1, 1};
+    const auto v = static_cast<local_id>(s.points.size());
+    for (int k = 0; k < 3; ++k)
+      s.points.push_back(middle + 0.5 * step * fill * d.vector());
+    s.elements.push_back({v, v + 1, v + 2});
+    s.elements.push_back({v, v + 2, v + 1});
+  }
+  return s;
+}
+
 struct family {
   std::string name;
   surface (*make)(dice&);
@@ -277,7 +298,8 @@ inline const std::vector<family>& families() {
                                        {"squeezed tori", squeezed_torus},
                                        {"noisy spheres", noisy_sphere},
                                        {"touching cells", touching_cells},
-                                       {"walled cells", walled_cells}};
+                                       {"walled cells", walled_cells},
+                                       {"ending walls", ending_walls}};
   return all;
 }
 
