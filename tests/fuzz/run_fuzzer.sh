@@ -97,6 +97,7 @@ fill)
   { bytes 00 00; bytes ff 00 01 02; } >wall
   { bytes 00 00; bytes fc 03 80 80 90; } >bump
   { bytes 00 41; bytes fe 02; } >turned
+  bytes 00 01 00 32 ff 60 02 >spike # far longer than wide: once took minutes
   ;;
 *)
   echo "there is no reader of $kind" >&2

@@ -365,8 +365,8 @@ inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const 
                                 attempt{40, true, 10'000'000},
                                 attempt{15, false, 10'000'000},
                                 attempt{5, true, 40'000'000, true},
-                                attempt{40, false, 40'000'000, true},
-                                attempt{15, true, 40'000'000, true}};
+                                attempt{40, false, 20'000'000, true},
+                                attempt{15, true, 20'000'000, true}};
   std::size_t operations = 0;
   for (std::size_t k = 0;; ++k) {
     detail::local_changes changes(mesh);
