@@ -1,7 +1,7 @@
 /// Pieces at random that `mesher::native` does not fill, by families, and what it took to fill the others.
 /// Usage: recovery [pieces per family (default 500)] [first seed (default 0)] [one family (default -1: all)]
-///                 [file for a line per piece: family, seed, what became of it, a hash of its mesh, operations]
-/// 834 per family are ten thousand in all.
+///                 [file for a line per piece: family, seed, what became of it, hash of its mesh, operations]
+/// 770 per family are ten thousand in all.
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "mesher/random_pieces.hpp"

@@ -350,8 +350,8 @@ private:
 /// element. Points that had to be added are behind the others and inside of elements, or in none at all when
 /// they could be removed again. `triangles` may be listed in both directions. Throws `mesher_error`, and the
 /// tetrahedrization is as it was, naming the places when some could not be recovered: those that pass through
-/// others, or what was missing when the work was spent that is allowed, which is about a second's and some
-/// more for each triangle.
+/// others, or what was missing when the work was spent that is allowed, which is a few seconds' in all
+/// attempts and some more for each triangle.
 ///
 /// Linear in the elements, and where something was missing about 20 us for each edge or triangle.
 inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles) {
