@@ -1,5 +1,5 @@
 #!/bin/bash
-# Fuzzes one of the readers, from small files that are valid, or the native mesher. Prints what it found, and fails when anything was.
+# Fuzzes one of the readers, from small files that are valid, the native mesher or `fill`. Prints what it found, and fails when anything was.
 #   run_fuzzer.sh <fuzzer> <reader> <seconds> [folder for what is found]
 set -euo pipefail
 fuzzer=$1 kind=$2 seconds=$3
@@ -90,6 +90,15 @@ mesher)
   for shape in 00 01 02 03 80 81 82 83; do bytes "$shape" 01 10 20 30 >"$shape"; done
   { bytes 00; bytes fe 00 01 02; } >wall
   ;;
+fill)
+  for shape in 00 01 02 03 40 50 60 64 70 74; do bytes 00 "$shape" 01 10 20 30 >"$shape"; done
+  for shape in 00 02 60; do bytes 10 "$shape" >"sized_$shape"; done
+  { bytes 01 10 20 30 05; bytes 60; } >mark
+  { bytes 00 00; bytes ff 00 01 02; } >wall
+  { bytes 00 00; bytes fc 03 80 80 90; } >bump
+  { bytes 00 41; bytes fe 02; } >turned
+  bytes 00 01 00 32 ff 60 02 >spike # far longer than wide: once took minutes
+  ;;
 *)
   echo "there is no reader of $kind" >&2
   exit 2
@@ -98,7 +107,7 @@ esac
 
 reader=--reader=$kind
 timeout=5
-if [[ $kind == mesher ]]; then
+if [[ $kind == mesher || $kind == fill ]]; then
   reader=""
   timeout=60 # what is hopeless takes a second, or ten times as long with sanitizers
 fi

@@ -179,6 +179,18 @@ TEST_CASE("all pieces at random are filled, thin, twisted, rough, touching thems
   CHECK(removed > 2 * left);
 }
 
+TEST_CASE("pieces that the first attempts fail at are filled by later ones") {
+  // A prism and two lanterns: a point stays on the boundary at first, or the work is spent.
+  for (const auto& [family, seed] : {std::pair{0, 98}, std::pair{5, 56}, std::pair{5, 631}}) {
+    CAPTURE(family);
+    CAPTURE(seed);
+    const auto piece = random_pieces::make(static_cast<std::size_t>(family), static_cast<unsigned>(seed));
+    const auto result = mesher::native{}({piece.boundary, 0}, [&](vec3) { return piece.size; });
+    CHECK(random_pieces::fault_of(piece.boundary, result.mesh) == "");
+    CHECK(result.summary.get("recovery_operations") < 170'000'000);
+  }
+}
+
 TEST_CASE("boundaries that pass through themselves are refused, and soon") {
   for (unsigned seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);

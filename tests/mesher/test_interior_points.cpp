@@ -335,6 +335,17 @@ TEST_CASE("A needle far too long for its sizes is refused, and sizes far too sma
   CHECK_THROWS_WITH_AS(interior_points(box, uniform(0.5)), doctest::Contains("a millionth"), mesher_error);
 }
 
+TEST_CASE("A body with a spike much longer than all of it, in sizes that grow along it, asks for little") {
+  auto s = shapes::sphere(1);
+  s.points.front() = {0.8, 1e4, 0};
+  std::size_t asked = 0;
+  interior_points(s, [&](vec3 p) {
+    ++asked;
+    return 0.5 + 0.25 * std::max(p.y, 0.0);
+  });
+  CHECK(asked < 10'000);
+}
+
 TEST_CASE("Triangles much larger and much smaller than the size") {
   const auto coarse = interior_points(shapes::cube(1), uniform(0.1));
   CHECK(coarse.size() > 100);

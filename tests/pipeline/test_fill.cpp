@@ -125,6 +125,16 @@ struct failing {
 
 } // namespace
 
+TEST_CASE("a needle that a rough prediction misses is refused before it is meshed") {
+  auto s = shapes::cube(2);
+  s.points.front() = {-1e8, 0, 0};
+  fill_options options;
+  options.largest_prediction = 5000;
+  CHECK_THROWS_WITH_AS(fill(
+                           s, [](vec3) { return 0.2; }, options),
+                       doctest::Contains("the sizes predict"), sizing_error);
+}
+
 TEST_CASE("a cube is filled in sizes of its own, the same by any executor") {
   const surface cube = shapes::cube(6);
   const auto made = fill(cube);

@@ -46,6 +46,7 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
   result.summary.set("recovery_points",
                      static_cast<double>(recovered.added_points - recovered.removed_points));
   result.summary.set("recovery_points_removed", static_cast<double>(recovered.removed_points));
+  result.summary.set("recovery_operations", static_cast<double>(recovered.operations));
   return result;
 }
 

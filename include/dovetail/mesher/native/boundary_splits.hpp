@@ -61,9 +61,11 @@ public:
   }
 
   /// Takes all points off the boundary, the last ones first, as far as possible; those that stay are counted.
-  /// `make_room(s)` shall change something around a point that stays, or return false.
+  /// `make_room(s)` shall change something around a point that stays, or return false. `thorough`: more is
+  /// tried for each.
   template <class MakeRoom>
-  std::size_t undo_all(const MakeRoom& make_room) {
+  std::size_t undo_all(const MakeRoom& make_room, bool thorough) {
+    is_thorough_ = thorough;
     for (bool any = true; any && !splits_.empty();) {
       any = false;
       for (std::size_t k = splits_.size(); k-- > 0 && !changes_.is_spent();)
@@ -249,7 +251,7 @@ private:
     std::vector<local_id> old;
     fresh_.clear();
     for (std::size_t k = 0; k < elements.size(); ++k)
-      if (!growth_.refill(elements[k], split.point, closed_by[k], old, fresh_)) {
+      if (!growth_.refill(elements[k], split.point, closed_by[k], old, fresh_, is_thorough_)) {
         changes_.drop_points(points);
         return false;
       }
@@ -281,6 +283,7 @@ private:
   local_changes& changes_;
   kept_entities& kept_;
   region_growth growth_;
+  bool is_thorough_ = false;
   std::vector<split_record> splits_;
   std::vector<place> places_;
   std::vector<local_id> star_;

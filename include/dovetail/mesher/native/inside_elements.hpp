@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/triangulation/triangulation.hpp"
@@ -52,11 +53,22 @@ private:
     if (known == where)
       return;
     if (known != place::unknown)
-      throw mesher_error(
-          "an element is inside and outside of the boundary at once; check that it is closed and "
-          "that its triangles are oriented outwards");
+      throw mesher_error("the element at " + place_text(middle_of(e)) +
+                         " is inside and outside of the boundary at once; check that it is closed and that "
+                         "its triangles are oriented outwards");
     known = where;
     front_.push_back(e);
+  }
+  /// Of a ghost, that of its side.
+  vec3 middle_of(local_id e) const {
+    vec3 sum{};
+    double count = 0;
+    for (const local_id v : mesh_[e].vertices)
+      if (v >= 0) {
+        sum += mesh_.point(v);
+        ++count;
+      }
+    return sum / count;
   }
   /// Notes which sides of an element are triangles of the boundary; the number of them.
   std::size_t raise_walls(local_id e) {

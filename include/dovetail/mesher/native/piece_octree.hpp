@@ -105,6 +105,7 @@ private:
     std::vector<local_id> triangles;
   };
   static constexpr double widest_leaf = 3;          ///< in sizes; sizes within a leaf are interpolated
+  static constexpr double far_from_box = 4;         ///< in sizes
   static constexpr double nodes_per_point = 0.0625; ///< more are only made where a piece is thin
 
   void collect_triangles(const simplicial_mesh<2>& boundary, const any_sizing& size) {
@@ -225,7 +226,13 @@ private:
     const box3 box = tree_.box(node);
     return box.upper.x - box.lower.x;
   }
-  bool is_too_wide(std::size_t node) const { return width_of(node) > widest_leaf * cells_[node].least; }
+  /// Leaves far from the piece's box may be of any width: around a needle that is far thinner than long those
+  /// are nearly all that its triangles reach.
+  bool is_too_wide(std::size_t node) const {
+    const double least = cells_[node].least;
+    return width_of(node) > widest_leaf * least &&
+           inflated(inside_.bounds(), far_from_box * least).overlaps(tree_.box(node));
+  }
   /// A lower estimate of the points that a node will hold.
   double points_in(std::size_t node) const {
     const double sizes_across = width_of(node) / greatest_size(node);

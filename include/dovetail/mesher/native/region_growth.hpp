@@ -47,9 +47,12 @@ public:
 
   /// Finds elements in place of those given, all around the vertex `left`, such that they have no vertex
   /// there but have the sides `closing`, oriented outwards. Adds them to `fresh` and those that go to `old`,
-  /// which may hold some that go for another reason. False when none were found.
+  /// which may hold some that go for another reason. False when none were found. `thorough`: where all other
+  /// regions fail, one is tried that takes in one element at a time, always beyond the side that is worst.
+  /// (Near a plane face many sides are hardly seen, and with all that is beyond them at once a region leaves
+  /// the shape that a point sees.)
   bool refill(std::span<const local_id> elements, local_id left, std::span<const simplex<2>> closing,
-              std::vector<local_id>& old, std::vector<simplex<3>>& fresh) {
+              std::vector<local_id>& old, std::vector<simplex<3>>& fresh, bool thorough) {
     star_center best;
     std::vector<local_id> best_region;
     std::vector<simplex<2>> best_rim;
@@ -64,6 +67,14 @@ public:
         if (!grow(from_left ? changes_.point(left) : centers_.clear_point(rim_).point, closing))
           break;
       }
+    }
+    if (best.clearance == 0 && thorough) {
+      begin(elements, left, closing, old);
+      do {
+        best = centers_.best(rim_);
+      } while (best.clearance == 0 && grow_by_one(centers_.clear_point(rim_).point, closing));
+      best_region = region_;
+      best_rim = rim_;
     }
     if (best.clearance == 0)
       return false;
@@ -121,20 +132,39 @@ private:
     for (const local_id e : candidates) {
       if (region_.size() == most_elements || changes_.is_spent())
         return any;
-      if (changes_.mesh().is_ghost(e) || is_in_region(e) ||
-          std::find(gone_.begin(), gone_.end(), e) != gone_.end() ||
-          (left_ != no_id && changes_.has_vertex(e, left_)))
-        continue;
-      region_.push_back(e);
-      find_rim(closing);
-      if (holds_kept()) {
-        region_.pop_back();
-        find_rim(closing);
-      } else {
-        any = true;
-      }
+      any = take_in(e, closing) || any;
     }
     return any;
+  }
+  /// Takes in one element, beyond the side that a point sees worst of those where that is possible. False
+  /// when it sees all sides or there is none.
+  bool grow_by_one(vec3 p, std::span<const simplex<2>> closing) {
+    std::vector<std::pair<double, local_id>> candidates;
+    for (std::size_t k = 0; k < beyond_.size(); ++k) {
+      const auto& [a, b, c] = rim_[k];
+      if ((a | b | c) < 0)
+        return false;
+      if (!kept_.has(a, b, c))
+        candidates.push_back({centers_.height(rim_[k], p), beyond_[k]});
+    }
+    sort_all(candidates);
+    return region_.size() < most_elements && !changes_.is_spent() &&
+           std::any_of(candidates.begin(), candidates.end(),
+                       [&](const auto& candidate) { return take_in(candidate.second, closing); });
+  }
+  /// Takes in an element unless something is against it.
+  bool take_in(local_id e, std::span<const simplex<2>> closing) {
+    if (changes_.mesh().is_ghost(e) || is_in_region(e) ||
+        std::find(gone_.begin(), gone_.end(), e) != gone_.end() ||
+        (left_ != no_id && changes_.has_vertex(e, left_)))
+      return false;
+    region_.push_back(e);
+    find_rim(closing);
+    if (!holds_kept())
+      return true;
+    region_.pop_back();
+    find_rim(closing);
+    return false;
   }
 
   /// Whether the element that came last hides a kept triangle or edge, or a vertex, in the region.
