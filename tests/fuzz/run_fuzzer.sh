@@ -109,7 +109,7 @@ reader=--reader=$kind
 timeout=5
 if [[ $kind == mesher || $kind == fill ]]; then
   reader=""
-  timeout=60 # what is hopeless takes a second, or ten times as long with sanitizers
+  timeout=120 # what is hopeless takes a few seconds, or ten times as long with sanitizers
 fi
 
 # Small inputs, a second each and half a gigabyte at most: what takes more has found a way to hang or to fill the memory.

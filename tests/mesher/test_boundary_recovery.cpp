@@ -187,7 +187,7 @@ TEST_CASE("pieces that the first attempts fail at are filled by later ones") {
     const auto piece = random_pieces::make(static_cast<std::size_t>(family), static_cast<unsigned>(seed));
     const auto result = mesher::native{}({piece.boundary, 0}, [&](vec3) { return piece.size; });
     CHECK(random_pieces::fault_of(piece.boundary, result.mesh) == "");
-    CHECK(result.summary.get("recovery_operations") < 170'000'000);
+    CHECK(result.summary.get("recovery_operations") < 80'000'000);
   }
 }
 
