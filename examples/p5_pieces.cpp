@@ -5,6 +5,7 @@
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/parallel/threads.hpp"
+#include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "paper_model.hpp"

@@ -49,8 +49,8 @@ void show(int argc, char** argv) {
   // part redistribute
   const auto given = redistribution_by::elements{.super_elements = 500}(result.mesh, ranks);
   const report& account = given.summary;
-  std::printf("  %.0f super-elements to %d ranks; of %.0f interface sides %.0f still are, of %.0f in all\n",
-              account.get("super_elements"), ranks, account.get("seams_before"), account.get("seams_after"),
+  std::printf("  %.0f super-elements to %d ranks; interface sides: %.0f before, %.0f now\n",
+              account.get("super_elements"), ranks, account.get("seams_before"),
               account.get("interface_sides"));
   // end
   std::vector<local_id> pieces;

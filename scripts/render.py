@@ -148,10 +148,14 @@ def save(panels, path, options):
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
+    values = vtk_to_numpy(image.GetPointData().GetScalars())  # a view, not a copy
+    values[:] = np.round(np.round(values / 255 * (2**options.bits - 1)) / (2**options.bits - 1) * 255)
     writer = vtkPNGWriter()
     writer.SetCompressionLevel(9)
     writer.SetFileName(path)
-    writer.SetInputConnection(grab.GetOutputPort())
+    writer.SetInputData(image)
     writer.Write()
     print(path)
 
@@ -322,6 +326,7 @@ def main():
     parser.add_argument("--view", default="", help="direction to the eye: x,y,z (0.9,-1.4,0.8; of a plane mesh 0,0,1)")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--size", default="1400x1000", help="pixels")
+    parser.add_argument("--bits", type=int, default=8, help="of a colour's channel: fewer make a smaller file")
     parser.add_argument("--box", action="store_true", help="draw faces on the bounding box too")
     options = parser.parse_args()
     options.size = [int(x) for x in options.size.split("x")]
