@@ -6,6 +6,12 @@ decomposition, pulled apart) and worst.png (the elements with the smallest dihed
 without a display, run it as `xvfb-run -a scripts/render.py OUT`. Faces on the sides of the bounding box are left
 out of the surface when there is something inside (--box keeps them). Of a mesh of triangles it writes pieces.png: the
 triangles by subdomain, with the lines between the subdomains and the CAD curves.
+
+    render.py MESH.vtu ... --to PICTURE.png [--only pieces,cut,exploded] ...
+
+puts meshes beside each other in one picture, each by the array `region`, as `write_vtu` has it: the pieces of a mesh of
+triangles, with the lines between them, or elements behind a plane, or regions pulled apart (--only: one word per mesh).
+Elements that are regions of their own are grey.
 """
 
 import argparse
@@ -22,7 +28,8 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkOutlineSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
+from vtkmodules.vtkIOXML import (
+    vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader)
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
 
@@ -85,7 +92,7 @@ def surface_actor(points, triangles, colours, edges=True, opacity=1.0):
     return actor
 
 
-def line_actor(points, segments):
+def line_actor(points, segments, width=2.5):
     """Segments (indices into points; shape (n, 2)) as thick dark lines."""
     cells = vtkCellArray()
     cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 2 * len(segments) + 1, 2, dtype=np.int64), True),
@@ -100,7 +107,7 @@ def line_actor(points, segments):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(0.05, 0.05, 0.1)
-    actor.GetProperty().SetLineWidth(2.5)
+    actor.GetProperty().SetLineWidth(width)
     actor.GetProperty().SetLighting(False)
     return actor
 
@@ -117,30 +124,38 @@ def outline_actor(points):
     return actor
 
 
-def save(actors, path, options):
-    renderer = vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    for actor in actors:
-        renderer.AddActor(actor)
+def save(panels, path, options):
+    """Panels, each of actors and a direction to the eye, beside each other."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(4)
     window.SetSize(*options.size)
-    window.AddRenderer(renderer)
-    camera = renderer.GetActiveCamera()
-    camera.SetFocalPoint(0, 0, 0)
-    camera.SetPosition(*options.view)
-    camera.SetViewUp(0, 0, 1) if abs(options.view[0]) + abs(options.view[1]) > 1e-9 else camera.SetViewUp(0, 1, 0)
-    renderer.ResetCamera()
-    camera.Zoom(options.zoom)
-    renderer.ResetCameraClippingRange()
+    for place, (actors, view) in enumerate(panels):
+        renderer = vtkRenderer()
+        renderer.SetBackground(1, 1, 1)
+        renderer.SetViewport(place / len(panels), 0, (place + 1) / len(panels), 1)
+        for actor in actors:
+            renderer.AddActor(actor)
+        window.AddRenderer(renderer)
+        camera = renderer.GetActiveCamera()
+        camera.SetFocalPoint(0, 0, 0)
+        camera.SetPosition(*view)
+        camera.SetViewUp(0, 0, 1) if abs(view[0]) + abs(view[1]) > 1e-9 else camera.SetViewUp(0, 1, 0)
+        renderer.ResetCamera()
+        camera.Zoom(options.zoom)
+        renderer.ResetCameraClippingRange()
     window.Render()
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
+    values = vtk_to_numpy(image.GetPointData().GetScalars())  # a view, not a copy
+    values[:] = np.round(np.round(values / 255 * (2**options.bits - 1)) / (2**options.bits - 1) * 255)
     writer = vtkPNGWriter()
+    writer.SetCompressionLevel(9)
     writer.SetFileName(path)
-    writer.SetInputConnection(grab.GetOutputPort())
+    writer.SetInputData(image)
     writer.Write()
     print(path)
 
@@ -167,26 +182,35 @@ def picture_surface(surface, options):
         ([] if inside.all() else [outline_actor(points[triangles[inside]].reshape(-1, 3))])
 
 
-def picture_cut(volume, options):
-    """The elements whose centres are behind the plane, by their outer faces."""
-    points, elements = points_of(volume), cells_of(volume.GetCells(), 4)
-    ids = vtk_to_numpy(volume.GetPointData().GetGlobalIds())
+def behind_plane(points, elements, options, view):
+    """The elements whose centres are behind the plane."""
     axis = "xyz".index(options.axis)
     low, high = points[:, axis].min(), points[:, axis].max()
     centres = points[elements][:, :, axis].mean(axis=1)
     plane = low + options.at * (high - low)
-    kept = np.flatnonzero(centres > plane if options.view[axis] < 0 else centres < plane)
+    return np.flatnonzero(centres > plane if view[axis] < 0 else centres < plane)
+
+
+def outer_faces(elements, kept, keys_of):
+    """The faces that one of the kept elements has alone, and these elements; faces are told by their points' keys."""
     faces = np.concatenate([elements[kept][:, side] for side in SIDES])
     owners = np.tile(kept, 4)
-    keys = np.sort(ids[faces], axis=1)
+    keys = np.sort(keys_of[faces], axis=1)
     order = np.lexsort(keys.T[::-1])
     same = np.all(keys[order][1:] == keys[order][:-1], axis=1)
     single = np.ones(len(order), bool)
     single[1:] &= ~same
     single[:-1] &= ~same
-    outer = order[single]
-    colours = distinct_colours(cell_array(volume, "subdomain")[owners[outer]])
-    return [surface_actor(points, faces[outer], colours), outline_actor(points)]
+    return faces[order[single]], owners[order[single]]
+
+
+def picture_cut(volume, options):
+    """The elements whose centres are behind the plane, by their outer faces."""
+    points, elements = points_of(volume), cells_of(volume.GetCells(), 4)
+    ids = vtk_to_numpy(volume.GetPointData().GetGlobalIds())
+    faces, owners = outer_faces(elements, behind_plane(points, elements, options, options.view), ids)
+    colours = distinct_colours(cell_array(volume, "subdomain")[owners])
+    return [surface_actor(points, faces, colours), outline_actor(points)]
 
 
 def picture_exploded(surface, interfaces, options):
@@ -198,13 +222,18 @@ def picture_exploded(surface, interfaces, options):
             parts.append((points, triangles, cell_array(interfaces, side)))
     corners = np.concatenate([points[triangles] for points, triangles, _ in parts])
     owners = np.concatenate([owner for _, _, owner in parts])
+    return [exploded_actor(corners, owners, distinct_colours(owners), options)]
+
+
+def exploded_actor(corners, owners, colours, options):
+    """Triangles by their corners, shape (n, 3, 3), those of each owner moved away from the middle."""
     middle = (corners.min(axis=(0, 1)) + corners.max(axis=(0, 1))) / 2
     counts = np.bincount(owners)
     sums = np.stack([np.bincount(owners, corners.mean(axis=1)[:, k]) for k in range(3)], axis=1)
     centres = sums / np.maximum(counts, 1)[:, None]
     moved = corners + options.explode * (centres[owners] - middle)[:, None, :]
     triangles = np.arange(3 * len(corners)).reshape(-1, 3)
-    return [surface_actor(moved.reshape(-1, 3), triangles, distinct_colours(owners), edges=len(corners) < 400000)]
+    return surface_actor(moved.reshape(-1, 3), triangles, colours, edges=len(corners) < 400000)
 
 
 def picture_pieces(mesh, lines):
@@ -214,6 +243,44 @@ def picture_pieces(mesh, lines):
     if lines is not None:
         actors.append(line_actor(points_of(lines), cells_of(lines.GetLines(), 2)))
     return actors
+
+
+def colours_of_regions(regions):
+    """Grey where an element is a region of its own."""
+    colours = distinct_colours(regions)
+    colours[np.bincount(regions)[regions] == 1] = 225
+    return colours
+
+
+def lines_between(triangles, regions):
+    """Edges that no other triangle of the same region has."""
+    edges = np.sort(np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    keys = np.column_stack([edges, np.tile(regions, 3)])
+    found, counts = np.unique(keys, axis=0, return_counts=True)
+    return np.unique(found[counts == 1][:, :2], axis=0)
+
+
+def panel_of_file(path, kind, options):
+    """A mesh in one file by its regions: its actors and the direction to the eye."""
+    mesh = read(vtkXMLUnstructuredGridReader(), path)
+    points, regions = points_of(mesh), cell_array(mesh, "region")
+    solid = mesh.GetCellType(0) == 10
+    cells = cells_of(mesh.GetCells(), 4 if solid else 3)
+    view = [0, 0, 1] if np.ptp(points[:, 2]) == 0 else options.view
+    colours = colours_of_regions(regions)
+    if kind == "pieces" and not solid:
+        return [surface_actor(points, cells, colours), line_actor(points, lines_between(cells, regions), width=1.8)], view
+    if kind == "cut" and solid:
+        faces, owners = outer_faces(cells, behind_plane(points, cells, options, view), np.arange(len(points)))
+        return [surface_actor(points, faces, colours[owners])], view
+    if kind == "exploded":
+        if solid:
+            found = [outer_faces(cells, np.flatnonzero(regions == r), np.arange(len(points))) for r in np.unique(regions)]
+            cells = np.concatenate([faces for faces, _ in found])
+            owners = np.concatenate([owner for _, owner in found])
+            regions, colours = regions[owners], colours[owners]
+        return [exploded_actor(points[cells], regions, colours, options)], view
+    sys.exit(f"render: there is no picture {kind} of {path}")
 
 
 def smallest_dihedral(p):
@@ -249,8 +316,8 @@ def picture_worst(volume, surface, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("--to", help="folder of the pictures (default: OUT)")
+    parser.add_argument("given", nargs="+", metavar="OUT|MESH.vtu")
+    parser.add_argument("--to", help="folder of the pictures (default: OUT), or the picture of VTU files")
     parser.add_argument("--only", help="which pictures, separated by commas (default: all)")
     parser.add_argument("--axis", default="y", choices="xyz", help="normal of the cutting plane")
     parser.add_argument("--at", type=float, default=0.5, help="its place, as a fraction of the extent")
@@ -259,9 +326,24 @@ def main():
     parser.add_argument("--view", default="", help="direction to the eye: x,y,z (0.9,-1.4,0.8; of a plane mesh 0,0,1)")
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--size", default="1400x1000", help="pixels")
+    parser.add_argument("--bits", type=int, default=8, help="of a colour's channel: fewer make a smaller file")
     parser.add_argument("--box", action="store_true", help="draw faces on the bounding box too")
     options = parser.parse_args()
     options.size = [int(x) for x in options.size.split("x")]
+    if options.given[0].endswith(".vtu"):
+        options.view = [float(x) for x in (options.view or "0.9,-1.4,0.8").split(",")]
+        kinds = (options.only or ",".join(["exploded"] * len(options.given))).split(",")
+        if not options.to or len(kinds) != len(options.given):
+            sys.exit("render: VTU files need --to PICTURE.png, and --only one word for each")
+        panels = [panel_of_file(path, kind, options) for path, kind in zip(options.given, kinds)]
+        for actor in (actor for actors, _ in panels for actor in actors):
+            actor.GetProperty().SetAmbient(0.4)  # what is turned away from the eye keeps its colour
+            actor.GetProperty().SetDiffuse(0.6)
+        save(panels, options.to, options)
+        return
+    if len(options.given) > 1:
+        sys.exit("render: one output folder, or VTU files")
+    options.folder = options.given[0]
     target = options.to or options.folder
     os.makedirs(target, exist_ok=True)
     of_triangles = not os.path.exists(os.path.join(options.folder, "surface.vtp"))
@@ -291,7 +373,7 @@ def main():
     for name in wanted:
         if name not in pictures:
             sys.exit(f"render: there is no picture called {name}")
-        save(pictures[name](), os.path.join(target, name + ".png"), options)
+        save([(pictures[name](), options.view)], os.path.join(target, name + ".png"), options)
 
 
 if __name__ == "__main__":
