@@ -32,7 +32,7 @@ void suppress(const any_geometry& model, const background_result<3>& background,
                                      background.size, made, given);
     const std::vector<bool> planar(skeleton.fine.sides.size(), false); // all are searched
     const suppression_plan plan = plan_suppression(skeleton.fine, planar, given.run_tasks);
-    std::printf("  %zu subdomains: %zu of %zu triangles' pairs cross, %zu pairs of subdomains to merge\n",
+    std::printf("  %zu subdomains: %zu pairs of %zu triangles cross, %zu pairs of subdomains to merge\n",
                 members.size(), plan.crossings, skeleton.fine.sides.size(), plan.merges.size());
     if (plan.merges.empty())
       return;
@@ -61,10 +61,9 @@ void show(int argc, char** argv) {
   if (!made)
     throw intersection_error(rounds.too_many_merges());
   const auto& [skeleton, meshed] = *made;
-  std::printf(
-      "  %zu pieces, %lld elements, smallest dihedral angle %.0f degrees; %.0f crossings, %.0f merges\n",
-      meshed.pieces.size(), static_cast<long long>(meshed.quality.elements), meshed.quality.min_dihedral_deg,
-      rounds.intersection().get("crossings"), rounds.intersection().get("merges"));
+  std::printf("  %zu pieces, %lld elements; %.0f crossings, %.0f merges\n", meshed.pieces.size(),
+              static_cast<long long>(meshed.quality.elements), rounds.intersection().get("crossings"),
+              rounds.intersection().get("merges"));
 
   simplicial_mesh<D> whole{{skeleton.fine.points.begin(), skeleton.fine.points.end()}, {}, {}};
   std::vector<local_id> piece_of_element;
