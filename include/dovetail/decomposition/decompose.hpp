@@ -7,12 +7,13 @@
 ///     const auto simplified =
 ///         simplify_coupled({surface, {.fixed_sides = edges_on_cad_curves}},
 ///                          {volume, sides, {.element_weights = weights}}, simplifier::paper{},
-///                          {.subdomains = parts});
-///     const auto parts =
+///                          {.subdomains = 32});
+///     const auto pieces =
 ///         decompose<3>(volume, sides, simplified.volume.super_of_element, simplified.volume.graph,
-///                      volume.tags, partition::metis{}, parts);
+///                      volume.tags, partition::metis{}, 32);
 ///     const auto angles =
-///         measure_interface_angles<3>({volume, sides, simplified.volume.side_states, parts.part_of_element},
+///         measure_interface_angles<3>({volume, sides, simplified.volume.side_states,
+///                                      pieces.part_of_element},
 ///                                     wanted_angles_of<3>(simplifier::paper{}));
 #pragma once
 

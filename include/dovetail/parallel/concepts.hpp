@@ -66,7 +66,7 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// `e.network()`: an any_communicator between them; see `ranks`. A wrapper may have `e.once(work)` in place
 /// of the network's.
 ///
-/// Models: serial, threads, processes, ranks, clock_watch, any_executor.
+/// Models: serial, threads, processes, ranks, clock_watch, traced, any_executor.
 template <class E>
 concept executor = std::copy_constructible<E> &&
     requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {
