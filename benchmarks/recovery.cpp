@@ -2,36 +2,23 @@
 /// Usage: recovery [pieces per family (default 500)] [first seed (default 0)] [one family (default -1: all)]
 ///                 [file for a line per piece: family, seed, what became of it, hash of its mesh, operations]
 /// 770 per family are ten thousand in all.
+#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "mesher/random_pieces.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <string>
 
 namespace {
 
 /// Of every bit of a mesh: two files of lines tell which meshes a change of the mesher has changed.
-std::uint64_t hash_of(const dovetail::simplicial_mesh<3>& mesh) {
-  std::uint64_t hash = 14695981039346656037U; // FNV-1a by words
-  const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 1099511628211U; };
-  for (const dovetail::vec3 p : mesh.points)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = p[axis];
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &x, sizeof bits);
-      add(bits);
-    }
-  for (const auto& element : mesh.elements)
-    for (const dovetail::local_id v : element)
-      add(static_cast<std::uint64_t>(v));
-  return hash;
+std::string hash_of(const dovetail::simplicial_mesh<3>& mesh) {
+  return to_string(dovetail::key_maker{}(mesh.points)(mesh.elements).key());
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/improver/wraps.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
+#include "dovetail/mesher/background_form.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/mesher/wraps.hpp"
 #include "dovetail/parallel/any_executor.hpp"

@@ -8,10 +8,27 @@
 
 namespace dovetail {
 
+namespace detail {
+
+template <class Policy>
+concept can_be_missing = requires(const Policy& policy) {
+  static_cast<bool>(policy);
+};
+template <class Policy>
+concept names_itself = requires(const Policy& policy) {
+  { policy.name() } -> std::convertible_to<std::string>;
+};
+template <class Policy>
+concept has_actual_traits = requires(const Policy& policy) {
+  policy.actual_traits();
+};
+
+} // namespace detail
+
 /// Whether there is a policy to call: one that holds another may hold none.
 template <class Policy>
 bool is_given(const Policy& policy) {
-  if constexpr (requires { static_cast<bool>(policy); })
+  if constexpr (detail::can_be_missing<Policy>)
     return static_cast<bool>(policy);
   else
     return true;
@@ -20,9 +37,7 @@ bool is_given(const Policy& policy) {
 /// The name that a policy was given, for reports and errors; empty for one that has none.
 template <class Policy>
 std::string policy_name(const Policy& policy) {
-  if constexpr (requires {
-                  { policy.name() } -> std::convertible_to<std::string>;
-                })
+  if constexpr (detail::names_itself<Policy>)
     return policy.name();
   else
     return {};
@@ -31,7 +46,7 @@ std::string policy_name(const Policy& policy) {
 /// The traits of a policy, which may depend on its members.
 template <class Policy>
 auto policy_traits(const Policy& policy) {
-  if constexpr (requires { policy.actual_traits(); })
+  if constexpr (detail::has_actual_traits<Policy>)
     return policy.actual_traits();
   else
     return Policy::traits;
@@ -40,7 +55,7 @@ auto policy_traits(const Policy& policy) {
 /// Whether a policy's type alone says that it must not run in threads.
 template <class Policy>
 constexpr bool is_never_thread_safe() {
-  if constexpr (requires(const Policy& policy) { policy.actual_traits(); })
+  if constexpr (detail::has_actual_traits<Policy>)
     return false;
   else
     return !Policy::traits.thread_safe;

@@ -3,27 +3,12 @@
 /// concept has optional members, and a policy without one is taken for a plainer one, in silence.
 #pragma once
 
+#include "dovetail/core/policy.hpp"
+
 #include <concepts>
 #include <utility>
 
 namespace dovetail {
-
-namespace detail {
-
-template <class Policy>
-concept names_itself = requires(const Policy& policy) {
-  policy.name();
-};
-template <class Policy>
-concept can_be_missing = requires(const Policy& policy) {
-  static_cast<bool>(policy);
-};
-template <class Policy>
-concept has_actual_traits = requires(const Policy& policy) {
-  policy.actual_traits();
-};
-
-} // namespace detail
 
 /// The base of the `wraps` of each role. `Self` is the policy that derives from it.
 template <class Self, class Policy>

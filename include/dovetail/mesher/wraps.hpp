@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/core/wrapped_policy.hpp"
-#include "dovetail/mesher/background_form.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/mesher/preferences.hpp"

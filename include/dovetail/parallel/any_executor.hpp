@@ -30,9 +30,7 @@ public:
   any_executor(E policy, std::string name = {}) // NOLINT: converts, as std::function does
       : name_(std::move(name)), workers_(static_cast<int>(policy.workers())),
         shares_process_(policy.shares_process()), network_(network_of(policy)) {
-    if constexpr (requires(const E& e, const std::function<byte_buffer()>& work) {
-                    { e.once(work) } -> std::same_as<byte_buffer>;
-                  })
+    if constexpr (detail::does_once<E>)
       once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
     else
       once_ = [held = network_](const auto& work) mutable { return held.once(work); };
@@ -80,9 +78,7 @@ public:
 private:
   template <class E>
   static any_communicator network_of(const E& policy) {
-    if constexpr (requires {
-                    { policy.network() } -> std::same_as<any_communicator>;
-                  })
+    if constexpr (detail::has_network<E>)
       return policy.network();
     else
       return parallel::self{};

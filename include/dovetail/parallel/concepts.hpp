@@ -75,6 +75,19 @@ concept executor = std::copy_constructible<E> &&
   { e.shares_process() } -> std::convertible_to<bool>;
 };
 
+namespace detail {
+
+template <class Executor>
+inline constexpr bool has_network = requires(const Executor& run) {
+  run.network();
+};
+template <class Executor>
+inline constexpr bool does_once = requires(const Executor& run, const std::function<byte_buffer()>& work) {
+  { run.once(work) } -> std::same_as<byte_buffer>;
+};
+
+} // namespace detail
+
 /// Whether an executor runs tasks side by side in threads of one process: what a task calls must then be
 /// thread-safe.
 template <executor E>

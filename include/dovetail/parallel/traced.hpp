@@ -5,6 +5,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/execution_trace.hpp"
+#include "dovetail/parallel/wraps.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -28,13 +29,13 @@ namespace dovetail::parallel {
 /// so this works over every executor, on all ranks, and costs 24 bytes and less than a microsecond per task.
 /// Copies share the record. Clocks of several machines need not agree: each counts from its own beginning of
 /// a batch.
-class traced {
+class traced : public wraps<traced, any_executor> {
 public:
   // Of nothing that converts: whether this type is an executor would hang on itself.
   template <std::same_as<any_executor> Executor>
   explicit traced(Executor run)
-      : run_(std::move(run)), record_(std::make_shared<record>()), origin_(clock::now()) {
-    record_->trace.workers = run_.workers();
+      : wraps(std::move(run)), record_(std::make_shared<record>()), origin_(clock::now()) {
+    record_->trace.workers = workers();
   }
 
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
@@ -49,7 +50,7 @@ public:
       result.insert(result.end(), bytes, bytes + sizeof mine);
       return result;
     };
-    auto outcomes = run_.run(count, stamped, options);
+    auto outcomes = wrapped.run(count, stamped, options);
     batch_span batch{options.stage, seconds_between(origin_, begun), seconds_between(origin_, clock::now())};
     std::vector<std::uint64_t> workers;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -65,15 +66,12 @@ public:
     record_->trace.batches.push_back(std::move(batch));
     return outcomes;
   }
-  int workers() const { return run_.workers(); }
-  bool shares_process() const { return run_.shares_process(); }
-  any_communicator network() const { return run_.network(); }
   byte_buffer once(const std::function<byte_buffer()>& work) const {
     auto& trace = record_->trace;
     const std::string stage = trace.stages.empty() ? "" : trace.stages.back().stage;
     const double begun = seconds_between(origin_, clock::now());
     double worked = 0;
-    byte_buffer made = run_.once([&] {
+    byte_buffer made = wrapped.once([&] {
       const clock::time_point work_begun = clock::now();
       byte_buffer result = work();
       worked = seconds_between(work_begun, clock::now());
@@ -171,7 +169,6 @@ private:
       tasks[i].worker = number.at(workers[i]);
   }
 
-  any_executor run_;
   std::shared_ptr<record> record_;
   clock::time_point origin_;
 };

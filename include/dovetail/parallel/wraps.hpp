@@ -6,25 +6,11 @@
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
 
-#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace dovetail {
-
-namespace detail {
-
-template <class Executor>
-inline constexpr bool has_network = requires(const Executor& run) {
-  run.network();
-};
-template <class Executor>
-inline constexpr bool does_once = requires(const Executor& run, const std::function<byte_buffer()>& work) {
-  { run.once(work) } -> std::same_as<byte_buffer>;
-};
-
-} // namespace detail
 
 namespace parallel {
 

@@ -11,15 +11,22 @@
 
 namespace dovetail {
 
+namespace detail {
+
+template <class Rule>
+inline constexpr bool says_what_it_wants = requires(const Rule& rule) {
+  { rule.wants(3) } -> std::same_as<wanted_angles>;
+};
+
+} // namespace detail
+
 /// What the rule says by `wants(D)`. A rule without that function wants of dihedrals what its judgement says,
 /// which for this is asked about a mesh without elements. An angle that a rule has no opinion about (0) is
 /// the one of the paper.
 template <int D, simplification_rule<D> Rule>
 wanted_angles wanted_angles_of(const Rule& rule) {
   wanted_angles wanted;
-  if constexpr (requires {
-                  { rule.wants(D) } -> std::same_as<wanted_angles>;
-                })
+  if constexpr (detail::says_what_it_wants<Rule>)
     wanted = rule.wants(D);
   else
     wanted.dihedral_deg = rule(simplicial_mesh<D>{}, side_table<D>{}).wanted_angle_deg;

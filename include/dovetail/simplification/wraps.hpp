@@ -4,20 +4,12 @@
 
 #include "dovetail/core/wrapped_policy.hpp"
 #include "dovetail/mesh/wanted_angles.hpp"
+#include "dovetail/simplification/angles_of_rule.hpp"
 #include "dovetail/simplification/concepts.hpp"
 
 #include <optional>
 
 namespace dovetail {
-
-namespace detail {
-
-template <class Rule>
-inline constexpr bool says_what_it_wants = requires(const Rule& rule) {
-  rule.wants(3);
-};
-
-} // namespace detail
 
 namespace simplifier {
 
