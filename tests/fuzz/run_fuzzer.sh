@@ -1,8 +1,10 @@
 #!/bin/bash
 # Fuzzes one of the readers, from small files that are valid, the native mesher or `fill`. Prints what it found, and fails when anything was.
-#   run_fuzzer.sh <fuzzer> <reader> <seconds> [folder for what is found]
+#   run_fuzzer.sh <fuzzer> <reader> <seconds, or number of inputs as "60inputs"> [folder for what is found]
+# Of a number of inputs, these are the same each time.
 set -euo pipefail
-fuzzer=$1 kind=$2 seconds=$3
+fuzzer=$1 kind=$2 limit=(-max_total_time="$3")
+[[ $3 != *inputs ]] || limit=(-seed=1 -runs="${3%inputs}")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 found=${4:-$scratch/found}
@@ -113,7 +115,7 @@ if [[ $kind == mesher || $kind == fill ]]; then
 fi
 
 # Small inputs, a second each and half a gigabyte at most: what takes more has found a way to hang or to fill the memory.
-if ! TMPDIR=$scratch "$fuzzer" ${reader:+"$reader"} "$scratch/new" "$scratch/corpus" -max_total_time="$seconds" -timeout="$timeout" \
+if ! TMPDIR=$scratch "$fuzzer" ${reader:+"$reader"} "$scratch/new" "$scratch/corpus" "${limit[@]}" -timeout="$timeout" \
   -rss_limit_mb=1024 -malloc_limit_mb=512 -max_len=4096 -artifact_prefix="$found/" >"$scratch/log" 2>&1; then
   tail -n 60 "$scratch/log"
   echo "the input that does it: $(ls "$found")"
