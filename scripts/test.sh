@@ -7,16 +7,19 @@ source_directory=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_directory" || exit 1
 
 scripts/setup tests || exit 1
+echo "what the tests need is there after $SECONDS s"
 
 require_all=OFF
 [[ ${CI:-} == true ]] && require_all=ON
 # A test that did not build is counted as failed below.
 scripts/build tests -DDOVETAIL_REQUIRE_ALL_TESTS=$require_all
 [[ -f build/CTestTestfile.cmake ]] || exit 1
+echo "built after $SECONDS s"
 
 results=build/test_results.xml
 rm -f "$results"
 ctest --test-dir build --parallel "$(nproc)" --output-on-failure --output-junit "$source_directory/$results" "$@"
 [[ -f $results ]] || { echo "no test was run" >&2; exit 1; }
+echo "tested after $SECONDS s"
 
 scripts/count_tests "$results"

@@ -1,5 +1,6 @@
 #include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/models/discrete_model.hpp"
+#include "dovetail/pipeline/compare_with_plan.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/discrete_shapes.hpp"
@@ -49,6 +50,19 @@ std::size_t warnings_of(const report& summary, const std::string& text) {
 }
 
 } // namespace
+
+TEST_CASE("a mesh much larger than planned is told of, unless it is small") {
+  const auto warnings = [](double planned, double made) {
+    report summary;
+    compare_with_plan(planned, made, summary);
+    return warnings_of(summary, "were predicted: small features of the model");
+  };
+  CHECK(warnings(23'000, 47'735) == 1);
+  CHECK(warnings(40'000, 47'735) == 0);
+  CHECK(warnings(90'000, 47'735) == 0);
+  CHECK(warnings(2'300, 4'773) == 0);
+  CHECK(warnings(0, 47'735) == 0); // nothing was planned
+}
 
 TEST_CASE("a volume that differs by more than lies between mesh and model is warned of") {
   const auto skeleton = skeleton_of(testing::box_soup({0, 0, 0}, {1, 1, 1}, 3));

@@ -74,8 +74,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
 /// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could
 /// mesh is data. The report warns of faces that the mesh is further from than sizes explain, and where the
-/// model knows its `volume()` of a volume that differs by more than lies between. Where too many subdomains
-/// would have to be merged, half as many are made, which a warning tells.
+/// model knows its `volume()` of a volume that differs by more than lies between; and of half as many
+/// elements again as were predicted. Where too many subdomains would have to be merged, half as many are
+/// made, which a warning tells.
 template <int D, class G, class H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {

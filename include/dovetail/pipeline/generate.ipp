@@ -7,6 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
+#include "dovetail/pipeline/compare_with_plan.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/given_up.hpp"
@@ -85,6 +86,8 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
       const double of_pieces = stops_by_clock(result->summary.find("meshing"));
       result->summary.set("stops_by_clock", std::max(0.0, watch.stops() - of_pieces));
       result->summary.seconds = result->summary.children.front().seconds + clock.seconds();
+      compare_with_plan(result->plan.predicted_elements, static_cast<double>(result->quality.elements),
+                        result->summary);
       return *std::move(result);
     }
     if (subdomains <= 1)
