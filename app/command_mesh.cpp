@@ -81,8 +81,8 @@ std::string name_of(const host& entity, const geometry_topology& topology) {
 interface_figures figures_of(const interface_angles& angles, const geometry_topology& topology) {
   interface_figures figures;
   if (angles.interface_faces > 0) {
-    figures.min_face_angle_deg = angles.face_angle.angle_deg;
-    figures.min_dihedral_deg = angles.min_dihedral_deg();
+    figures.min_face_angle_deg = angles.face_angle.measured();
+    figures.min_dihedral_deg = angles.min_dihedral().measured();
   }
   const auto count = [&](violation_cause cause) { return static_cast<std::int64_t>(angles.count(cause)); };
   figures.faces = static_cast<std::int64_t>(angles.interface_faces);

@@ -60,11 +60,10 @@ interface_row row_of(const interface_angles& angles) {
   interface_row row;
   row.faces = static_cast<std::int64_t>(angles.interface_faces);
   row.under_threshold = static_cast<std::int64_t>(angles.violations.size());
-  constexpr double nothing_measured = 360;
-  if (row.faces > 0 && angles.face_angle.angle_deg < nothing_measured)
-    row.min_face_angle = angles.face_angle.angle_deg;
-  if (row.faces > 0 && angles.min_dihedral_deg() < nothing_measured)
-    row.min_dihedral = angles.min_dihedral_deg();
+  if (row.faces > 0) {
+    row.min_face_angle = angles.face_angle.measured().value_or(row.min_face_angle);
+    row.min_dihedral = angles.min_dihedral().measured().value_or(row.min_dihedral);
+  }
   return row;
 }
 

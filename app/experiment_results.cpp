@@ -28,7 +28,7 @@ double sum_of(const summed& pointers, const json& document) {
   double sum = 0;
   for (const std::string& text : pointers) {
     const json::json_pointer pointer(text);
-    if (!document.contains(pointer))
+    if (!document.contains(pointer) || document.at(pointer).is_null())
       return nothing;
     sum += document.at(pointer).get<double>();
   }

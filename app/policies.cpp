@@ -228,7 +228,7 @@ any_simplification_rule make_simplifier(const std::string& name, std::optional<d
     if (rule.name() == known.name() + at_degrees(angle))
       return rule;
   throw command_line_error("--dihedral-angle: the simplifier " + known.name() +
-                           " has no angle between interfaces; take paper");
+                           " has no angle between interfaces; one that has is paper");
 }
 template <>
 any_mesher<3> make_mesher<3>(const std::string& name) {

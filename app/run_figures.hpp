@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,10 +46,10 @@ struct small_angle {
   std::vector<std::string> cad; ///< the entities that force it, or else the faces that it touches
 };
 
-/// The interface angles on one skeleton. Angles in degrees; 180 where there is no interface.
+/// The interface angles on one skeleton. Angles in degrees; none where there is nothing to measure.
 struct interface_figures {
-  double min_face_angle_deg = 180;
-  double min_dihedral_deg = 180;
+  std::optional<double> min_face_angle_deg = {};
+  std::optional<double> min_dihedral_deg = {};
   std::int64_t faces = 0;
   std::int64_t forced = 0;        ///< below the threshold because of the CAD
   std::int64_t refused = 0;       ///< below the threshold because of the bound on super-elements

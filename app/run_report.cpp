@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 #include <sys/resource.h>
 
@@ -62,9 +63,14 @@ json small_angles_json(const std::vector<small_angle>& angles) {
   return listed;
 }
 
+/// Null where there is no angle.
+json angle_json(const std::optional<double>& angle_deg) {
+  return angle_deg ? json(*angle_deg) : json(nullptr);
+}
+
 json interfaces_json(const interface_figures& interfaces) {
-  return {{"min_face_angle_deg", interfaces.min_face_angle_deg},
-          {"min_dihedral_deg", interfaces.min_dihedral_deg},
+  return {{"min_face_angle_deg", angle_json(interfaces.min_face_angle_deg)},
+          {"min_dihedral_deg", angle_json(interfaces.min_dihedral_deg)},
           {"faces", interfaces.faces},
           {"forced", interfaces.forced},
           {"refused", interfaces.refused},

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <string>
 
 namespace dovetail::app {
 namespace {
@@ -91,15 +93,24 @@ void add_interfaces(table& rows, const run_figures& figures) {
     std::snprintf(values, sizeof values, both.c_str(), coarse, fine);
     rows.row(label, values);
   };
+  const auto angle = [](const std::optional<double>& degrees) {
+    char text[16] = "none";
+    if (degrees)
+      std::snprintf(text, sizeof text, "%.1f", *degrees);
+    return std::string(text);
+  };
+  const auto angles = [&](const char* label, const auto& coarse, const auto& fine) {
+    pair(label, "%14s", angle(coarse).c_str(), angle(fine).c_str());
+  };
   const auto& coarse = figures.coarse_interfaces;
   const auto& fine = figures.interfaces;
   const bool solid = figures.dimension == 3;
   pair(solid ? "No. of faces" : "No. of edges", "%14lld", static_cast<long long>(coarse.faces),
        static_cast<long long>(fine.faces));
   if (solid) // edges have no angles of their own
-    pair("Minimum face angle (degrees)", "%14.1f", coarse.min_face_angle_deg, fine.min_face_angle_deg);
-  pair(solid ? "Minimum dihedral (degrees)" : "Minimum angle (degrees)", "%14.1f", coarse.min_dihedral_deg,
-       fine.min_dihedral_deg);
+    angles("Minimum face angle (degrees)", coarse.min_face_angle_deg, fine.min_face_angle_deg);
+  angles(solid ? "Minimum dihedral (degrees)" : "Minimum angle (degrees)", coarse.min_dihedral_deg,
+         fine.min_dihedral_deg);
   pair("Below the threshold, forced by the CAD", "%14lld", static_cast<long long>(coarse.forced),
        static_cast<long long>(fine.forced));
   pair("Below the threshold, refused by the bound", "%14lld", static_cast<long long>(coarse.refused),

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,9 @@ struct least_angle {
   double angle_deg = 360;                      ///< 360 when there is nothing to measure
   std::array<local_id, 2> sides{no_id, no_id}; ///< the side that has it, or the two that include it
   std::array<local_id, 2> edge{no_id, no_id};  ///< the edge at which it is, if it is a dihedral
+
+  /// The angle, or nothing.
+  std::optional<double> measured() const { return angle_deg < 360 ? std::optional(angle_deg) : std::nullopt; }
 };
 
 /// The smallest angles of a decomposition's interfaces.
@@ -79,9 +83,10 @@ struct interface_angles {
                             &interface_angles::interface_dihedral, &interface_angles::surface_dihedral,
                             &interface_angles::violations>;
 
-  /// The smaller one of both kinds.
-  double min_dihedral_deg() const {
-    return std::min(interface_dihedral.angle_deg, surface_dihedral.angle_deg);
+  /// The smaller one of both kinds, 360 when there is nothing to measure; and where it is.
+  double min_dihedral_deg() const { return min_dihedral().angle_deg; }
+  const least_angle& min_dihedral() const {
+    return surface_dihedral.angle_deg < interface_dihedral.angle_deg ? surface_dihedral : interface_dihedral;
   }
   /// How many violations have a cause.
   std::size_t count(violation_cause cause) const {
