@@ -4,7 +4,6 @@
 #   check_adapt.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
-limit=300
 
 # Two tetrahedra of two materials, with a group on one side. Values at points as named on the command line.
 mesh_file() { # array, values of its five points

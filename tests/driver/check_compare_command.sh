@@ -3,7 +3,6 @@
 #   check_compare_command.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
-limit=300
 
 write_cube >"$inputs/cube.off"
 compare() { expect_success compare "$inputs/cube.off" --workers 1 --out out "$@"; }

@@ -50,7 +50,7 @@ for build in "copied 4" "rebuilt 0" "rebuilt 4"; do
 done
 
 # All of them, and runs that several share are made once. A plot is made, or a line says how.
-limit=240 experiment all --scale 50000 # some hundred runs
+experiment all --scale 50000 # some hundred runs
 for name in table{2..10} fig10 fig{13..16}; do
   for ending in md csv json; do
     [[ -s $kept/$name.$ending ]] || fault "no $name.$ending"

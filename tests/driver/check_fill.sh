@@ -3,7 +3,6 @@
 #   check_fill.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
-limit=300
 
 # A solid of a text STL file: a block from one corner to the opposite one, oriented outwards or inwards.
 solid() { # name, lower x y z, upper x y z, out or in

@@ -118,7 +118,7 @@ for starter in "${starters[@]}"; do
   what="${starter:-one process}: killed while it reads"
   stop_in_reading
   kill -KILL "$reader"
-  process_ends_within 300
+  wait_for_process
   ((status == 0)) || fault "exit code is $status"
   grep -q '^dovetail: ' "$sandbox/stderr" && fault "a line of complaint"
   [[ $(hash_of several) && $(hash_of several) == "$(hash_of whole)" ]] || fault "another mesh"
@@ -131,7 +131,7 @@ for starter in "${starters[@]}"; do
     sleep 0.01
   done
   kill -KILL "$spare"
-  process_ends_within 300
+  wait_for_process
   ((status == 1)) || fault "exit code is $status, not 1"
   [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
   grep -qE "^dovetail: (rank 1: )?$file: reading and healing with Open CASCADE was killed, perhaps for want of memory" "$sandbox/stderr" ||

@@ -27,7 +27,7 @@ refused() {
   local expression=$1
   shift
   what="dovetail $*, beside another run"
-  timeout 60 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null
+  timeout 1000 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null
   status=$?
   ((status == 1)) || fault "exit code is $status"
   grep -qE -- "^dovetail: $expression: another process \($first\) is writing there" "$sandbox/stderr" || fault "not the line"

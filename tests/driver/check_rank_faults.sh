@@ -96,11 +96,11 @@ kill_in() {
   reader=$!
   exec 9<&-
 }
-# ended_within <seconds>: sets $status.
-ended_within() {
+# see_it_end: sets $status.
+see_it_end() {
   local tenths
-  process_ends_within "$1"
-  for ((tenths = 0; tenths < 20; ++tenths)); do # until all that was said is read
+  wait_for_process
+  for ((tenths = 0; tenths < 300; ++tenths)); do # until all that was said is read
     kill -0 $reader 2>/dev/null || break
     sleep 0.1
   done
@@ -127,7 +127,7 @@ same_as_whole() {
 # go_on <ranks>: to the end.
 go_on() {
   what="$1 ranks: dovetail ${mesh[*]} --resume, after: $what"
-  (cd several && timeout 100 "$mpirun" -n "$1" "$driver" "${mesh[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  (cd several && timeout 1000 "$mpirun" -n "$1" "$driver" "${mesh[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
   status=$?
   same_as_whole
 }
@@ -137,9 +137,9 @@ try() {
   shift 2
   kill_in "$ranks" "$stage" $rank "${mesh[@]}" "$@"
   if [[ $victim == worker ]]; then
-    ended_within 100
+    see_it_end
   else
-    ended_within 10
+    see_it_end
   fi
   echo "$what: exit code $status after $((SECONDS - begun)) s; $(grep '^dovetail: ' "$sandbox/stderr")"
   if [[ $victim == worker ]]; then

@@ -3,7 +3,6 @@
 #   check_ranks.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
-limit=120
 reader=$(dirname "$0")/../files/check_rank_files.py
 
 write_cube >"$inputs/cube.off"

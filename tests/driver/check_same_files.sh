@@ -34,7 +34,7 @@ refused() {
   shift
   what="dovetail $*"
   before=$(state)
-  (cd "$here" && timeout 60 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  (cd "$here" && timeout 1000 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
   status=$?
   ((status == 2)) || fault "exit code is $status, not 2"
   [[ $(wc -l <"$sandbox/stderr") == 1 ]] || fault "not one line"
@@ -46,7 +46,7 @@ refused() {
 # made <arguments...>: goes well there.
 made() {
   what="dovetail $*"
-  (cd "$here" && timeout 120 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  (cd "$here" && timeout 1000 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
   status=$?
   ((status == 0)) || fault "exit code is $status"
   return 0
@@ -150,7 +150,7 @@ at_once() {
   shift
   what="dovetail $*"
   before=$(state)
-  (cd "$here" && timeout 60 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  (cd "$here" && timeout 1000 "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
   status=$?
   ((status == 1)) || fault "exit code is $status, not 1"
   [[ $(wc -l <"$sandbox/stderr") == 1 ]] || fault "not one line"

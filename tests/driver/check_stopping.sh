@@ -54,7 +54,7 @@ stop_after() {
     done
     sleep "$condition"
   else
-    for ((tenths = 0; tenths < 1200; ++tenths)); do
+    for ((tenths = 0; tenths < 10000; ++tenths)); do
       grep -q "^$condition" "$sandbox/stderr" && break
       kill -0 $process 2>/dev/null || break
       sleep 0.1
@@ -111,7 +111,7 @@ stop_after geometry TERM mesh --model aircraft --report report.json
 
 # Started by a process that does not want to hear of the end of its children.
 what="dovetail models, with SIGCHLD ignored"
-timeout -s KILL 20 perl -e '$SIG{CHLD} = "IGNORE"; exec @ARGV' "$driver" models >"$sandbox/stdout" 2>"$sandbox/stderr"
+timeout -s KILL 1000 perl -e '$SIG{CHLD} = "IGNORE"; exec @ARGV' "$driver" models >"$sandbox/stdout" 2>"$sandbox/stderr"
 status=$?
 ((status == 0)) || fault "exit code is $status"
 finish

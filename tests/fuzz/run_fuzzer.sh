@@ -108,10 +108,10 @@ fill)
 esac
 
 reader=--reader=$kind
-timeout=5
+timeout=60
 if [[ $kind == mesher || $kind == fill ]]; then
   reader=""
-  timeout=120 # what is hopeless takes a few seconds, or ten times as long with sanitizers
+  timeout=600 # what is hopeless takes a few seconds, or ten times as long with sanitizers
 fi
 
 # Small inputs, a second each and half a gigabyte at most: what takes more has found a way to hang or to fill the memory.
