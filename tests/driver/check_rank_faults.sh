@@ -136,11 +136,7 @@ try() {
   local ranks=$1 stage=$2 rank=$((tried++ % $1)) begun=$SECONDS
   shift 2
   kill_in "$ranks" "$stage" $rank "${mesh[@]}" "$@"
-  if [[ $victim == worker ]]; then
-    see_it_end
-  else
-    see_it_end
-  fi
+  see_it_end
   echo "$what: exit code $status after $((SECONDS - begun)) s; $(grep '^dovetail: ' "$sandbox/stderr")"
   if [[ $victim == worker ]]; then
     same_as_whole
