@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
