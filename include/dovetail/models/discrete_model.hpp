@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/models/discrete/charted_surface.hpp"
 #include "dovetail/models/discrete/oriented_surfaces.hpp"
@@ -88,6 +89,10 @@ private:
 };
 
 static_assert(geometry_model<discrete_model>);
+
+#ifdef DOVETAIL_COMPILED
+extern template any_geometry::any_geometry(discrete_model);
+#endif
 
 /// Reads an STL, OBJ, OFF or PLY file and makes a model of it; its repairs warn of triangles that were listed
 /// twice or the wrong way round. Throws `input_error` for a bad file and

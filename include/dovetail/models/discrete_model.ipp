@@ -252,4 +252,8 @@ DOVETAIL_INLINE discrete_model read_discrete_model(const std::filesystem::path& 
       options);
 }
 
+#ifdef DOVETAIL_COMPILED
+template any_geometry::any_geometry(discrete_model);
+#endif
+
 } // namespace dovetail

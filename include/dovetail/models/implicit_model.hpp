@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/models/discrete/charted_surface.hpp"
 
@@ -74,6 +75,10 @@ public:
 };
 
 static_assert(geometry_model<implicit_model>);
+
+#ifdef DOVETAIL_COMPILED
+extern template any_geometry::any_geometry(implicit_model);
+#endif
 
 } // namespace dovetail
 

@@ -143,4 +143,8 @@ DOVETAIL_INLINE vec3 implicit_model::carried(vec3 p) const {
   return data_->function.project(p, data_->reach).value_or(p);
 }
 
+#ifdef DOVETAIL_COMPILED
+template any_geometry::any_geometry(implicit_model);
+#endif
+
 } // namespace dovetail

@@ -231,4 +231,8 @@ DOVETAIL_INLINE_OCCT occt_read_result read_occt_model(const std::filesystem::pat
   }
 }
 
+#ifdef DOVETAIL_COMPILED_OCCT
+template any_geometry::any_geometry(occt_model);
+#endif
+
 } // namespace dovetail

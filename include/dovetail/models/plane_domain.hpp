@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/models/plane/drawing.hpp"
 #include "dovetail/models/plane/polyline.hpp"
@@ -45,6 +46,10 @@ private:
   box3 bounds_;
 };
 static_assert(geometry_model<plane_domain>);
+
+#ifdef DOVETAIL_COMPILED
+extern template any_geometry::any_geometry(plane_domain);
+#endif
 
 } // namespace dovetail
 

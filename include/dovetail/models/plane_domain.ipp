@@ -38,4 +38,8 @@ DOVETAIL_INLINE double plane_domain::project_to_curve(local_id c, vec3 p, double
   return curve(c).nearest({p.x, p.y}, seed);
 }
 
+#ifdef DOVETAIL_COMPILED
+template any_geometry::any_geometry(plane_domain);
+#endif
+
 } // namespace dovetail
