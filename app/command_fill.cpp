@@ -12,7 +12,7 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/improver/any_improver.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
-#include "dovetail/models/discrete/soup.hpp"
+#include "dovetail/models/discrete/text_scanner.hpp"
 #include "dovetail/pipeline/fill.hpp"
 
 #include <algorithm>

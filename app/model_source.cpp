@@ -12,6 +12,7 @@
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/sizing_json.hpp"
 #include "dovetail/files/zlib.hpp"
+#include "dovetail/models/discrete/read.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/models/plane/read.hpp"
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <optional>
 #include <span>

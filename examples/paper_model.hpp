@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/models/discrete/read.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane/svg_path.hpp"
 #include "dovetail/models/plane_domain.hpp"

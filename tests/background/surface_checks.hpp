@@ -5,6 +5,7 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesher/checks.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace dovetail::test {

@@ -9,6 +9,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>

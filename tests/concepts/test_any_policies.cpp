@@ -10,6 +10,8 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
+
 namespace dovetail {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/mesher/by_regions.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/any_communicator.hpp"

@@ -8,6 +8,7 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/in_process.hpp"

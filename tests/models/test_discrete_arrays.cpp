@@ -1,6 +1,7 @@
 /// Surfaces from arrays of one's own: what does not fit together is refused, ids come back.
 #include "discrete_shapes.hpp"
 
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"

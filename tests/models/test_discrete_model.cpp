@@ -1,8 +1,13 @@
 #include "discrete_shapes.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "model_checks.hpp"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 using namespace dovetail;
 using namespace dovetail::testing;

@@ -2,7 +2,10 @@
 #include "dovetail/models/discrete/read.hpp"
 #include "support/refusal.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <doctest/doctest.h>
+#include <fstream>
 #include <sstream>
 
 using namespace dovetail;

@@ -1,10 +1,14 @@
 #include "discrete_shapes.hpp"
+#include "dovetail/models/discrete/cluster_measures.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "model_checks.hpp"
 #include "support/refusal.hpp"
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 using namespace dovetail;

@@ -1,9 +1,13 @@
 #include "discrete_shapes.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "model_checks.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <doctest/doctest.h>
+#include <numbers>
 
 using namespace dovetail;
 using namespace dovetail::testing;

@@ -22,6 +22,8 @@
 #include <doctest/doctest.h>
 #include <gp_Pln.hxx>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 using namespace dovetail;

@@ -4,6 +4,7 @@
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/mesh/validity.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane/svg_path.hpp"
 #include "dovetail/models/plane_domain.hpp"

@@ -20,6 +20,8 @@
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 using namespace dovetail;

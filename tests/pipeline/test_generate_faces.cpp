@@ -16,7 +16,9 @@
 #include <gp_Circ.hxx>
 #include <gp_Pln.hxx>
 
+#include <algorithm>
 #include <numbers>
+#include <set>
 
 using namespace dovetail;
 using namespace dovetail::testing;

@@ -3,10 +3,13 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/models/plane/read.hpp"
+#include "dovetail/models/plane/svg_path.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "files/scratch_folder.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>

@@ -1,9 +1,13 @@
 #include "plane_meshes.hpp"
 
 #include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "models/discrete_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 using namespace dovetail;
 using namespace dovetail::testing;

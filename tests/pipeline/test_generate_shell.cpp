@@ -15,7 +15,10 @@
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <string>
 

@@ -1,4 +1,5 @@
 #include "dovetail/adapters/tetgen.hpp"
+#include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/pipeline/compare_with_plan.hpp"
 #include "dovetail/pipeline/generate.hpp"

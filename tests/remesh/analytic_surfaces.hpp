@@ -4,6 +4,7 @@
 
 #include "dovetail/remesh/patch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>

@@ -1,7 +1,10 @@
+#include "dovetail/core/predicates.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 

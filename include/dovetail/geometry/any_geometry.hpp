@@ -24,10 +24,7 @@ class any_geometry {
 public:
   template <class G>
     requires(!std::same_as<G, any_geometry> && geometry_model<G>)
-  any_geometry(G held) // NOLINT: converts, as std::function does
-      : held_(std::make_shared<const model<G>>(std::move(held))) {
-    check_topology(topology());
-  }
+  any_geometry(G held); // NOLINT: converts, as std::function does
 
   any_geometry(const any_geometry& other) : held_(other.thread_safe() ? other.held_ : other.held_->copy()) {}
   any_geometry(any_geometry&&) = default;
@@ -132,6 +129,14 @@ private:
 
   std::shared_ptr<const interface> held_;
 };
+
+// Outside of the class: not inline, so that the library's own models are held by code that is compiled once.
+template <class G>
+  requires(!std::same_as<G, any_geometry> && geometry_model<G>)
+any_geometry::any_geometry(G held) : held_(std::make_shared<const model<G>>(std::move(held))) {
+  check_topology(topology());
+}
+
 static_assert(geometry_model_with_planes<any_geometry>);
 
 } // namespace dovetail

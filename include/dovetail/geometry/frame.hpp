@@ -5,7 +5,6 @@
 #include "dovetail/core/vector.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace dovetail::discrete {
@@ -23,15 +22,7 @@ struct chart_frame {
 };
 
 /// The frame with a given normal; u leans on the coordinate axis least along it.
-inline chart_frame frame_along(vec3 origin, vec3 normal) {
-  const vec3 n = normalized(normal);
-  const vec3 size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
-  const vec3 axis = size.x <= size.y && size.x <= size.z ? vec3{1, 0, 0}
-                    : size.y <= size.z                   ? vec3{0, 1, 0}
-                                                         : vec3{0, 0, 1};
-  const vec3 u = normalized(axis - dot(axis, n) * n);
-  return {origin, u, cross(n, u), n};
-}
+chart_frame frame_along(vec3 origin, vec3 normal);
 
 /// Weighted second moments of vectors about their mean.
 class vector_moments {
@@ -48,20 +39,7 @@ public:
   vec3 mean() const { return weight_ > 0 ? sum_ / weight_ : sum_; }
 
   /// The direction in which the vectors spread most, by 64 steps of the power method from a fixed start.
-  vec3 principal_axis() const {
-    const vec3 m = mean();
-    vec3 axis = normalized({0.5773, 0.6131, 0.5391});
-    for (int step = 0; step < 64; ++step) {
-      vec3 next;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          next[i] += (squares_[static_cast<std::size_t>(3 * i + j)] - weight_ * m[i] * m[j]) * axis[j];
-      if (!(norm(next) > 0))
-        return axis;
-      axis = normalized(next);
-    }
-    return axis;
-  }
+  vec3 principal_axis() const;
 
 private:
   double weight_ = 0;
@@ -70,3 +48,7 @@ private:
 };
 
 } // namespace dovetail::discrete
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/geometry/frame.ipp"
+#endif

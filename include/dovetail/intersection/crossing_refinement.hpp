@@ -2,77 +2,28 @@
 /// Smaller sizes where surfaces cross, round by round.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace dovetail {
 
 /// Where no round of refinement is left.
-[[noreturn]] inline void throw_crossing_faces(const geometry_topology& topology,
-                                              std::array<local_id, 2> faces) {
-  const auto name = [&](local_id f) {
-    const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
-    return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
-  };
-  throw intersection_error((faces[0] == faces[1]
-                                ? "the surface of " + name(faces[0]) + " crosses itself or stays folded over"
-                                : "the surfaces of " + name(faces[0]) + " and " + name(faces[1]) + " cross") +
-                           ", also when refined; repair the model there or give a smaller size");
-}
+[[noreturn]] void throw_crossing_faces(const geometry_topology& topology, std::array<local_id, 2> faces);
 
 /// Many triangles cross at one place, where one ball does: the crossings that lie in none before them that is
 /// at most a fifth larger. About n log n: they are looked for in cells of their size, of each power of two.
-inline std::vector<surface_crossing> one_of_each_place(std::span<const surface_crossing> crossings) {
-  using cell = std::array<double, 3>;
-  std::map<int, std::map<cell, std::vector<std::size_t>>> cells_of_scale;
-  const auto cell_of = [](vec3 p, int scale) {
-    return cell{std::floor(std::ldexp(p.x, -scale)), std::floor(std::ldexp(p.y, -scale)),
-                std::floor(std::ldexp(p.z, -scale))};
-  };
-  std::vector<surface_crossing> places;
-  for (const surface_crossing& crossing : crossings) {
-    const auto covers = [&](std::size_t place) {
-      return places[place].size <= 1.2 * crossing.size &&
-             distance(places[place].center, crossing.center) < places[place].size;
-    };
-    const auto is_covered_at = [&](const auto& scale_and_cells) {
-      const auto& [scale, cells] = scale_and_cells;
-      const cell middle = cell_of(crossing.center, scale);
-      for (int k = 0; k < 27; ++k)
-        if (const auto found =
-                cells.find({middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1});
-            found != cells.end() && std::any_of(found->second.begin(), found->second.end(), covers))
-          return true;
-      return false;
-    };
-    if (std::any_of(cells_of_scale.begin(), cells_of_scale.end(), is_covered_at))
-      continue;
-    if (crossing.size > 0) {
-      const int scale = std::ilogb(crossing.size) + 1; // cells at least as large as the place
-      cells_of_scale[scale][cell_of(crossing.center, scale)].push_back(places.size());
-    }
-    places.push_back(crossing);
-  }
-  return places;
-}
+std::vector<surface_crossing> one_of_each_place(std::span<const surface_crossing> crossings);
 
 /// Half of the triangles' edges around crossings: the sizes for another attempt.
-inline std::vector<size_ball> balls_around(std::span<const surface_crossing> crossings) {
-  std::vector<size_ball> balls;
-  for (const surface_crossing& crossing : crossings)
-    balls.push_back({crossing.center, 2 * crossing.size, 0.5 * crossing.size});
-  return balls;
-}
+std::vector<size_ball> balls_around(std::span<const surface_crossing> crossings);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/intersection/crossing_refinement.ipp"
+#endif

@@ -2,14 +2,12 @@
 /// Merges subdomains: where their interfaces cross the surface, or where a mesher fails.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -20,42 +18,15 @@ namespace dovetail {
 
 /// Merges subdomains of a decomposition in place and numbers them without gaps, in order of their smallest
 /// member. `sizes` holds, per subdomain, how many original ones it is made of, before and after.
-inline void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::vector<local_id>& sizes,
-                             const std::vector<std::array<local_id, 2>>& merges) {
-  std::vector<local_id> root(sizes.size());
-  std::iota(root.begin(), root.end(), local_id{0});
-  const auto find = [&](local_id s) {
-    while (root[static_cast<std::size_t>(s)] != s)
-      s = root[static_cast<std::size_t>(s)];
-    return static_cast<std::size_t>(s);
-  };
-  for (const auto& [a, b] : merges) {
-    const std::size_t ra = find(a), rb = find(b);
-    root[std::max(ra, rb)] = static_cast<local_id>(std::min(ra, rb));
-  }
-  std::vector<local_id> number(sizes.size(), no_id), merged_sizes;
-  for (std::size_t s = 0; s < sizes.size(); ++s) {
-    const std::size_t r = find(static_cast<local_id>(s));
-    if (number[r] == no_id) { // the root is the smallest member, so it comes first
-      number[r] = static_cast<local_id>(merged_sizes.size());
-      merged_sizes.push_back(0);
-    }
-    number[s] = number[r];
-    merged_sizes[static_cast<std::size_t>(number[s])] += sizes[s];
-  }
-  for (local_id& s : subdomain_of_element)
-    s = number[static_cast<std::size_t>(s)];
-  sizes = std::move(merged_sizes);
-}
+void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::vector<local_id>& sizes,
+                      const std::vector<std::array<local_id, 2>>& merges);
 
 /// What has been merged of a decomposition, in all rounds and after failures of pieces, and how much may be.
 class merge_account {
 public:
   /// `largest_fraction` of the subdomains may be merged into others; two of eight and one of fewer always
   /// may.
-  merge_account(local_id subdomains, double largest_fraction)
-      : sizes_(static_cast<std::size_t>(subdomains), 1), started_with_(subdomains),
-        allowed_(std::max(largest_fraction * subdomains, std::clamp(subdomains / 4, 1, 2) * 1.0)) {}
+  merge_account(local_id subdomains, double largest_fraction);
 
   local_id subdomains() const { return static_cast<local_id>(sizes_.size()); } ///< how many there are now
   /// Subdomains that are no more, since their interfaces crossed something or no attempt could mesh them.
@@ -64,22 +35,9 @@ public:
   local_id largest() const { return *std::max_element(sizes_.begin(), sizes_.end()); }
 
   /// What to say where these merges would be more than is allowed; empty where they would not.
-  std::string refusal_of(const std::vector<std::array<local_id, 2>>& merges) const {
-    std::vector<local_id> of_element;
-    auto sizes = sizes_;
-    merge_subdomains(of_element, sizes, merges);
-    const auto merged = started_with_ - static_cast<local_id>(sizes.size());
-    if (merged <= allowed_)
-      return {};
-    return std::to_string(merged) + " of " + std::to_string(started_with_) +
-           " subdomains would have to be merged, " + std::to_string(static_cast<local_id>(allowed_)) +
-           " may be";
-  }
+  std::string refusal_of(const std::vector<std::array<local_id, 2>>& merges) const;
   /// `merge_subdomains`, counted.
-  void merge(std::vector<local_id>& subdomain_of_element,
-             const std::vector<std::array<local_id, 2>>& merges) {
-    merge_subdomains(subdomain_of_element, sizes_, merges);
-  }
+  void merge(std::vector<local_id>& subdomain_of_element, const std::vector<std::array<local_id, 2>>& merges);
 
 private:
   std::vector<local_id> sizes_; ///< per subdomain: how many original ones it is made of
@@ -137,3 +95,7 @@ std::vector<std::array<local_id, 2>> merges_of_failed(const simplicial_skeleton<
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/intersection/merge_subdomains.ipp"
+#endif

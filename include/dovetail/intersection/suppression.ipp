@@ -17,6 +17,21 @@ namespace dovetail {
 
 namespace detail {
 
+DOVETAIL_INLINE surface_crossing describe_crossing(std::span<const vec3> points,
+                                                   std::span<const simplex<2>> triangles,
+                                                   std::span<const local_id> cad_faces, std::size_t i,
+                                                   std::size_t j) {
+  surface_crossing crossing{{cad_faces[i], cad_faces[j]}, {}, 0};
+  for (const std::size_t t : {i, j})
+    for (std::size_t k = 0; k < 3; ++k) {
+      const vec3 a = points[static_cast<std::size_t>(triangles[t][k])];
+      const vec3 b = points[static_cast<std::size_t>(triangles[t][(k + 1) % 3])];
+      crossing.center += a / 6.0;
+      crossing.size += distance(a, b) / 6.0;
+    }
+  return crossing;
+}
+
 /// The triangles that are not known to be apart, and those near them; growing.
 inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
   const box_tree others(known.around_others);

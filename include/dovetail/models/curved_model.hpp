@@ -2,30 +2,14 @@
 /// A triangulated surface as a geometry model that is as smooth as what it was made of.
 #pragma once
 
-#include "dovetail/models/curved/triangles.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/models/discrete/oriented_surfaces.hpp"
 #include "dovetail/models/discrete_model.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <memory>
-#include <optional>
-#include <utility>
 
 namespace dovetail {
-namespace detail {
-
-/// The first of the shares 1, 1/2, ... of a step that leads nearer than `before`, with what is there.
-template <class Frame, class Distance>
-auto nearer_along(double before, const Frame& frame, const Distance& away_of) {
-  std::optional<std::pair<double, decltype(frame(1.0))>> found;
-  for (double share = 1; share > 0.05 && !found; share /= 2)
-    if (auto at = frame(share); away_of(at) < before)
-      found.emplace(share, std::move(at));
-  return found;
-}
-
-} // namespace detail
 
 /// A model of `geometry_model` that goes through the points of a triangulated surface, and between them on
 /// arcs that its normals and feature curves tell, instead of on plane triangles: for the boundary of a mesh
@@ -35,112 +19,37 @@ auto nearer_along(double before, const Frame& frame, const Distance& away_of) {
 class curved_model {
 public:
   /// Throws `geometry_error` when charts cannot be made.
-  explicit curved_model(const oriented_surfaces& surfaces, const discrete_options& options = {})
-      : curved_model(discrete_model(surfaces, options), surfaces, options) {}
+  explicit curved_model(const oriented_surfaces& surfaces, const discrete_options& options = {});
 
-  const geometry_topology& topology() const { return data_->topology; }
-  box3 bounds() const { return data_->bounds; }
+  const geometry_topology& topology() const;
+  box3 bounds() const;
   bool thread_safe() const { return true; }
   /// The number that came with the triangles of face f, or no_id.
-  local_id face_id(local_id f) const { return data_->flat.face_id(f); }
+  local_id face_id(local_id f) const;
 
   /// The model whose points are displaced.
-  const discrete_model& flat() const { return data_->flat; }
+  const discrete_model& flat() const;
 
-  vec3 curve_point(local_id c, double t) const { return carried(data_->flat.curve_point(c, t)); }
-  dovetail::curve_frame curve_frame(local_id c, double t) const {
-    const auto straight = data_->flat.curve_frame(c, t);
-    const auto lift = data_->curved.at(straight.point, straight.derivative);
-    return {straight.point + lift.to, straight.derivative + lift.change[0]};
-  }
-  vec2 curve_uv(local_id f, int k, double t) const { return data_->flat.curve_uv(f, k, t); }
+  vec3 curve_point(local_id c, double t) const;
+  dovetail::curve_frame curve_frame(local_id c, double t) const;
+  vec2 curve_uv(local_id f, int k, double t) const;
 
-  vec3 face_point(local_id f, vec2 uv) const { return carried(data_->flat.face_point(f, uv)); }
-  surface_frame face_frame(local_id f, vec2 uv) const {
-    const auto plane = data_->flat.face_frame(f, uv);
-    const auto lift = data_->curved.at(plane.point, plane.du, plane.dv);
-    return {plane.point + lift.to, plane.du + lift.change[0], plane.dv + lift.change[1]};
-  }
-  double face_curvature(local_id f, vec2 uv) const { return data_->flat.face_curvature(f, uv); }
+  vec3 face_point(local_id f, vec2 uv) const;
+  surface_frame face_frame(local_id f, vec2 uv) const;
+  double face_curvature(local_id f, vec2 uv) const;
 
   /// Newton's method from the nearest point of the triangles; a step that does not lead nearer is halved.
-  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const {
-    vec2 best = data_->flat.project_to_face(f, p, seed);
-    auto at = face_frame(f, best);
-    for (int step = 0; step < most_steps; ++step) {
-      const vec3 away = p - at.point;
-      const double uu = dot(at.du, at.du);
-      const double uv = dot(at.du, at.dv);
-      const double vv = dot(at.dv, at.dv);
-      const double determinant = uu * vv - uv * uv;
-      if (!(determinant > 0))
-        break;
-      const double u = dot(at.du, away);
-      const double v = dot(at.dv, away);
-      const vec2 move{(vv * u - uv * v) / determinant, (uu * v - uv * u) / determinant};
-      if (!(norm(move) > data_->same))
-        break;
-      const auto found = detail::nearer_along(
-          norm(away), [&](double share) { return face_frame(f, best + share * move); },
-          [&](const surface_frame& frame) { return distance(frame.point, p); });
-      if (!found)
-        break;
-      best = best + found->first * move;
-      at = found->second;
-    }
-    return best;
-  }
-  double project_to_curve(local_id c, vec3 p, double seed) const {
-    const auto& range = topology().curves[static_cast<std::size_t>(c)].t;
-    double best = data_->flat.project_to_curve(c, p, seed);
-    auto at = curve_frame(c, best);
-    for (int step = 0; step < most_steps; ++step) {
-      const vec3 away = p - at.point;
-      const double squared = norm_squared(at.derivative);
-      if (!(squared > 0))
-        break;
-      const double move = std::clamp(best + dot(away, at.derivative) / squared, range[0], range[1]) - best;
-      if (!(std::abs(move) > data_->same))
-        break;
-      const auto found = detail::nearer_along(
-          norm(away), [&](double share) { return curve_frame(c, best + share * move); },
-          [&](const dovetail::curve_frame& frame) { return distance(frame.point, p); });
-      if (!found)
-        break;
-      best += found->first * move;
-      at = found->second;
-    }
-    return best;
-  }
+  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const;
+  double project_to_curve(local_id c, vec3 p, double seed) const;
 
 private:
   static constexpr int most_steps = 30;
 
-  struct data {
-    discrete_model flat;
-    discrete::curved_triangles curved;
-    geometry_topology topology;
-    box3 bounds;
-    double same = 0; ///< lengths below this are rounding
-  };
+  struct data;
 
-  curved_model(discrete_model flat, const oriented_surfaces& surfaces, const discrete_options& options) {
-    const auto smooth_of = discrete::smooth_areas(discrete::cluster_measures(surfaces.mesh),
-                                                  element_neighbours(build_sides<2>(surfaces.mesh)),
-                                                  surfaces.groups, options.feature_angle_deg);
-    auto made = std::make_shared<data>(
-        data{flat, discrete::curved_triangles(discrete::triangle_curving(surfaces.mesh, smooth_of).run()),
-             flat.topology(), flat.bounds()});
-    const double height = made->curved.height();
-    made->bounds.lower -= vec3{height, height, height};
-    made->bounds.upper += vec3{height, height, height};
-    made->same = 1e-13 * made->bounds.diagonal();
-    data_ = made;
-    for (auto& vertex : made->topology.vertices)
-      vertex.point = carried(vertex.point);
-  }
+  curved_model(discrete_model flat, const oriented_surfaces& surfaces, const discrete_options& options);
 
-  vec3 carried(vec3 p) const { return p + data_->curved.at(p).to; }
+  vec3 carried(vec3 p) const;
 
   std::shared_ptr<const data> data_;
 };
@@ -148,3 +57,7 @@ private:
 static_assert(geometry_model<curved_model>);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/models/curved_model.ipp"
+#endif

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/models/occt/options.hpp"
 
@@ -66,6 +67,10 @@ private:
   box3 bounds_;
 };
 static_assert(geometry_model<occt_model>);
+
+#ifdef DOVETAIL_COMPILED_OCCT
+extern template any_geometry::any_geometry(occt_model);
+#endif
 
 /// A model and what was found and done while making it.
 struct occt_read_result {

@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -228,5 +230,9 @@ DOVETAIL_INLINE_OCCT occt_read_result read_occt_model(const std::filesystem::pat
     throw;
   }
 }
+
+#ifdef DOVETAIL_COMPILED_OCCT
+template any_geometry::any_geometry(occt_model);
+#endif
 
 } // namespace dovetail

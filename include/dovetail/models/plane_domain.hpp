@@ -3,10 +3,15 @@
 /// the plane z = 0, whose parameters are x and y.
 #pragma once
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/concepts.hpp"
-#include "dovetail/models/plane/polylines.hpp"
+#include "dovetail/models/plane/drawing.hpp"
+#include "dovetail/models/plane/polyline.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace dovetail {
 
@@ -16,32 +21,17 @@ namespace dovetail {
 class plane_domain {
 public:
   /// Throws `geometry_error` as `check_drawing` does, and for a line that lies outside.
-  explicit plane_domain(const plane_drawing& drawing, double corner_deg = 15) {
-    check_drawing(drawing);
-    plane_polylines parts = divide_at_corners(drawing, corner_deg);
-    curves_ = std::move(parts.curves);
-    topology_ = make_plane_topology(drawing, parts, curves_);
-    for (const plane_path& polygon : drawing.polygons)
-      for (const vec2 p : polygon.points)
-        bounds_.include({p.x, p.y, 0});
-  }
+  explicit plane_domain(const plane_drawing& drawing, double corner_deg = 15);
 
   const geometry_topology& topology() const { return topology_; }
-  vec3 curve_point(local_id c, double t) const { return in_space(curve(c).at(t)); }
-  dovetail::curve_frame curve_frame(local_id c, double t) const {
-    return {in_space(curve(c).at(t)), in_space(curve(c).direction(t))};
-  }
-  vec2 curve_uv(local_id f, int k, double t) const {
-    const auto& face = topology_.faces[static_cast<std::size_t>(f)];
-    return curve(face.coedges[static_cast<std::size_t>(k)].curve).at(t);
-  }
+  vec3 curve_point(local_id c, double t) const;
+  dovetail::curve_frame curve_frame(local_id c, double t) const;
+  vec2 curve_uv(local_id f, int k, double t) const;
   vec3 face_point(local_id, vec2 uv) const { return in_space(uv); }
   surface_frame face_frame(local_id, vec2 uv) const { return {in_space(uv), {1, 0, 0}, {0, 1, 0}}; }
   double face_curvature(local_id, vec2) const { return 0; }
   vec2 project_to_face(local_id, vec3 p, vec2) const { return {p.x, p.y}; }
-  double project_to_curve(local_id c, vec3 p, double seed) const {
-    return curve(c).nearest({p.x, p.y}, seed);
-  }
+  double project_to_curve(local_id c, vec3 p, double seed) const;
   box3 bounds() const { return bounds_; }
   bool thread_safe() const { return true; }
   /// The plane with its axes, which meshers then evaluate themselves.
@@ -57,4 +47,12 @@ private:
 };
 static_assert(geometry_model<plane_domain>);
 
+#ifdef DOVETAIL_COMPILED
+extern template any_geometry::any_geometry(plane_domain);
+#endif
+
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/models/plane_domain.ipp"
+#endif

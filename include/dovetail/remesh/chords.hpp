@@ -2,17 +2,15 @@
 /// Chords: inner sides of a triangulation that join two points of its boundary.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/simplex.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/remesh/patch.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -23,12 +21,7 @@ public:
   using label_pair = std::array<local_id, 2>; ///< the smaller first
 
   explicit chord_finder(const patch_boundary& boundary) : chord_finder(boundary.labels, boundary.segments) {}
-  chord_finder(std::vector<local_id> labels, std::span<const simplex<1>> segments)
-      : labels_(std::move(labels)) {
-    for (const auto& [a, b] : segments)
-      segments_.push_back(labels_of(a, b));
-    sort_all(segments_);
-  }
+  chord_finder(std::vector<local_id> labels, std::span<const simplex<1>> segments);
   /// Points that are their own labels.
   chord_finder(std::size_t boundary_points, std::span<const simplex<1>> segments)
       : chord_finder(counted(boundary_points), segments) {}
@@ -55,22 +48,10 @@ public:
   }
 
   /// The chords by their points, sorted, each once.
-  std::vector<simplex<1>> all(std::span<const simplex<2>> triangles) const {
-    std::vector<simplex<1>> chords;
-    for (const simplex<2>& triangle : triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        if ((*this)(triangle[k], triangle[(k + 1) % 3]))
-          chords.push_back(sorted_vertices(simplex<1>{triangle[k], triangle[(k + 1) % 3]}));
-    sort_unique(chords);
-    return chords;
-  }
+  std::vector<simplex<1>> all(std::span<const simplex<2>> triangles) const;
 
 private:
-  static std::vector<local_id> counted(std::size_t points) {
-    std::vector<local_id> labels(points);
-    std::iota(labels.begin(), labels.end(), 0);
-    return labels;
-  }
+  static std::vector<local_id> counted(std::size_t points);
   label_pair labels_of(local_id a, local_id b) const {
     return sorted_vertices(
         label_pair{labels_[static_cast<std::size_t>(a)], labels_[static_cast<std::size_t>(b)]});
@@ -81,3 +62,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/remesh/chords.ipp"
+#endif

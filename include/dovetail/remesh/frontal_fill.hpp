@@ -10,6 +10,9 @@
 #include "dovetail/mesh/surface_operations.hpp"
 #include "dovetail/remesh/patch_state.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dovetail::detail {
 
 /// Parameters of `fill_from_front`.

@@ -7,6 +7,8 @@
 #include "dovetail/mesh/surface_operations.hpp"
 #include "dovetail/remesh/patch_state.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -11,6 +11,8 @@
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/remesh/repeated_edges.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>

@@ -4,11 +4,9 @@
 
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
-#include "dovetail/sizing/refined_sizing.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <functional>
-#include <stdexcept>
 #include <vector>
 
 namespace dovetail {
@@ -27,40 +25,16 @@ struct surface_region {
 
 /// The box that a region lies in, about: around its boundary and a grid of points of the surface between,
 /// since a surface may bulge far out of its boundary; with room for what is between these.
-inline box3 place_of(const patch_boundary& boundary, const any_surface& surface) {
-  constexpr int steps = 6;
-  std::vector<vec3> points = boundary.points;
-  vec2 lower = boundary.uv.front(), upper = lower;
-  for (const vec2 uv : boundary.uv) {
-    lower = {std::min(lower.x, uv.x), std::min(lower.y, uv.y)};
-    upper = {std::max(upper.x, uv.x), std::max(upper.y, uv.y)};
-  }
-  const vec2 step = (1.0 / steps) * (upper - lower);
-  for (int i = 1; i < steps; ++i)
-    for (int j = 1; j < steps; ++j)
-      points.push_back(surface.frame({lower.x + i * step.x, lower.y + j * step.y}).point);
-  return roomy_box_around(points);
-}
+box3 place_of(const patch_boundary& boundary, const any_surface& surface);
 
 /// Finds the first region of a face.
 class region_of_face {
 public:
-  explicit region_of_face(const std::vector<surface_region>& regions) {
-    for (std::size_t r = regions.size(); r-- > 0;) {
-      const std::size_t face = place(regions[r].face);
-      first_.resize(std::max(first_.size(), face + 1), no_id);
-      first_[face] = static_cast<local_id>(r);
-    }
-  }
+  explicit region_of_face(const std::vector<surface_region>& regions);
   /// Whether there is a region on the face.
-  bool has(local_id face) const {
-    return face >= no_id && place(face) < first_.size() && first_[place(face)] != no_id;
-  }
+  bool has(local_id face) const;
   /// Throws `std::out_of_range` when there is none.
-  std::size_t operator()(local_id face) const {
-    const local_id r = first_.at(place(face));
-    return r == no_id ? throw std::out_of_range("no region of this face") : static_cast<std::size_t>(r);
-  }
+  std::size_t operator()(local_id face) const;
 
 private:
   /// A face may be `no_id`, which comes first.
@@ -70,3 +44,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/remesh/surface_region.ipp"
+#endif

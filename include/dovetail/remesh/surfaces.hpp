@@ -60,18 +60,13 @@ struct any_surface {
 };
 
 /// A face of a model in the model's own parameters; the model must outlive it.
-inline any_surface surface_of_face(const any_geometry& model, local_id face) {
-  return {[&model, face](vec2 uv) { return model.face_frame(face, uv); },
-          [&model, face](vec3 p, vec2 seed) { return model.project_to_face(face, p, seed); }};
-}
+any_surface surface_of_face(const any_geometry& model, local_id face);
 
 /// A face of a model, which it keeps alive; in orthonormal parameters where it is a plane.
-inline any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face) {
-  any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
-                      [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};
-  if (const auto plane = model->plane_of_face(face))
-    surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
-  return surface;
-}
+any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/remesh/surfaces.ipp"
+#endif

@@ -3,11 +3,25 @@
 /// inside the lines in the lines' order. Regions and faces name their boundaries by these numbers.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
+#include "dovetail/core/fields.hpp"
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
-#include "dovetail/skeleton/remesh_lines.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace dovetail {
+
+/// The points between the two ends of a line, in key order.
+struct fine_line {
+  std::vector<vec3> points; ///< in the order of the line
+  std::vector<double> t;    ///< curve parameters, for a line on a CAD curve
+  std::vector<vec2> uv;     ///< face parameters, for a line on a CAD face
+
+  using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>;
+};
 
 /// Remeshed lines with numbered points.
 struct numbered_lines {
@@ -19,16 +33,7 @@ struct numbered_lines {
   std::vector<host> hosts;                      ///< {3, no_id} inside the domain
 
   /// The numbers along a line, both ends included, from coarse vertex `from`.
-  std::vector<local_id> along(local_id line, local_id from) const {
-    const auto l = static_cast<std::size_t>(line);
-    std::vector<local_id> numbers{number_of(keys[l].vertices[0])};
-    for (std::size_t i = 0; i < lines[l].points.size(); ++i)
-      numbers.push_back(first_point[l] + static_cast<local_id>(i));
-    numbers.push_back(number_of(keys[l].vertices[1]));
-    if (from != keys[l].vertices[0])
-      std::reverse(numbers.begin(), numbers.end());
-    return numbers;
-  }
+  std::vector<local_id> along(local_id line, local_id from) const;
   /// The number of a point of the coarse skeleton.
   local_id number_of(local_id coarse_point) const {
     return number_of_coarse_point[static_cast<std::size_t>(coarse_point)];
@@ -37,29 +42,11 @@ struct numbered_lines {
 
 /// Numbers the points of remeshed lines. `coarse_hosts` may be shorter than `coarse_points`: the others lie
 /// inside.
-inline numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
-                                   std::span<const vec3> coarse_points, std::span<const host> coarse_hosts) {
-  numbered_lines result;
-  result.keys = skeleton.lines;
-  result.number_of_coarse_point.assign(coarse_points.size(), no_id);
-  const auto use = [&](local_id v) { result.number_of_coarse_point[static_cast<std::size_t>(v)] = 0; };
-  for (const skeleton_line& line : skeleton.lines)
-    std::for_each(line.vertices.begin(), line.vertices.end(), use);
-  for (const skeleton_region& region : skeleton.regions)
-    std::for_each(region.fixed_points.begin(), region.fixed_points.end(), use);
-  for (std::size_t v = 0; v < coarse_points.size(); ++v)
-    if (result.number_of_coarse_point[v] != no_id) {
-      result.number_of_coarse_point[v] = static_cast<local_id>(result.points.size());
-      result.points.push_back(coarse_points[v]);
-      result.hosts.push_back(v < coarse_hosts.size() ? coarse_hosts[v] : host{});
-    }
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    result.first_point.push_back(static_cast<local_id>(result.points.size()));
-    append(result.points, lines[l].points);
-    result.hosts.resize(result.points.size(), skeleton.lines[l].on);
-  }
-  result.lines = std::move(lines);
-  return result;
-}
+numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
+                            std::span<const vec3> coarse_points, std::span<const host> coarse_hosts);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/skeleton/fine_lines.ipp"
+#endif

@@ -3,65 +3,23 @@
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
 
-namespace detail {
-
-/// Appends the edges of a line in the direction of the coarse edge from -> to.
-inline void append_line_edges(const numbered_lines& lines, local_id line, local_id from,
-                              std::array<local_id, 2> parts, simplicial_skeleton<2>& skeleton) {
-  const auto l = static_cast<std::size_t>(line);
-  const skeleton_line& key = lines.keys[l];
-  const auto numbers = lines.along(line, from);
-  for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
-    skeleton.sides.own().push_back({numbers[i], numbers[i + 1]});
-    skeleton.subdomains.own().push_back(parts);
-    skeleton.side_hosts.own().push_back(key.on.dimension == 1 ? key.on.id : no_id);
-  }
-}
-
-} // namespace detail
-
 /// The fine skeleton of a decomposed surface from its lines. `sides` is `build_sides(surface.mesh)`. Linear
 /// in the edges made.
-inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side_table<2>& sides,
-                                                const std::vector<local_id>& subdomain_of_triangle,
-                                                const numbered_lines& lines) {
-  simplicial_skeleton<2> skeleton;
-  skeleton.points = lines.points;
-  skeleton.point_hosts = lines.hosts;
-  const auto part = [&](local_id triangle) {
-    return subdomain_of_triangle[static_cast<std::size_t>(triangle)];
-  };
-  for (std::size_t l = 0; l < lines.keys.size(); ++l) {
-    const auto line = static_cast<local_id>(l);
-    const local_id side = find_side<2>(sides, lines.keys[l].vertices);
-    const auto at_side = sides.all_elements(side);
-    const auto passage = [&](std::size_t k) {
-      return side_of_element(surface.mesh, sides, side, at_side[k]);
-    };
-    if (at_side.size() == 2 && passage(0) != passage(1)) {
-      const bool swap = part(at_side[1]) < part(at_side[0]);
-      detail::append_line_edges(lines, line, passage(swap ? 1 : 0)[0],
-                                {part(at_side[swap ? 1 : 0]), part(at_side[swap ? 0 : 1])}, skeleton);
-      continue;
-    }
-    for (std::size_t k = 0; k < at_side.size(); ++k)
-      detail::append_line_edges(lines, line, passage(k)[0], {part(at_side[k]), no_id}, skeleton);
-  }
-  return skeleton;
-}
+simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side_table<2>& sides,
+                                         const std::vector<local_id>& subdomain_of_triangle,
+                                         const numbered_lines& lines);
 
 /// Which chords (inner edges of a region that join two points of lines) must not be: those that coincide with
 /// an edge of a line, and those that another region beside the same CAD curve might have too. Of the regions
@@ -69,92 +27,33 @@ inline simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, con
 class chord_rule {
 public:
   chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine, const numbered_lines& lines,
-             const surface_mesh& surface)
-      : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
-    for (simplex<1>& edge : edges_)
-      edge = sorted_vertices(edge);
-    sort_unique(edges_);
-    for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
-      for (const local_id t : skeleton.regions[r].triangles)
-        add_region(static_cast<local_id>(r), surface.mesh.elements[static_cast<std::size_t>(t)], lines);
-    for (auto& regions : regions_at_) {
-      sort_unique(regions);
-    }
-  }
+             const surface_mesh& surface);
 
   /// Whether a region must not have the chord between two points.
-  bool forbids(local_id region, local_id a, local_id b) const {
-    const auto& at_a = regions_at_[static_cast<std::size_t>(a)];
-    const auto& at_b = regions_at_[static_cast<std::size_t>(b)];
-    const bool an_earlier_region = std::any_of(at_a.begin(), at_a.end(), [&](local_id r) {
-      return r < region && std::binary_search(at_b.begin(), at_b.end(), r);
-    });
-    return an_earlier_region ||
-           std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
-  }
+  bool forbids(local_id region, local_id a, local_id b) const;
 
   /// Of all that the answers for some regions and the points on their boundaries depend on. `points` are
   /// growing. The numbers of regions and points elsewhere are no part of it, since a merge changes these.
-  content_key key(std::span<const local_id> regions, std::span<const local_id> points) const {
-    key_maker make;
-    for (const local_id region : regions)
-      make(earlier_regions(region, points));
-    std::vector<std::array<std::int64_t, 2>> edges; // of lines, by their places in `points`
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), simplex<1>{points[i], 0});
-           edge != edges_.end() && (*edge)[0] == points[i]; ++edge)
-        if (const auto at = std::lower_bound(points.begin(), points.end(), (*edge)[1]);
-            at != points.end() && *at == (*edge)[1])
-          edges.push_back({static_cast<std::int64_t>(i), at - points.begin()});
-    return make(edges).key();
-  }
+  content_key key(std::span<const local_id> regions, std::span<const local_id> points) const;
 
 private:
   /// Of each point the regions before this one that are at another of the points too, numbered in the order
   /// of their appearance, behind their count.
-  std::vector<std::int64_t> earlier_regions(local_id region, std::span<const local_id> points) const {
-    std::map<local_id, std::size_t> met;
-    for (const local_id point : points)
-      for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
-        ++met[r];
-    std::map<local_id, std::int64_t> number;
-    std::vector<std::int64_t> listed;
-    for (const local_id point : points) {
-      const std::size_t at = listed.size();
-      listed.push_back(0);
-      for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
-        if (r < region && met[r] > 1) {
-          listed.push_back(number.try_emplace(r, static_cast<std::int64_t>(number.size())).first->second);
-          ++listed[at];
-        }
-    }
-    return listed;
-  }
+  std::vector<std::int64_t> earlier_regions(local_id region, std::span<const local_id> points) const;
 
   /// Points of the CAD curves that a coarse triangle touches.
-  void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const local_id line = find_line(lines.keys, triangle[i], triangle[(i + 1) % 3]);
-      if (line != no_id && lines.keys[static_cast<std::size_t>(line)].on.dimension == 1)
-        for (const local_id v : lines.along(line, triangle[i]))
-          regions_at_[static_cast<std::size_t>(v)].push_back(region);
-      if (const local_id v = lines.number_of(triangle[i]);
-          v != no_id && lines.hosts[static_cast<std::size_t>(v)].dimension < 2)
-        regions_at_[static_cast<std::size_t>(v)].push_back(region);
-    }
-  }
+  void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines);
 
   std::vector<simplex<1>> edges_;                 ///< of all lines, sorted
   std::vector<std::vector<local_id>> regions_at_; ///< per point; empty for points on no CAD curve
 };
 
 /// The regions of each subsurface, growing.
-inline std::vector<std::vector<local_id>> regions_of_subdomains(const coarse_skeleton& skeleton,
-                                                                std::size_t subdomains) {
-  std::vector<std::vector<local_id>> regions(subdomains);
-  for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
-    regions[static_cast<std::size_t>(skeleton.regions[r].subdomains[0])].push_back(static_cast<local_id>(r));
-  return regions;
-}
+std::vector<std::vector<local_id>> regions_of_subdomains(const coarse_skeleton& skeleton,
+                                                         std::size_t subdomains);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/skeleton/line_skeleton.ipp"
+#endif

@@ -7,7 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/size_balls.hpp"
-#include "dovetail/skeleton/patches.hpp"
+#include "dovetail/skeleton/fine_lines.hpp"
 
 #include <functional>
 #include <memory>

@@ -11,7 +11,9 @@
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 #include "dovetail/skeleton/skeleton_assembly.hpp"
 
+#include <functional>
 #include <set>
+#include <span>
 
 namespace dovetail {
 

@@ -8,6 +8,7 @@
 #include "dovetail/mesh/point_neighbours.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/models/curved_model.hpp"
+#include "dovetail/models/discrete/given_mesh_checks.hpp"
 #include "dovetail/models/discrete/mesh_boundary.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/solver/adapt.hpp"

@@ -4,10 +4,11 @@
 #pragma once
 
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/models/discrete/charted_surface.hpp"
 #include "dovetail/models/discrete/cluster_measures.hpp"
 #include "dovetail/models/discrete/contours.hpp"
 #include "dovetail/models/discrete/loops.hpp"
-#include "dovetail/models/discrete/repair.hpp"
+#include "dovetail/models/discrete/oriented_surfaces.hpp"
 #include "dovetail/models/discrete/smooth_areas.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 /// @file
-/// Triangulated surfaces cut into charts, and the splitting of their triangles along contour lines.
+/// The splitting of the triangles of charted surfaces along contour lines.
 #pragma once
 
-#include "dovetail/geometry/frame.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
+#include "dovetail/models/discrete/charted_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,26 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace dovetail {
-
-/// The surfaces with triangles split where charts end, and the charts.
-struct charted_surface {
-  simplicial_mesh<2> mesh;         ///< with split triangles
-  std::vector<local_id> smooth_of; ///< per triangle: the smooth area; it changes across feature edges
-  std::vector<local_id> chart_of;  ///< per triangle; numbered in the order of their first triangles
-  std::vector<local_id> group_of;  ///< per triangle: named group of the file, or no_id
-  std::vector<local_id> solid_of;  ///< per triangle: the solid behind it; no_id in sheets
-  std::vector<local_id> front_of;  ///< per triangle: the solid in front of it; no_id where there is none
-  std::vector<discrete::chart_frame> frames; ///< per chart
-  std::vector<local_id> corners = {};        ///< points where curves end, whatever their angle
-
-  /// All that is known per triangle.
-  std::array<std::vector<local_id>*, 5> of_triangles() {
-    return {&smooth_of, &chart_of, &group_of, &solid_of, &front_of};
-  }
-};
-
-namespace discrete {
+namespace dovetail::discrete {
 
 /// Signed values at the corners of a triangle; the contour is where they are zero.
 using corner_values = std::array<double, 3>;
@@ -184,5 +165,4 @@ inline void split_along_contours(charted_surface& surface,
   contour_splitter(surface, values).run();
 }
 
-} // namespace discrete
-} // namespace dovetail
+} // namespace dovetail::discrete

@@ -2,7 +2,9 @@
 /// Wavefront OBJ and OFF.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/models/discrete/soup.hpp"
+#include "dovetail/models/discrete/text_scanner.hpp"
 
 #include <charconv>
 #include <string>

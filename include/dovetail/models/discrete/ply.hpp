@@ -2,10 +2,13 @@
 /// PLY, text and binary of either byte order.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/models/discrete/soup.hpp"
+#include "dovetail/models/discrete/text_scanner.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>

@@ -2,9 +2,12 @@
 /// STL, text and binary.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/models/discrete/soup.hpp"
+#include "dovetail/models/discrete/text_scanner.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>

@@ -9,6 +9,7 @@
 
 #include <Geom_Curve.hxx>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>

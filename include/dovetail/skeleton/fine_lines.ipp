@@ -1,0 +1,54 @@
+/// @file
+/// What `fine_lines.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/skeleton/fine_lines.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+DOVETAIL_INLINE std::vector<local_id> numbered_lines::along(local_id line, local_id from) const {
+  const auto l = static_cast<std::size_t>(line);
+  std::vector<local_id> numbers{number_of(keys[l].vertices[0])};
+  for (std::size_t i = 0; i < lines[l].points.size(); ++i)
+    numbers.push_back(first_point[l] + static_cast<local_id>(i));
+  numbers.push_back(number_of(keys[l].vertices[1]));
+  if (from != keys[l].vertices[0])
+    std::reverse(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
+                                            std::span<const vec3> coarse_points,
+                                            std::span<const host> coarse_hosts) {
+  numbered_lines result;
+  result.keys = skeleton.lines;
+  result.number_of_coarse_point.assign(coarse_points.size(), no_id);
+  const auto use = [&](local_id v) { result.number_of_coarse_point[static_cast<std::size_t>(v)] = 0; };
+  for (const skeleton_line& line : skeleton.lines)
+    std::for_each(line.vertices.begin(), line.vertices.end(), use);
+  for (const skeleton_region& region : skeleton.regions)
+    std::for_each(region.fixed_points.begin(), region.fixed_points.end(), use);
+  for (std::size_t v = 0; v < coarse_points.size(); ++v)
+    if (result.number_of_coarse_point[v] != no_id) {
+      result.number_of_coarse_point[v] = static_cast<local_id>(result.points.size());
+      result.points.push_back(coarse_points[v]);
+      result.hosts.push_back(v < coarse_hosts.size() ? coarse_hosts[v] : host{});
+    }
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    result.first_point.push_back(static_cast<local_id>(result.points.size()));
+    append(result.points, lines[l].points);
+    result.hosts.resize(result.points.size(), skeleton.lines[l].on);
+  }
+  result.lines = std::move(lines);
+  return result;
+}
+
+} // namespace dovetail

@@ -1,0 +1,214 @@
+/// @file
+/// What `patches.hpp` declares.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/skeleton/patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+namespace detail {
+
+/// Collects boundary vertices, one for each number and pair of parameters.
+class patch_builder {
+public:
+  explicit patch_builder(const std::vector<vec3>& points) : points_(points) {}
+
+  local_id vertex(local_id number, vec2 uv) {
+    patch_boundary& made = patch_.boundary;
+    local_id& newest = newest_.try_emplace(number, no_id).first->second;
+    for (local_id v = newest; v != no_id; v = older_[static_cast<std::size_t>(v)])
+      if (const vec2 at = made.uv[static_cast<std::size_t>(v)]; at.x == uv.x && at.y == uv.y)
+        return v;
+    older_.push_back(newest);
+    newest = static_cast<local_id>(made.uv.size());
+    made.uv.push_back(uv);
+    made.points.push_back(points_[static_cast<std::size_t>(number)]);
+    made.labels.push_back(number);
+    return newest;
+  }
+  void segment(local_id a, local_id b, local_id line) {
+    patch_.boundary.segments.push_back({a, b});
+    patch_.line_of_segment.push_back(line);
+  }
+  skeleton_patch take() { return std::move(patch_); }
+
+private:
+  const std::vector<vec3>& points_;
+  std::map<local_id, local_id> newest_; ///< the last vertex of a number
+  std::vector<local_id> older_;         ///< per vertex: the one of its number before it
+  skeleton_patch patch_;
+};
+
+/// The parameters on a face of a point of one of its curves. A seam passes the face twice: the passage is the
+/// one whose end is nearer to `end_uv`, the parameters that the triangle beside it has at curve parameter
+/// `end_t`.
+inline local_id coedge_beside(const any_geometry& model, local_id face, local_id curve,
+                              std::array<double, 2> end_t, std::array<vec2, 2> end_uv) {
+  const auto& coedges = model.topology().faces[static_cast<std::size_t>(face)].coedges;
+  local_id best = no_id;
+  double least = 0;
+  for (std::size_t k = 0; k < coedges.size(); ++k) {
+    if (coedges[k].curve != curve)
+      continue;
+    const auto id = static_cast<local_id>(k);
+    const double off = norm(model.curve_uv(face, static_cast<int>(k), end_t[0]) - end_uv[0]) +
+                       norm(model.curve_uv(face, static_cast<int>(k), end_t[1]) - end_uv[1]);
+    if (best == no_id || off < least) {
+      best = id;
+      least = off;
+    }
+  }
+  if (best == no_id)
+    throw mesh_error("face " + std::to_string(face) + " has a coarse edge on curve " + std::to_string(curve) +
+                     ", which does not bound it");
+  return best;
+}
+
+/// A coarse triangle of a region as the face's parameter plane sees it: counter-clockwise there.
+struct plane_triangle {
+  simplex<2> vertices;
+  std::array<vec2, 3> uv;
+};
+
+inline plane_triangle in_parameter_plane(const surface_mesh& surface, local_id triangle, bool reversed) {
+  const auto t = static_cast<std::size_t>(triangle);
+  plane_triangle seen{surface.mesh.elements[t], surface.corner_uv[t]};
+  if (reversed) {
+    std::swap(seen.vertices[1], seen.vertices[2]);
+    std::swap(seen.uv[1], seen.uv[2]);
+  }
+  return seen;
+}
+
+/// An inner edge of a region as one of its triangles passes it, by coarse vertices.
+struct inner_passage {
+  std::array<local_id, 2> vertices;
+  std::array<vec2, 2> uv;
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE skeleton_patch region_patch(const any_geometry& model, const surface_mesh& surface,
+                                            const skeleton_region& region, const numbered_lines& lines) {
+  const bool reversed = model.topology().faces[static_cast<std::size_t>(region.cad_face)].reversed;
+  detail::patch_builder patch(lines.points);
+  std::map<std::array<local_id, 2>, detail::inner_passage>
+      waiting; // inner edges seen once, by sorted vertices
+
+  const auto pass_line = [&](local_id line, std::array<local_id, 2> ends, std::array<vec2, 2> end_uv) {
+    const auto l = static_cast<std::size_t>(line);
+    const skeleton_line& key = lines.keys[l];
+    const bool forward = ends[0] == key.vertices[0];
+    const auto numbers = lines.along(line, ends[0]);
+    const std::array key_uv = forward ? end_uv : std::array{end_uv[1], end_uv[0]};
+    const local_id coedge = key.on.dimension == 1
+                                ? detail::coedge_beside(model, region.cad_face, key.on.id, key.t, key_uv)
+                                : no_id;
+    const auto inner_uv = [&](std::size_t i) { // i counts in key order
+      return coedge == no_id ? lines.lines[l].uv[i]
+                             : model.curve_uv(region.cad_face, static_cast<int>(coedge), lines.lines[l].t[i]);
+    };
+    const std::size_t inner = numbers.size() - 2;
+    local_id before = patch.vertex(numbers.front(), end_uv[0]);
+    for (std::size_t i = 0; i < inner; ++i) {
+      const local_id next = patch.vertex(numbers[i + 1], inner_uv(forward ? i : inner - 1 - i));
+      patch.segment(before, next, line);
+      before = next;
+    }
+    patch.segment(before, patch.vertex(numbers.back(), end_uv[1]), line);
+  };
+
+  // Two triangles on an inner edge that see an end at different parameters meet at a pole: close the gap
+  // there.
+  const auto close_pole = [&](const detail::inner_passage& first, const detail::inner_passage& second) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const vec2 one = first.uv[end], other = second.uv[1 - end];
+      if (one == other)
+        continue;
+      const local_id number = lines.number_of(first.vertices[end]);
+      if (number == no_id)
+        throw mesh_error("face " + std::to_string(region.cad_face) +
+                         ": the parameters of a coarse point inside a region differ between triangles");
+      const local_id a = patch.vertex(number, one), b = patch.vertex(number, other);
+      if (end == 1) // the first triangle runs into the pole here, the second out of it
+        patch.segment(b, a, no_id);
+      else
+        patch.segment(a, b, no_id);
+    }
+  };
+
+  for (const local_id triangle : region.triangles) {
+    const auto seen = detail::in_parameter_plane(surface, triangle, reversed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::array ends{seen.vertices[i], seen.vertices[j]};
+      const std::array end_uv{seen.uv[i], seen.uv[j]};
+      if (const local_id line = find_line(lines.keys, ends[0], ends[1]); line != no_id) {
+        pass_line(line, ends, end_uv);
+        continue;
+      }
+      const auto [found, is_new] =
+          waiting.try_emplace(sorted_vertices(ends), detail::inner_passage{ends, end_uv});
+      if (!is_new)
+        close_pole(found->second, {ends, end_uv});
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::binary_search(region.fixed_points.begin(), region.fixed_points.end(), seen.vertices[i]))
+        patch.vertex(lines.number_of(seen.vertices[i]), seen.uv[i]);
+  }
+  return patch.take();
+}
+
+DOVETAIL_INLINE simplex<2> key_order(const skeleton_face& face) {
+  return sorted_vertices(face.vertices);
+}
+
+DOVETAIL_INLINE std::array<local_id, 3> lines_of(const skeleton_face& face,
+                                                 const std::vector<skeleton_line>& lines) {
+  const simplex<2> key = key_order(face);
+  return {find_line(lines, key[1], key[2]), find_line(lines, key[2], key[0]),
+          find_line(lines, key[0], key[1])};
+}
+
+DOVETAIL_INLINE compressed_rows<local_id> faces_of_lines(const coarse_skeleton& skeleton) {
+  return sorted_into_rows<local_id>(skeleton.lines.size(), [&](const auto& put) {
+    for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
+      for (const local_id line : lines_of(skeleton.faces[f], skeleton.lines))
+        put(line, static_cast<local_id>(f));
+  });
+}
+
+DOVETAIL_INLINE interface_face_patch interface_patch(const skeleton_face& face,
+                                                     std::span<const vec3> coarse_points,
+                                                     const numbered_lines& lines) {
+  const simplex<2> key = key_order(face);
+  std::array<vec3, 3> corners;
+  std::array<std::vector<vec3>, 3> sides;
+  std::array<std::vector<local_id>, 3> labels;
+  const std::array<local_id, 3> line_of_side = lines_of(face, lines.keys);
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i] = coarse_points[static_cast<std::size_t>(key[i])];
+    labels[i] = lines.along(line_of_side[i], key[(i + 1) % 3]);
+    for (const local_id number : labels[i])
+      sides[i].push_back(lines.points[static_cast<std::size_t>(number)]);
+  }
+  remesh::triangle_surface surface(corners, sides);
+  skeleton_patch patch;
+  patch.boundary = remesh::triangle_boundary(surface, sides, labels);
+  for (std::size_t i = 0; i < 3; ++i)
+    patch.line_of_segment.insert(patch.line_of_segment.end(), labels[i].size() - 1, line_of_side[i]);
+  return {std::move(surface), std::move(patch)};
+}
+
+} // namespace dovetail
