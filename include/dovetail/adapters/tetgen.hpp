@@ -10,6 +10,7 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/element_labels.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
 #include <array>
