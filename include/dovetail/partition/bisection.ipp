@@ -6,6 +6,7 @@
 #include "dovetail/graph/breadth_first.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/bisection.hpp"
+#include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/refinement.hpp"
 
 #include <algorithm>
