@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "stop_request.hpp"
 
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/distributed/stack_overflow.hpp"
 #include "dovetail/parallel/run_task.hpp"
 

@@ -3,6 +3,7 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/validity.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "mesher/shapes.hpp"
 #include "support/refusal.hpp"

@@ -1,3 +1,4 @@
+#include "dovetail/core/error.hpp"
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "support/jittered_meshes.hpp"

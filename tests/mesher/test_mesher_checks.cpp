@@ -1,3 +1,5 @@
+#include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/element_labels.hpp"
 #include "mesher/shapes.hpp"

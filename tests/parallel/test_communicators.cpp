@@ -1,4 +1,5 @@
 #include "dovetail/distributed/relay.hpp"
+#include "dovetail/parallel/error_codec.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/self.hpp"
 #include "parallel/communicator_contract.hpp"

@@ -1,3 +1,4 @@
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/distributed/fresh_memory.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/task_board.hpp"

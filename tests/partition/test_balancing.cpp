@@ -1,6 +1,7 @@
 /// The balancing of native partitioners against the rules that it follows, written down without queues.
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/refinement.hpp"
 #include "support/jittered_meshes.hpp"
 

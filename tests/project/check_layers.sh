@@ -54,7 +54,7 @@ done < <(grep -rnE 'byte_(buffer|reader|writer)' "${stages[@]}" || true)
 while IFS= read -r place; do
   complain "$place: a stage names a type-erased policy"
 done < <(grep -rnE 'any_(mesher|improver|partitioner|simplification_rule|surface_mesher)\b' "${stages[@]}" \
-  | grep -vE '^[a-z]+/any_[a-z_]+\.hpp:|:[0-9]+: *///' || true)
+  | grep -vE '^[a-z]+/any_[a-z_]+\.[hi]pp:|:[0-9]+: *///' || true)
 
 # Headers of the standard library have no slash and no dot; POSIX ones are listed.
 posix='^(sys|unistd\.h|fcntl\.h|signal\.h|pthread\.h|poll\.h|sched\.h|dirent\.h|errno\.h|malloc\.h|netinet|linux)'

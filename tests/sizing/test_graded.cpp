@@ -1,3 +1,4 @@
+#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/graded.hpp"

@@ -6,6 +6,7 @@
 #include "dovetail/adapters/call_budget.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #pragma push_macro("Handle") // Open CASCADE defines it
 #undef Handle

@@ -12,6 +12,7 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/shells.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <gmsh.h>
 

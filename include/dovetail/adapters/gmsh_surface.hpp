@@ -8,6 +8,7 @@
 #include "dovetail/distributed/run_in_child.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <gmsh.h>
 

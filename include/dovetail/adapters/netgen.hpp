@@ -11,6 +11,7 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/shells.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 namespace nglib {
 #include <nglib.h>

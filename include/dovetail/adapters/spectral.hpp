@@ -3,6 +3,7 @@
 /// decomposition.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/multilevel.hpp"
 #include "dovetail/partition/part_weights.hpp"
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace dovetail {

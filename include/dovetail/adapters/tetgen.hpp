@@ -6,9 +6,11 @@
 #include "dovetail/adapters/call_budget.hpp"
 #include "dovetail/adapters/tetgen_library.hpp"
 #include "dovetail/adapters/void_points.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/element_labels.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,10 +4,7 @@
 
 #include "dovetail/core/ids.hpp"
 
-#include <cstddef>
-#include <queue>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -15,23 +12,11 @@ namespace dovetail {
 /// One part for each component, then the rest one by one to the component whose parts are heaviest on
 /// average (ties to the first), never more parts than a component has nodes. So the result has at least as
 /// many parts as there are components, and `parts` when there are nodes enough.
-inline std::vector<int> apportion_parts(std::span<const double> component_weights,
-                                        std::span<const local_id> component_nodes, int parts) {
-  std::vector<int> count(component_weights.size(), 1);
-  std::priority_queue<std::pair<double, local_id>> heaviest; // by average weight, then the first component
-  const auto offer = [&](std::size_t c) {
-    if (count[c] < component_nodes[c])
-      heaviest.emplace(component_weights[c] / count[c], -static_cast<local_id>(c));
-  };
-  for (std::size_t c = 0; c < count.size(); ++c)
-    offer(c);
-  for (int left = parts - static_cast<int>(count.size()); left > 0 && !heaviest.empty(); --left) {
-    const auto c = static_cast<std::size_t>(-heaviest.top().second);
-    heaviest.pop();
-    ++count[c];
-    offer(c);
-  }
-  return count;
-}
+std::vector<int> apportion_parts(std::span<const double> component_weights,
+                                 std::span<const local_id> component_nodes, int parts);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/decomposition/apportion.ipp"
+#endif

@@ -22,6 +22,7 @@
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
+#include "dovetail/graph/contraction.hpp"
 #include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/partition/checked_partition.hpp"
 #include "dovetail/partition/concepts.hpp"

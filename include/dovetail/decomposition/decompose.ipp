@@ -10,6 +10,7 @@
 #include "dovetail/decomposition/connected_refinement.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
+#include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/part_weights.hpp"
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/distributed/stack_overflow.hpp"
 #include "dovetail/distributed/task_board.hpp"

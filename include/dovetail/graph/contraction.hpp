@@ -2,14 +2,11 @@
 /// Building and contracting graphs.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,62 +21,11 @@ struct weighted_edge {
 
 /// The graph with the given nodes and edges: parallel edges are merged (weights added), self loops dropped,
 /// rows sorted. Throws `usage_error` when an end is not a node. Linear but for sorting the rows.
-inline csr_graph make_csr_graph(std::vector<double> node_weights, const std::vector<weighted_edge>& edges) {
-  const std::size_t n = node_weights.size();
-  std::vector<std::int64_t> begins(n + 1, 0);
-  for (const weighted_edge& e : edges) {
-    if (e.a < 0 || e.b < 0 || static_cast<std::size_t>(std::max(e.a, e.b)) >= n)
-      throw usage_error("edge (" + std::to_string(e.a) + ", " + std::to_string(e.b) + ") leaves the " +
-                        std::to_string(n) + " nodes of the graph");
-    if (e.a != e.b) {
-      ++begins[static_cast<std::size_t>(e.a) + 1];
-      ++begins[static_cast<std::size_t>(e.b) + 1];
-    }
-  }
-  for (std::size_t v = 0; v < n; ++v)
-    begins[v + 1] += begins[v];
-  std::vector<std::pair<local_id, double>> half_edges(static_cast<std::size_t>(begins[n]));
-  std::vector<std::int64_t> next(begins.begin(), begins.end() - 1);
-  for (const weighted_edge& e : edges)
-    if (e.a != e.b) {
-      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.a)]++)] = {e.b, e.weight};
-      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.b)]++)] = {e.a, e.weight};
-    }
-
-  csr_graph graph;
-  graph.node_weights = std::move(node_weights);
-  graph.offsets.reserve(n + 1);
-  for (std::size_t v = 0; v < n; ++v) {
-    auto* const first = half_edges.data() + begins[v];
-    auto* const last = half_edges.data() + begins[v + 1];
-    std::stable_sort(first, last, [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (const auto* it = first; it != last; ++it)
-      if (it != first && (it - 1)->first == it->first) {
-        graph.edge_weights.back() += it->second;
-      } else {
-        graph.neighbours.push_back(it->first);
-        graph.edge_weights.push_back(it->second);
-      }
-    graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
-  }
-  return graph;
-}
+csr_graph make_csr_graph(std::vector<double> node_weights, const std::vector<weighted_edge>& edges);
 
 /// The mean position of the nodes of each label; empty when the graph has no positions.
-inline std::vector<vec3> mean_positions(std::span<const vec3> positions, std::span<const local_id> label,
-                                        local_id labels) {
-  if (positions.empty())
-    return {};
-  std::vector<vec3> sums(static_cast<std::size_t>(labels));
-  std::vector<double> counts(static_cast<std::size_t>(labels), 0.0);
-  for (std::size_t v = 0; v < label.size(); ++v) {
-    sums[static_cast<std::size_t>(label[v])] += positions[v];
-    counts[static_cast<std::size_t>(label[v])] += 1;
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    sums[k] = sums[k] / std::max(1.0, counts[k]);
-  return sums;
-}
+std::vector<vec3> mean_positions(std::span<const vec3> positions, std::span<const local_id> label,
+                                 local_id labels);
 
 /// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
 /// parallel add up, edges inside a label vanish, positions are averaged.
@@ -166,3 +112,7 @@ labelled_components components_within(const G& graph, std::span<const local_id> 
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/graph/contraction.ipp"
+#endif

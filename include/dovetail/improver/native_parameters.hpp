@@ -40,33 +40,13 @@ struct native {
   /// Count elements by class before and after, for the report. Costs about 5 % of preset `fast`.
   bool statistics = true;
 
-  static native fast() {
-    native preset;
-    preset.target_angle = 24.5;
-    preset.passes = 4;
-    preset.search_iterations = 3;
-    return preset;
-  }
+  static native fast();
   /// The preset for meshes that are to be good; `finest` and `hard` take longer.
   static native fine() { return {}; }
   /// The preset for as good as it gets.
-  static native finest() {
-    native preset;
-    preset.target_angle = 35;
-    preset.passes = 40;
-    preset.hard_passes = 12;
-    preset.global_passes = 1;
-    preset.least_gain = 0.002;
-    preset.search_iterations = 12;
-    return preset;
-  }
+  static native finest();
   /// The preset for small coarse meshes, to be raised whatever it costs.
-  static native hard() {
-    native preset = finest();
-    preset.target_angle = 38;
-    preset.stubborn_angle = 30;
-    return preset;
-  }
+  static native hard();
 
   /// Complexity: O(elements) once, then O(poor elements). Throws `mesh_error` when the input is not a mesh.
   report operator()(simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen = {},
@@ -78,3 +58,7 @@ struct native {
 };
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/native_parameters.ipp"
+#endif

@@ -35,13 +35,7 @@ public:
     return accepted;
   }
   /// Kinds of the same name are added up.
-  void write_to(report& to) const {
-    for (const entry& counted : entries_) {
-      to.add(counted.name + " tried", static_cast<double>(counted.tried));
-      to.add(counted.name + " accepted", static_cast<double>(counted.accepted));
-      to.add(counted.name + " seconds", 16 * counted.sampled_seconds);
-    }
-  }
+  void write_to(report& to) const;
 
 private:
   struct entry {
@@ -71,3 +65,7 @@ private:
 };
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/operation_log.ipp"
+#endif

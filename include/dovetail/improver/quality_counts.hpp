@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace dovetail::improvement {
 
@@ -25,17 +24,7 @@ struct quality_counts {
   of_class limited, free; ///< elements that the fixed boundary limits, and the others
 
   /// Sets counters of a report, named by `when` and the class.
-  void write_to(report& to, const std::string& when) const {
-    for (const auto& [name, counts] : {std::pair{"limited", limited}, std::pair{"free", free}}) {
-      const std::string prefix = when + " " + name + " ";
-      to.set(prefix + "elements", static_cast<double>(counts.elements));
-      to.set(prefix + "inverted", static_cast<double>(counts.inverted));
-      to.set(prefix + "bad", static_cast<double>(counts.bad));
-      to.set(prefix + "low", static_cast<double>(counts.low));
-      to.set(prefix + "min angle", counts.min_angle);
-      to.set(prefix + "max angle", counts.max_angle);
-    }
-  }
+  void write_to(report& to, const std::string& when) const;
 };
 
 /// Makes `quality_counts` from the cosines of the elements' extreme angles.
@@ -64,12 +53,7 @@ public:
     extreme.of_largest = std::min(extreme.of_largest, of_largest);
   }
   /// The counts so far.
-  quality_counts result() const {
-    quality_counts result = counts_;
-    set_angles(result.limited, of_limited_);
-    set_angles(result.free, of_free_);
-    return result;
-  }
+  quality_counts result() const;
 
 private:
   struct extremes {
@@ -80,12 +64,7 @@ private:
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
   }
   quality_counts::of_class& class_of(bool is_limited) { return is_limited ? counts_.limited : counts_.free; }
-  static void set_angles(quality_counts::of_class& counted, const extremes& extreme) {
-    if (counted.elements == counted.inverted)
-      return;
-    counted.min_angle = degrees(extreme.of_smallest);
-    counted.max_angle = degrees(extreme.of_largest);
-  }
+  static void set_angles(quality_counts::of_class& counted, const extremes& extreme);
 
   double cos_low_, cos_bad_;
   quality_counts counts_;
@@ -93,3 +72,7 @@ private:
 };
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/quality_counts.ipp"
+#endif

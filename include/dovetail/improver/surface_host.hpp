@@ -4,14 +4,12 @@
 
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/ids.hpp"
-#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -43,29 +41,11 @@ struct surface_host {
 };
 
 /// Whether every face that is named is known to be a plane, or there is no host.
-inline bool is_plane_throughout(const surface_host& host, const std::vector<local_id>& faces) {
-  if (!host)
-    return true;
-  if (!host.plane_normal || faces.empty())
-    return false;
-  for (std::size_t t = 0; t < faces.size(); ++t)
-    if ((t == 0 || faces[t] != faces[t - 1]) && !(norm_squared(host.plane_normal(faces[t])) > 0))
-      return false;
-  return true;
-}
+bool is_plane_throughout(const surface_host& host, const std::vector<local_id>& faces);
 
 /// The sides of all triangles at poles: there parameters belong to a corner and not to a vertex, so these
 /// triangles are left alone.
-inline std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh,
-                                              const std::vector<bool>& is_pole) {
-  std::vector<simplex<1>> sides;
-  for (const auto& [a, b, c] : mesh.elements)
-    if (is_pole[static_cast<std::size_t>(a)] || is_pole[static_cast<std::size_t>(b)] ||
-        is_pole[static_cast<std::size_t>(c)])
-      for (const simplex<1> side : {simplex<1>{a, b}, {b, c}, {c, a}})
-        sides.push_back(side);
-  return sides;
-}
+std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>& mesh, const std::vector<bool>& is_pole);
 
 namespace improvement {
 
@@ -75,36 +55,10 @@ class triangle_host {
 public:
   triangle_host() = default;
   /// `normals` are per vertex. Vertices on both sides of a fixed side must be different ones.
-  triangle_host(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<vec3> normals)
-      : points_(std::move(points)), triangles_(std::move(triangles)), normals_(std::move(normals)),
-        around_(sorted_into_rows<local_id>(points_.size(), [this](const auto& put) {
-          for (std::size_t t = 0; t < triangles_.size(); ++t)
-            for (const local_id v : triangles_[t])
-              put(v, static_cast<local_id>(t));
-        })) {}
+  triangle_host(std::vector<vec3> points, std::vector<simplex<2>> triangles, std::vector<vec3> normals);
 
   /// The point near p on the triangles around `on`, which becomes the triangle it lies on. O(steps taken).
-  host_point project(vec3 p, local_id& on) const {
-    found best = nearest(on, p);
-    for (int step = 0; step < most_steps; ++step) {
-      const auto& inside = best.weights;
-      if (inside[0] > 0 && inside[1] > 0 && inside[2] > 0)
-        break;
-      const local_id from = on;
-      for (const local_id v : triangles_[at(from)])
-        for (const local_id t : around_[v])
-          if (const found other = nearest(t, p); other.distance_squared < best.distance_squared) {
-            best = other;
-            on = t;
-          }
-      if (on == from)
-        break;
-    }
-    const auto& [a, b, c] = triangles_[at(on)];
-    const auto& w = best.weights;
-    return {
-        best.point, normalized(w[0] * normals_[at(a)] + w[1] * normals_[at(b)] + w[2] * normals_[at(c)]), {}};
-  }
+  host_point project(vec3 p, local_id& on) const;
 
 private:
   static constexpr int most_steps = 100;
@@ -114,12 +68,7 @@ private:
     double distance_squared;
   };
   static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  found nearest(local_id t, vec3 p) const {
-    const auto& [a, b, c] = triangles_[at(t)];
-    const auto w = nearest_on_triangle(points_[at(a)], points_[at(b)], points_[at(c)], p);
-    const vec3 q = w[0] * points_[at(a)] + w[1] * points_[at(b)] + w[2] * points_[at(c)];
-    return {w, q, norm_squared(q - p)};
-  }
+  found nearest(local_id t, vec3 p) const;
 
   std::vector<vec3> points_;
   std::vector<simplex<2>> triangles_;
@@ -129,3 +78,7 @@ private:
 
 } // namespace improvement
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/surface_host.ipp"
+#endif

@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -32,14 +31,7 @@ void check_entries(const simplicial_mesh<D>& mesh) {
                            ", which does not exist");
 }
 
-inline void check_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got) {
-  if (got.size() < given.size())
-    throw mesher_error(std::to_string(given.size() - got.size()) + " of the boundary's points are lost");
-  static_assert(sizeof(vec3) == 3 * sizeof(double));
-  for (std::size_t v = 0; v < given.size(); ++v)
-    if (std::memcmp(&given[v], &got[v], sizeof(vec3)) != 0)
-      throw mesher_error("boundary point " + std::to_string(v) + " was moved");
-}
+void check_points_kept(const std::vector<vec3>& given, const std::vector<vec3>& got);
 
 /// The points after the `given` ones are each in an element: what nobody has is in no mesh and has no number.
 template <int D>
@@ -73,3 +65,7 @@ bool fit_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<
 }
 
 } // namespace dovetail::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesher/result_checks.ipp"
+#endif

@@ -11,15 +11,12 @@
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <exception>
 #include <new>
 #include <string>
@@ -60,12 +57,7 @@ struct finished_piece {
 inline box3 place_of(const piece_input<3>& input) {
   return box_around(input.boundary.boundary.points);
 }
-inline box3 place_of(const piece_input<2>& input) {
-  box3 box = roomy_box_around(input.boundary.boundary.points);
-  for (const surface_region& region : input.boundary.regions)
-    box = united(box, place_of(region.boundary, region.surface));
-  return box;
-}
+box3 place_of(const piece_input<2>& input);
 
 /// The key of a piece: its boundary as the mesher gets it, and the key of the sizes near it. The numbers of
 /// its points in the skeleton are no part of it, since a merge elsewhere changes these.
@@ -84,22 +76,7 @@ content_key key_of(const piece_input<D>& input, content_key sizes) {
 }
 
 /// The reasons of failed attempts in one line, equal ones once: "attempts 1, 3: ...; attempt 2: ...".
-inline std::string joined_reasons(const std::vector<std::string>& reasons) {
-  std::string joined;
-  for (std::size_t k = 0; k < reasons.size(); ++k) {
-    if (std::find(reasons.begin(), reasons.begin() + static_cast<std::ptrdiff_t>(k), reasons[k]) !=
-        reasons.begin() + static_cast<std::ptrdiff_t>(k))
-      continue;
-    std::string attempts;
-    std::size_t count = 0;
-    for (std::size_t other = k; other < reasons.size(); ++other)
-      if (reasons[other] == reasons[k])
-        attempts += (count++ > 0 ? ", " : " ") + std::to_string(other + 1);
-    joined += (joined.empty() ? "" : "; ") + std::string(count > 1 ? "attempts" : "attempt") + attempts +
-              ": " + reasons[k];
-  }
-  return joined.empty() ? "no attempt" : joined;
-}
+std::string joined_reasons(const std::vector<std::string>& reasons);
 
 namespace detail {
 
@@ -133,18 +110,7 @@ auto by_policy(const char* role, const std::string& name, const Work& work) {
 inline void require_boundary(const mesher_input<3>& input) {
   require_enclosing(input.boundary);
 }
-inline void require_boundary(const mesher_input<2>& input) {
-  const auto& [points, edges, tags] = input.boundary;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    for (const local_id v : edges[e])
-      if (v < 0 || static_cast<std::size_t>(v) >= points.size())
-        throw mesher_error("boundary edge " + std::to_string(e) + " refers to point " + std::to_string(v) +
-                           ", which does not exist");
-  for (std::size_t v = 0; v < points.size(); ++v)
-    if (!is_finite(points[v]))
-      throw mesher_error("boundary point " + std::to_string(v) + " is at " + place_text(points[v]) +
-                         "; give finite coordinates");
-}
+void require_boundary(const mesher_input<2>& input);
 
 /// Meshes a piece and checks the result before anything else looks at it: an improver might hide what is
 /// wrong, or be blamed for it.
@@ -209,3 +175,7 @@ finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, co
 
 } // namespace detail
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/meshing/piece_work.ipp"
+#endif

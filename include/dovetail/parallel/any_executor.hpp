@@ -4,14 +4,11 @@
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/encoding.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/self.hpp"
 
 #include <concepts>
-#include <cstdint>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -63,17 +60,7 @@ public:
     }
   }
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
-                                const run_options& options) const {
-    const auto who = [&] { return named_policy("executor", name_); };
-    auto outcomes = call_policy<usage_error>(who, [&] { return run_(count, marked(task), options); });
-    if (outcomes.size() != count)
-      throw usage_error(who() + " gave " + std::to_string(outcomes.size()) + " outcomes for " +
-                        std::to_string(count) + " tasks");
-    for (std::size_t i = 0; i < count; ++i)
-      if (outcomes[i].ok && !take_mark(outcomes[i].result, i))
-        throw usage_error(who() + " gave for task " + std::to_string(i) + " another result than it returned");
-    return outcomes;
-  }
+                                const run_options& options) const;
 
 private:
   template <class E>
@@ -84,24 +71,8 @@ private:
       return parallel::self{};
   }
   /// Each result ends with its task's number, so that none is lost or taken for another's.
-  static task_function marked(const task_function& task) {
-    return [&task](std::size_t i) {
-      byte_buffer result = task(i);
-      const auto number = static_cast<std::uint64_t>(i);
-      const auto* bytes = reinterpret_cast<const std::byte*>(&number);
-      result.reserve(result.size() + sizeof number);
-      result.insert(result.end(), bytes, bytes + sizeof number);
-      return result;
-    };
-  }
-  static bool take_mark(byte_buffer& result, std::size_t i) {
-    std::uint64_t number = 0;
-    if (result.size() < sizeof number)
-      return false;
-    std::memcpy(&number, result.data() + result.size() - sizeof number, sizeof number);
-    result.resize(result.size() - sizeof number);
-    return number == i;
-  }
+  static task_function marked(const task_function& task);
+  static bool take_mark(byte_buffer& result, std::size_t i);
 
   std::string name_;
   int workers_;
@@ -113,3 +84,7 @@ private:
 static_assert(executor<any_executor>);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/any_executor.ipp"
+#endif

@@ -2,32 +2,14 @@
 /// Which processors this process may use.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
-#include <thread>
 #include <vector>
-
-#include <sched.h>
 
 namespace dovetail::parallel {
 
 /// Their numbers, growing; at least one. Those that the process is bound to, by `taskset`, a batch system or
 /// `mpirun`, not those of the machine: two workers on one processor are slower than one.
-inline std::vector<std::int32_t> bound_processors() {
-  std::vector<std::int32_t> numbers;
-  cpu_set_t bound;
-  CPU_ZERO(&bound);
-  if (::sched_getaffinity(0, sizeof bound, &bound) == 0) {
-    for (int p = 0; p < CPU_SETSIZE; ++p)
-      if (CPU_ISSET(p, &bound))
-        numbers.push_back(p);
-  } else { // over 1,024 processors
-    numbers.resize(std::max(1U, std::thread::hardware_concurrency()));
-    std::iota(numbers.begin(), numbers.end(), 0);
-  }
-  return numbers;
-}
+std::vector<std::int32_t> bound_processors();
 
 /// How many there are.
 inline int available_processors() {
@@ -35,3 +17,7 @@ inline int available_processors() {
 }
 
 } // namespace dovetail::parallel
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/available_processors.ipp"
+#endif

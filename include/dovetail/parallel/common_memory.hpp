@@ -9,25 +9,18 @@
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 namespace dovetail {
 
@@ -38,17 +31,7 @@ class common_memory {
 public:
   /// Of `bytes` zeros. Collective; throws `io_error` on all ranks when the file cannot be made.
   common_memory(const any_executor& run, const entity_store& store, const std::string& name,
-                std::size_t bytes)
-      : run_(run), bytes_(std::max<std::size_t>(bytes, 1)) {
-    if (run.has_others() && store.is_common())
-      file_ = store.place_of_file(name);
-    if (file_)
-      run_.once([this] { make_file(); });
-    else if (run.has_others() || run.shares_process())
-      memory_ = own_memory();
-    else
-      memory_ = mapped(-1, PROT_READ | PROT_WRITE);
-  }
+                std::size_t bytes);
 
   /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
   template <class Task>
@@ -75,17 +58,7 @@ public:
   }
 
   /// Once it is filled: from here on it is only read. Collective; throws `io_error` on all ranks.
-  void close() {
-    if (!file_)
-      return;
-    std::exception_ptr failure;
-    try {
-      memory_ = mapped(descriptor(O_RDONLY).get(), PROT_READ);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    run_.network().agree(failure); // the next file of this name may come now
-  }
+  void close();
 
   /// After `close`: items that were written at a place.
   template <class T>
@@ -102,44 +75,13 @@ private:
   }
 
   /// Pages of a file, or with -1 of nothing that processes forked later share.
-  std::shared_ptr<std::byte> mapped(int descriptor, int protection) const {
-    const int kind = MAP_SHARED | (descriptor < 0 ? MAP_ANONYMOUS : 0);
-    void* pages = ::mmap(nullptr, bytes_, protection, kind, descriptor, 0);
-    if (pages == MAP_FAILED && descriptor >= 0)
-      fail("cannot map");
-    if (pages == MAP_FAILED)
-      throw std::bad_alloc();
-    return {static_cast<std::byte*>(pages), [bytes = bytes_](std::byte* p) { ::munmap(p, bytes); }};
-  }
+  std::shared_ptr<std::byte> mapped(int descriptor, int protection) const;
 
-  void make_file() const {
-    std::error_code ignored;
-    std::filesystem::remove(*file_, ignored);
-    const detail::owned_descriptor made = descriptor(O_RDWR | O_CREAT | O_EXCL);
-    if (::ftruncate(made.get(), static_cast<off_t>(bytes_)) != 0)
-      fail("cannot make");
-  }
+  void make_file() const;
 
-  void write_file(std::size_t at, const std::byte* bytes, std::size_t size) const {
-    const detail::owned_descriptor open = descriptor(O_WRONLY);
-    while (size > 0) {
-      const ssize_t written = ::pwrite(open.get(), bytes, size, static_cast<off_t>(at));
-      if (written < 0 && errno == EINTR)
-        continue;
-      if (written <= 0)
-        fail("cannot write");
-      bytes += written;
-      at += static_cast<std::size_t>(written);
-      size -= static_cast<std::size_t>(written);
-    }
-  }
+  void write_file(std::size_t at, const std::byte* bytes, std::size_t size) const;
 
-  detail::owned_descriptor descriptor(int flags) const {
-    detail::owned_descriptor open(::open(file_->c_str(), flags | O_CLOEXEC, 0666));
-    if (open.get() < 0)
-      fail("cannot open");
-    return open;
-  }
+  detail::owned_descriptor descriptor(int flags) const;
 
   [[noreturn]] void fail(const char* what) const {
     const int reason = errno;
@@ -153,3 +95,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/common_memory.ipp"
+#endif

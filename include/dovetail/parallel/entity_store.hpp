@@ -5,11 +5,9 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/encoding.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/spool.hpp"
-#include "dovetail/parallel/spool_exchange.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -17,7 +15,6 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace dovetail {
 
@@ -49,14 +46,7 @@ public:
     return disk_ ? std::optional(disk_->path_of(kind_ + "_" + name) += ".part") : std::nullopt;
   }
   /// Gives each rank those of the entities that others have and its spool has not. Collective.
-  void exchange(const any_communicator& network, std::span<const content_key> keys) const {
-    if (!disk_ || disk_->is_common() || network.size() == 1)
-      return;
-    std::vector<std::string> names;
-    for (const content_key key : keys)
-      names.push_back(name_of(key));
-    exchange_blobs(*disk_, network, names);
-  }
+  void exchange(const any_communicator& network, std::span<const content_key> keys) const;
 
   /// A value that was kept; nothing when it is not there, or its file is damaged.
   template <encodable T>
@@ -76,46 +66,17 @@ public:
   }
 
   /// In a task: keeps it, or says it to `take`, which is called in the process that has started the task.
-  kept_value keep_in_task(content_key key, byte_buffer bytes) {
-    if (!is_shared())
-      return {key, std::move(bytes)};
-    keep(key, std::move(bytes));
-    return {key, {}};
-  }
-  content_key take(kept_value said) {
-    if (said.bytes)
-      keep(said.key, *std::move(said.bytes));
-    return said.key;
-  }
+  kept_value keep_in_task(content_key key, byte_buffer bytes);
+  content_key take(kept_value said);
 
   /// Nothing when the entity is not there, or its file is damaged.
-  std::optional<byte_buffer> find(content_key key) const {
-    if (disk_)
-      return disk_->read(name_of(key));
-    const auto found = memory_.find(key);
-    return found != memory_.end() ? std::optional(found->second) : std::nullopt;
-  }
+  std::optional<byte_buffer> find(content_key key) const;
   /// Throws `io_error` when the entity is missing or damaged.
-  byte_buffer get(content_key key) const {
-    if (auto found = find(key))
-      return *std::move(found);
-    throw io_error((disk_ ? disk_->path_of(name_of(key)).string() : "the " + kind_ + " " + to_string(key)) +
-                   " is missing or damaged; resume the run to make it again");
-  }
+  byte_buffer get(content_key key) const;
   /// Throws `io_error` when it cannot be written.
-  void keep(content_key key, byte_buffer bytes) {
-    if (disk_)
-      disk_->write(name_of(key), bytes);
-    else
-      memory_.insert_or_assign(key, std::move(bytes));
-  }
+  void keep(content_key key, byte_buffer bytes);
   /// Gives up what is kept under a key.
-  void release(content_key key) {
-    if (disk_)
-      disk_->remove(name_of(key));
-    else
-      memory_.erase(key);
-  }
+  void release(content_key key);
 
 private:
   std::string name_of(content_key key) const { return kind_ + "_" + to_string(key); }
@@ -126,3 +87,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/entity_store.ipp"
+#endif

@@ -2,7 +2,7 @@
 /// The executor that does one task after the other, here.
 #pragma once
 
-#include "dovetail/parallel/run_task.hpp"
+#include "dovetail/parallel/concepts.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -13,16 +13,7 @@ namespace dovetail::parallel {
 /// not interrupted: `run_options::limit_seconds` is not enforced.
 struct serial {
   std::vector<task_outcome> run(std::size_t count, const task_function& task,
-                                const run_options& options = {}) const {
-    const auto order = detail::start_order(count, options);
-    std::vector<task_outcome> outcomes(count);
-    options.on_progress(options.stage, 0, count);
-    for (std::size_t done = 0; done < count;) {
-      outcomes[order[done]] = detail::run_task(task, order[done]);
-      options.on_progress(options.stage, ++done, count);
-    }
-    return outcomes;
-  }
+                                const run_options& options = {}) const;
   int workers() const { return 1; }
   bool shares_process() const { return true; }
 };
@@ -30,3 +21,7 @@ struct serial {
 static_assert(executor<serial>);
 
 } // namespace dovetail::parallel
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/parallel/serial.ipp"
+#endif

@@ -7,10 +7,12 @@
 #include "dovetail/parallel/threads.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dovetail::parallel {

@@ -2,8 +2,6 @@
 /// Any distributed graph partitioner behind one type.
 #pragma once
 
-#include "dovetail/core/error.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/partition/any_partitioner.hpp"
 #include "dovetail/partition/distributed_concepts.hpp"
 #include "dovetail/partition/gathered.hpp"
@@ -47,27 +45,11 @@ public:
 
   /// Of a graph that all ranks have: the part of every node, on all ranks. Collective. Who would have to
   /// gather it on rank 0 takes what is there.
-  std::vector<local_id> of_whole(any_communicator& network, const csr_graph& graph, int parts) const {
-    if (!of_whole_)
-      return parts_of_all(network, rows_of_rank(graph, network.rank(), network.size()), parts);
-    const auto who = [&] { return named_policy("partitioner", name_); };
-    auto all = network.once(
-        [&] { return call_policy<partition_error>(who, [&] { return of_whole_(graph, parts); }); });
-    detail::require_partition(all, graph.node_weights.size(), parts, who);
-    return all;
-  }
+  std::vector<local_id> of_whole(any_communicator& network, const csr_graph& graph, int parts) const;
 
 private:
   std::vector<local_id> parts_of_all(any_communicator& network, const distributed_csr_graph& graph,
-                                     int parts) const {
-    const auto who = [&] { return named_policy("partitioner", name_); };
-    const auto mine = call_policy<partition_error>(who, [&] { return call_(network, graph, parts); });
-    std::vector<local_id> all;
-    for (const auto& theirs : network.all_gather(mine))
-      append(all, theirs);
-    detail::require_partition(all, static_cast<std::size_t>(graph.node_count()), parts, who);
-    return all;
-  }
+                                     int parts) const;
 
   std::string name_;
   bool depends_on_ranks_ = false;
@@ -78,3 +60,7 @@ private:
 static_assert(distributed_graph_partitioner<any_distributed_partitioner>);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/any_distributed_partitioner.ipp"
+#endif

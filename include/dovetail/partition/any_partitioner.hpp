@@ -2,7 +2,6 @@
 /// Any graph partitioner behind one type, so that the pipeline is compiled once and not once per partitioner.
 #pragma once
 
-#include "dovetail/partition/checked_partition.hpp"
 #include "dovetail/partition/concepts.hpp"
 
 #include <concepts>
@@ -24,9 +23,7 @@ public:
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
-  std::vector<local_id> operator()(const csr_graph& graph, int parts) const {
-    return checked_partition(call_, graph, parts, name_);
-  }
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const;
 
 private:
   std::string name_;
@@ -35,3 +32,7 @@ private:
 static_assert(graph_partitioner<any_partitioner>);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/any_partitioner.ipp"
+#endif

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/partition/move_gains.hpp"
-#include "dovetail/partition/part_weights.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +12,6 @@
 #include <queue>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,13 +20,7 @@ namespace dovetail {
 /// A partition with limits of its parts' weights, whose nodes are moved one by one.
 class movable_parts {
 public:
-  movable_parts(const csr_graph& graph, std::span<local_id> part, std::vector<double> limits)
-      : graph_(graph), part_(part), limits_(std::move(limits)),
-        weights_(part_weights(graph, part, static_cast<int>(limits_.size()))), counts_(limits_.size(), 0),
-        gains_(graph, part, limits_.size()) {
-    for (const local_id p : part)
-      ++counts_[index(p)];
-  }
+  movable_parts(const csr_graph& graph, std::span<local_id> part, std::vector<double> limits);
   movable_parts(csr_graph&&, std::span<local_id>, std::vector<double>) = delete; // it would be gone
 
   const csr_graph& graph() const { return graph_; }         ///< the graph that is partitioned
@@ -47,14 +39,7 @@ public:
   move_gains& gains() { return gains_; } ///< what moving nodes would gain
 
   /// Gives a node to another part.
-  void move(local_id node, local_id to) {
-    local_id& from = part_[index(node)];
-    weights_[index(from)] -= weight_of_node(node);
-    weights_[index(to)] += weight_of_node(node);
-    --counts_[index(from)];
-    ++counts_[index(to)];
-    from = to;
-  }
+  void move(local_id node, local_id to);
 
 private:
   static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
@@ -75,22 +60,7 @@ public:
   explicit part_balancer(movable_parts& parts) : parts_(parts) {}
 
   /// Moves nodes until no part is overweight, or none may be moved.
-  void run() {
-    bool is_balanced = true;
-    for (local_id p = 0; p < static_cast<local_id>(parts_.part_count()); ++p)
-      is_balanced = is_balanced && !is_overweight(p);
-    if (is_balanced) // always so in a graph without weight, where nothing is relative
-      return;
-    for (local_id p = 0; p < static_cast<local_id>(parts_.part_count()); ++p)
-      by_weight_.insert(standing_of(p));
-    exits_.resize(parts_.part_count());
-    for (std::size_t v = 0; v < parts_.node_count(); ++v)
-      offer(static_cast<local_id>(v));
-    // Every move makes a pair of parts more even, so this ends; the cap guards against rounding.
-    for (std::size_t moves = 0; moves < 4 * parts_.node_count(); ++moves)
-      if (!is_overweight(heaviest()) || !shed_one(heaviest()))
-        return;
-  }
+  void run();
 
 private:
   using offered_node = std::pair<double, local_id>; ///< key, negated node
@@ -113,25 +83,10 @@ private:
   bool is_overweight(local_id part) const { return parts_.weight(part) > parts_.limit(part); }
 
   /// Enters a node with all its gains; entries of former gains are passed over when they come up.
-  void offer(local_id node) {
-    const double w = parts_.weight_of_node(node);
-    if (w <= 0)
-      return;
-    auto& exits = exits_[static_cast<std::size_t>(parts_.part_of(node))];
-    parts_.gains().for_each_target(
-        node, [&](local_id to, double gain) { exits[to].by_gain.emplace(gain / w, -node); });
-  }
+  void offer(local_id node);
 
   /// The gain per weight of a move from one part to another; none when the node is not there, or not beside.
-  std::optional<double> gain_of(local_id node, local_id from, local_id to) {
-    std::optional<double> found;
-    if (parts_.part_of(node) == from)
-      parts_.gains().for_each_target(node, [&](local_id p, double gain) {
-        if (p == to)
-          found = gain / parts_.weight_of_node(node);
-      });
-    return found;
-  }
+  std::optional<double> gain_of(local_id node, local_id from, local_id to);
 
   bool fits(local_id node, local_id from, local_id to) const {
     return (parts_.weight(to) + parts_.weight_of_node(node)) / parts_.limit(to) <
@@ -139,43 +94,9 @@ private:
   }
 
   /// The best move from one part to another.
-  move best_through(exit& way, local_id from, local_id to) {
-    for (; !way.too_heavy.empty() && fits(-way.too_heavy.top().second, from, to); way.too_heavy.pop())
-      if (const auto gain = gain_of(-way.too_heavy.top().second, from, to))
-        way.by_gain.emplace(*gain, way.too_heavy.top().second);
-    for (; !way.by_gain.empty(); way.by_gain.pop()) {
-      const auto [gain, negated] = way.by_gain.top();
-      if (gain_of(-negated, from, to) != gain)
-        continue;
-      if (fits(-negated, from, to))
-        return {-negated, to, gain};
-      way.too_heavy.emplace(parts_.weight_of_node(-negated), negated);
-    }
-    return {};
-  }
+  move best_through(exit& way, local_id from, local_id to);
 
-  bool shed_one(local_id from) {
-    if (parts_.nodes_in(from) < 2)
-      return false;
-    move best;
-    for (auto& [to, way] : exits_[static_cast<std::size_t>(from)]) {
-      const move candidate = best_through(way, from, to);
-      const auto key = [&](const move& m) { return std::tuple(-m.gain, parts_.weight(m.to), m.to); };
-      if (candidate.node != no_id && (best.node == no_id || key(candidate) < key(best)))
-        best = candidate;
-    }
-    if (best.node == no_id)
-      return false;
-    by_weight_.erase(standing_of(from));
-    by_weight_.erase(standing_of(best.to));
-    parts_.move(best.node, best.to);
-    by_weight_.insert(standing_of(from));
-    by_weight_.insert(standing_of(best.to));
-    offer(best.node);
-    for (const local_id other : parts_.graph().row(best.node))
-      offer(other);
-    return true;
-  }
+  bool shed_one(local_id from);
 
   movable_parts& parts_;
   std::set<std::pair<double, local_id>> by_weight_; ///< negated relative weight, part
@@ -183,3 +104,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/balancing.ipp"
+#endif

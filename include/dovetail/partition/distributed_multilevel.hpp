@@ -10,10 +10,8 @@
 #include "dovetail/partition/part_weights.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <vector>
 
 namespace dovetail::detail {
@@ -37,34 +35,11 @@ struct graph_sums {
 };
 
 /// Collective.
-inline graph_sums sums_of(any_communicator& network, const csr_graph& rows) {
-  graph_sums all;
-  for (const graph_sums& more :
-       network.all_gather(graph_sums{sums_of(rows.node_weights), sums_of(rows.edge_weights)})) {
-    all.nodes.add(more.nodes);
-    all.edges.add(more.edges);
-  }
-  return all;
-}
+graph_sums sums_of(any_communicator& network, const csr_graph& rows);
 
 /// Whether no part is empty or heavier than it may be. Collective.
-inline bool keeps_promise(any_communicator& network, const csr_graph& rows, const std::vector<local_id>& part,
-                          int parts, double most) {
-  std::vector<double> nodes(static_cast<std::size_t>(parts), 0);
-  for (const local_id p : part)
-    ++nodes[static_cast<std::size_t>(p)];
-  const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
-    std::transform(from.begin(), from.end(), to.begin(), to.begin(), std::plus<>());
-  };
-  std::vector<double> all_nodes(nodes.size(), 0), weights(nodes.size(), 0);
-  for (const auto& [their_nodes, their_weights] :
-       network.all_gather(std::pair(nodes, part_weights(rows, part, parts)))) {
-    add(their_nodes, all_nodes);
-    add(their_weights, weights);
-  }
-  return *std::min_element(all_nodes.begin(), all_nodes.end()) > 0 &&
-         *std::max_element(weights.begin(), weights.end()) <= most * (1 + 1e-12);
-}
+bool keeps_promise(any_communicator& network, const csr_graph& rows, const std::vector<local_id>& part,
+                   int parts, double most);
 
 /// What each rank's nodes get by `call(sums of the graph)`, collective too, if it keeps the promises of
 /// the role; otherwise rank 0 gathers the graph and repairs that. Graphs that multilevel methods are not made
@@ -102,3 +77,7 @@ std::vector<local_id> partition_distributed(any_communicator& network, const dis
 }
 
 } // namespace dovetail::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/distributed_multilevel.ipp"
+#endif

@@ -2,9 +2,11 @@
 /// What `finishing.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/partition/finishing.hpp"
+#include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/refinement.hpp"
 
 #include <algorithm>

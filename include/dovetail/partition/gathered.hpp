@@ -3,35 +3,19 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/distributed_csr_graph.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/distributed_concepts.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace dovetail {
 
 /// The whole graph on rank 0, an empty one on the others. Collective. Linear in the whole graph.
-inline csr_graph gather_rows(any_communicator& network, const distributed_csr_graph& graph) {
-  if (network.size() == 1)
-    return graph.rows;
-  csr_graph whole;
-  for (const csr_graph& rows : network.gather(graph.rows)) {
-    const std::int64_t edges_before = whole.offsets.back();
-    for (std::size_t v = 1; v < rows.offsets.size(); ++v)
-      whole.offsets.push_back(edges_before + rows.offsets[v]);
-    append(whole.neighbours, rows.neighbours);
-    append(whole.edge_weights, rows.edge_weights);
-    append(whole.node_weights, rows.node_weights);
-    append(whole.positions, rows.positions);
-  }
-  return whole;
-}
+csr_graph gather_rows(any_communicator& network, const distributed_csr_graph& graph);
 
 namespace detail {
 
@@ -68,3 +52,7 @@ gathered(P) -> gathered<P>;
 
 } // namespace partition
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/gathered.ipp"
+#endif

@@ -24,20 +24,10 @@ struct weight_sums {
   bool are_integers = true; ///< of at least 1
 
   void add(double w) { add({1, w, w, w >= 1 && w == std::floor(w)}); }
-  void add(const weight_sums& more) {
-    count += more.count;
-    sum += more.sum;
-    largest = std::max(largest, more.largest);
-    are_integers = are_integers && more.are_integers;
-  }
+  void add(const weight_sums& more);
 };
 
-inline weight_sums sums_of(std::span<const double> weights) {
-  weight_sums sums;
-  for (const double w : weights)
-    sums.add(w);
-  return sums;
-}
+weight_sums sums_of(std::span<const double> weights);
 
 /// Integers of at least 1 in proportion to `weights`, which are some of those in `all`; the weights
 /// themselves when all are small integers. Libraries add weights up in `Int`, so the sum stays below an
@@ -75,3 +65,7 @@ inline bool is_too_small_for_multilevel(const csr_graph& graph, int parts) {
 }
 
 } // namespace dovetail::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/integer_weights.ipp"
+#endif

@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -27,23 +26,8 @@ struct multilevel_options {
 
 /// The graphs above `graph`, each with half the nodes of the one below, until few are left or no two nodes
 /// can be joined.
-inline std::vector<coarsened_graph> coarsened_levels(const csr_graph& graph, int parts,
-                                                     const multilevel_options& options) {
-  const double total = std::accumulate(graph.node_weights.begin(), graph.node_weights.end(), 0.0);
-  const auto target = static_cast<std::int64_t>(options.coarse_nodes_per_part) * parts;
-  std::vector<coarsened_graph> levels;
-  while (true) {
-    const csr_graph& finer = levels.empty() ? graph : levels.back().graph;
-    if (finer.node_count() <= target)
-      break;
-    coarsened_graph coarser =
-        match_heavy_edges(finer, 1.5 * total / static_cast<double>(target), options.seed + levels.size());
-    if (coarser.graph.node_count() > finer.node_count() * 19 / 20)
-      break; // nothing left to match
-    levels.push_back(std::move(coarser));
-  }
-  return levels;
-}
+std::vector<coarsened_graph> coarsened_levels(const csr_graph& graph, int parts,
+                                              const multilevel_options& options);
 
 /// The partition that `partition_small(small graph, parts)` begins, refined by single moves on every level.
 /// About n log n besides. Keeps the promises of a `graph_partitioner`.
@@ -73,3 +57,7 @@ std::vector<local_id> partition_by_levels(const csr_graph& graph, int parts,
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/multilevel.ipp"
+#endif

@@ -2,38 +2,21 @@
 /// What partitioners that go by place have in common.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/finishing.hpp"
 #include "dovetail/partition/part_weights.hpp"
 #include "dovetail/partition/recursive_bisection.hpp"
 
-#include <cmath>
-#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace dovetail::detail {
 
 /// Throws `partition_error` unless every node has a finite position. `name` is the partitioner's.
-inline void require_positions(const csr_graph& graph, const std::string& name) {
-  if (graph.positions.size() != graph.node_weights.size())
-    throw partition_error("the partitioner " + name + " goes by the nodes' positions, but the graph has " +
-                          std::to_string(graph.positions.size()) + " positions for " +
-                          std::to_string(graph.node_weights.size()) +
-                          " nodes; fill csr_graph::positions or use another partitioner");
-  for (std::size_t v = 0; v < graph.positions.size(); ++v)
-    if (const vec3 p = graph.positions[v]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw partition_error("the position of node " + std::to_string(v) +
-                            " is not finite; give finite coordinates");
-}
+void require_positions(const csr_graph& graph, const std::string& name);
 
 /// The smallest box around all nodes.
-inline box3 box_of_positions(const csr_graph& graph) {
-  box3 box;
-  for (const vec3& p : graph.positions)
-    box.include(p);
-  return box;
-}
+box3 box_of_positions(const csr_graph& graph);
 
 /// Parameters of `bisect_by_place`.
 struct place_options {
@@ -54,3 +37,7 @@ std::vector<local_id> bisect_by_place(const csr_graph& graph, int parts, const c
 }
 
 } // namespace dovetail::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/node_positions.ipp"
+#endif

@@ -2,7 +2,6 @@
 /// Recursive bisection by any rule, and cutting an order of nodes into runs of given shares.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/contraction.hpp"
 
 #include <array>
@@ -74,42 +73,11 @@ std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, con
 /// Cuts a sequence of nodes into runs whose weights are as near as possible to the given shares of the whole;
 /// run k gets at least shares[k] nodes, so the shares must not exceed the nodes. Returns the run of each
 /// node. Linear.
-inline std::vector<local_id> cut_order(std::span<const local_id> order, std::span<const double> node_weights,
-                                       std::span<const int> shares) {
-  double total = 0;
-  for (const local_id v : order)
-    total += node_weights[static_cast<std::size_t>(v)];
-  const int all_shares = std::accumulate(shares.begin(), shares.end(), 0);
-  std::vector<local_id> run(node_weights.size(), 0);
-  std::size_t at = 0;
-  double before = 0; // weight of the nodes before `at`
-  int shares_before = 0;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    const auto least_end = at + static_cast<std::size_t>(shares[k]);
-    shares_before += shares[k];
-    const std::size_t largest_end = order.size() - static_cast<std::size_t>(all_shares - shares_before);
-    const double target = total * shares_before / all_shares;
-    while (at < largest_end) {
-      const double w = node_weights[static_cast<std::size_t>(order[at])];
-      const bool nearer_without = before + w - target > target - before;
-      if (at >= least_end && k + 1 < shares.size() && nearer_without)
-        break;
-      run[static_cast<std::size_t>(order[at++])] = static_cast<local_id>(k);
-      before += w;
-    }
-  }
-  return run;
-}
+std::vector<local_id> cut_order(std::span<const local_id> order, std::span<const double> node_weights,
+                                std::span<const int> shares);
 
 /// All nodes by growing key; equal keys by number.
-inline std::vector<local_id> order_by(std::span<const double> keys) {
-  std::vector<local_id> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  stable_sort_all(order, [&](local_id a, local_id b) {
-    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
-  });
-  return order;
-}
+std::vector<local_id> order_by(std::span<const double> keys);
 
 /// Halves 0 and 1 of a graph by growing key, as a `bisection_rule` returns them.
 inline std::vector<local_id> bisect_by_key(const csr_graph& graph, std::span<const double> keys, int left,
@@ -119,3 +87,7 @@ inline std::vector<local_id> bisect_by_key(const csr_graph& graph, std::span<con
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/recursive_bisection.ipp"
+#endif

@@ -24,18 +24,13 @@ struct recursive_coordinate {
   }
 
 private:
-  static std::vector<local_id> across_longest_side(const csr_graph& graph, int left, int right) {
-    const box3 box = detail::box_of_positions(graph);
-    const vec3 extent = box.upper - box.lower;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    std::vector<double> keys;
-    keys.reserve(graph.positions.size());
-    for (const vec3& p : graph.positions)
-      keys.push_back(p[axis]);
-    return bisect_by_key(graph, keys, left, right);
-  }
+  static std::vector<local_id> across_longest_side(const csr_graph& graph, int left, int right);
 };
 
 static_assert(graph_partitioner<recursive_coordinate>);
 
 } // namespace dovetail::partition
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/partition/recursive_coordinate.ipp"
+#endif

@@ -7,6 +7,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/enclosed_regions.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"

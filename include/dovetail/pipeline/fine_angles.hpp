@@ -3,13 +3,10 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/realize.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,81 +14,21 @@ namespace dovetail::detail {
 
 /// Of the edges at which a dihedral may be small: not those inside of a plane interface face, nor those
 /// inside of a CAD face.
-inline std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skeleton) {
-  const auto& first = skeleton.patches.first_triangle;
-  const std::size_t regions = skeleton.coarse.regions.size();
-  std::vector<std::uint32_t> matter;
-  for (std::size_t p = 0; p + 1 < first.size(); ++p) {
-    const bool all = p >= regions && skeleton.coarse.faces[p - regions].is_curved;
-    for (local_id t = first[p]; t < first[p + 1]; ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto ends = pick(skeleton.fine.sides[static_cast<std::size_t>(t)], numbering::sides<2>[k]);
-        if (all || std::max(ends[0], ends[1]) < skeleton.patches.line_points)
-          matter.push_back(static_cast<std::uint32_t>(3 * static_cast<std::size_t>(t) + k));
-      }
-  }
-  return matter;
-}
+std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skeleton);
 
-inline interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
-                                              const divided_background<3>& divided, const any_sizing& size,
-                                              const wanted_angles& wanted) {
-  const auto& first = skeleton.patches.first_triangle;
-  const fine_skeleton& fine = skeleton.fine;
-  std::vector<std::uint8_t> refused(fine.sides.size(), 0);
-  for (std::size_t f = 0; f < skeleton.coarse.faces.size(); ++f)
-    if (const local_id side = skeleton.coarse.faces[f].side;
-        divided.side_states[static_cast<std::size_t>(side)] == side_state::refused) {
-      const std::size_t patch = skeleton.coarse.regions.size() + f;
-      std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1], 1);
-    }
-  auto angles =
-      measure_skeleton_angles(fine, wanted, refused, half_edges_that_matter(skeleton), mesh_state::valid);
-  find_forced(angles, fine.sides, cad_of(fine), size, wanted);
-  return angles;
-}
+interface_angles fine_interface_angles(const realized<3>& skeleton, const simplicial_background<3>&,
+                                       const divided_background<3>& divided, const any_sizing& size,
+                                       const wanted_angles& wanted);
 
 /// The corners are those between the first edges of the lines at each vertex; the faces are all edges of the
 /// lines between subdomains that are on no CAD curve.
-inline interface_angles fine_interface_angles(const realized<2>& skeleton,
-                                              const simplicial_background<2>& mesh,
-                                              const divided_background<2>& divided, const any_sizing&,
-                                              const wanted_angles& wanted) {
-  const auto leaves = [&](local_id side, local_id vertex) {
-    const auto& ends = divided.sides.vertices[static_cast<std::size_t>(side)];
-    const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
-    const auto along = skeleton.lines.along(line, vertex);
-    const auto& points = skeleton.lines.points;
-    return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
-  };
-  auto angles = measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
-                                             skeleton.subdomain_of_element, leaves, mesh_state::valid},
-                                            wanted);
-  const auto& fine = skeleton.fine;
-  angles.interface_faces = 0;
-  for (std::size_t e = 0; e < fine.sides.size(); ++e)
-    if (fine.side_hosts[e] == no_id && fine.subdomains[e][1] != no_id)
-      ++angles.interface_faces;
-  return angles;
-}
+interface_angles fine_interface_angles(const realized<2>& skeleton, const simplicial_background<2>& mesh,
+                                       const divided_background<2>& divided, const any_sizing&,
+                                       const wanted_angles& wanted);
 
 /// For each small angle of a realized decomposition that is not forced: the coarse sides that it is of.
-inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
-                                                                 const interface_angles& angles) {
-  const auto& first = skeleton.patches.first_triangle;
-  const auto regions = static_cast<std::ptrdiff_t>(skeleton.coarse.regions.size());
-  std::vector<std::vector<local_id>> places;
-  for (const angle_violation& v : angles.violations)
-    if (v.cause != violation_cause::forced) {
-      places.emplace_back();
-      for (const local_id triangle : v.sides)
-        if (const auto face =
-                std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1 - regions;
-            face >= 0)
-          places.back().push_back(skeleton.coarse.faces[static_cast<std::size_t>(face)].side);
-    }
-  return places;
-}
+std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
+                                                          const interface_angles& angles);
 /// None that interfaces could keep clear of.
 inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<2>&,
                                                                  const interface_angles&) {
@@ -99,3 +36,7 @@ inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<
 }
 
 } // namespace dovetail::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/fine_angles.ipp"
+#endif

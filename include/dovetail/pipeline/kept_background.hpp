@@ -16,14 +16,7 @@ namespace detail {
 
 /// All that it is a function of is in the identity of the spool. Model and sizes are looked at here too, for
 /// an identity that forgets them.
-inline content_key background_key(int dimension, const any_geometry& model, const erased_sizing& size) {
-  const box3 box = model.bounds();
-  key_maker make;
-  make(std::int64_t{dimension})(static_cast<std::int64_t>(model.topology().faces.size()));
-  for (const vec3 p : {box.lower, box.center(), box.upper})
-    make(p.x)(p.y)(p.z)(size(p));
-  return make.key();
-}
+content_key background_key(int dimension, const any_geometry& model, const erased_sizing& size);
 
 } // namespace detail
 
@@ -57,3 +50,7 @@ void keep_background(const std::optional<spool>& disk, const any_geometry& model
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/kept_background.ipp"
+#endif

@@ -65,14 +65,7 @@ struct generate_options {
 /// One sweep of each kind towards 28 degrees: few elements have a smaller angle where the mesher has a form
 /// for the background, and what is left the simplification contracts. More sweeps leave interfaces no
 /// cleaner.
-inline improvement::native default_background_improver() {
-  return improvement::native{.target_angle = 28,
-                             .stubborn_angle = 15,
-                             .passes = 1,
-                             .hard_passes = 1,
-                             .search_iterations = 1,
-                             .statistics = false};
-}
+improvement::native default_background_improver();
 
 namespace detail {
 
@@ -250,3 +243,7 @@ inline constexpr bool is_parameters<parameters<Policies...>> = true;
 } // namespace detail
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/parameters.ipp"
+#endif

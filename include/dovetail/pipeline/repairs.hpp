@@ -4,7 +4,6 @@
 /// one repair, or none; `decomposition_rounds` does it and begins again, until no step proposes any.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
@@ -13,9 +12,7 @@
 #include "dovetail/sizing/refined_sizing.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,74 +43,12 @@ struct repair {
 };
 
 /// Does a repair that changes something.
-inline void apply(const repair& wanted, decomposition_state& state) {
-  if (!wanted.smaller_sizes.empty()) {
-    state.size.refine(wanted.smaller_sizes);
-    ++state.refinements;
-  }
-  if (!wanted.merges.empty()) {
-    const local_id before = state.merges.merged();
-    state.merges.merge(state.subdomain_of_element, wanted.merges);
-    if (wanted.is_after_failure)
-      state.merged_after_failure += state.merges.merged() - before;
-  }
-}
-
-namespace detail {
-
-/// More rounds of smaller triangles are not worth it where something else helps as well.
-inline int rounds_before_others(int refinement_rounds) {
-  return std::min(refinement_rounds, 2);
-}
-
-/// Two CAD faces that cross, or one that is folded over: smaller triangles there. Throws
-/// `intersection_error` that names the faces when no round is left.
-inline repair repair_of_surfaces(const suppression_plan& plan, const decomposition_state& state,
-                                 const geometry_topology& topology, int refinement_rounds) {
-  const auto least_subdomains = std::max<std::size_t>(1, topology.solids.size());
-  const bool can_be_fewer = static_cast<std::size_t>(state.merges.subdomains()) > least_subdomains;
-  if (!plan.folds.empty() && can_be_fewer && state.refinements >= rounds_before_others(refinement_rounds))
-    return {.too_many_merges = plan.folds}; // whole faces may not fold
-  if (state.refinements == refinement_rounds)
-    throw_crossing_faces(topology, plan.surface_crossings.front().cad_faces);
-  return {.smaller_sizes = balls_around(plan.surface_crossings)};
-}
-
-/// Interfaces that cross something: the two subdomains are merged. Where that is too many, or lines are at
-/// fault, first smaller triangles, which are nearer to the surface, and so farther from the interfaces
-/// inside.
-inline repair repair_of_interfaces(const suppression_plan& plan, const decomposition_state& state,
-                                   int refinement_rounds) {
-  const bool may_refine =
-      !plan.interface_crossings.empty() && state.refinements < rounds_before_others(refinement_rounds);
-  const auto refined = [&] {
-    return repair{.smaller_sizes = balls_around(one_of_each_place(plan.interface_crossings))};
-  };
-  if (!plan.lines_at_fault.empty() && may_refine)
-    return refined();
-  if (!plan.merges_suffice)
-    throw mesher_error(plan.lines_at_fault);
-  const std::string refusal = state.merges.refusal_of(plan.merges);
-  if (refusal.empty())
-    return {.merges = plan.merges};
-  if (may_refine)
-    return refined();
-  return {.too_many_merges = refusal + ": their interfaces cross the surface"};
-}
-
-} // namespace detail
+void apply(const repair& wanted, decomposition_state& state);
 
 /// What is to be done about crossings. Throws `intersection_error` when two CAD faces cross, and
 /// `mesher_error` when lines are at fault that no merge removes.
-inline std::optional<repair> repair_of_crossings(const suppression_plan& plan,
-                                                 const decomposition_state& state,
-                                                 const geometry_topology& topology, int refinement_rounds) {
-  if (plan.empty())
-    return {};
-  if (!plan.surface_crossings.empty() && plan.merges.empty())
-    return detail::repair_of_surfaces(plan, state, topology, refinement_rounds);
-  return detail::repair_of_interfaces(plan, state, refinement_rounds);
-}
+std::optional<repair> repair_of_crossings(const suppression_plan& plan, const decomposition_state& state,
+                                          const geometry_topology& topology, int refinement_rounds);
 
 /// Smaller sizes at the faults of surfaces by which pieces have failed, as long as there are rounds.
 inline std::optional<repair> refine_faults(const std::vector<surface_crossing>& faults) {
@@ -144,3 +79,7 @@ std::optional<repair> merge_failures(const simplicial_skeleton<D>& skeleton,
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/pipeline/repairs.ipp"
+#endif

@@ -27,24 +27,12 @@ public:
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }
-  side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const {
-    return asked([&] { return held_->judge(mesh, sides); });
-  }
-  side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
-    return asked([&] { return held_->judge(mesh, sides); });
-  }
-  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const {
-    return asked([&] { return held_->prefer_removal(a, b); });
-  }
-  std::optional<ridge_decision> propagate(const side_below& below) const {
-    return asked([&] { return held_->propagate(below); });
-  }
-  double penalty(const deficit& missed) const {
-    return asked([&] { return held_->penalty(missed); });
-  }
-  wanted_angles wants(int dimension) const {
-    return asked([&] { return held_->wants(dimension); });
-  }
+  side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const;
+  side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const;
+  bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const;
+  std::optional<ridge_decision> propagate(const side_below& below) const;
+  double penalty(const deficit& missed) const;
+  wanted_angles wants(int dimension) const;
 
 private:
   template <class F>
@@ -90,3 +78,7 @@ static_assert(simplification_rule<any_simplification_rule, 2> &&
               simplification_rule<any_simplification_rule, 3>);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/simplification/any_simplification_rule.ipp"
+#endif

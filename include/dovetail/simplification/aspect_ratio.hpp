@@ -3,17 +3,12 @@
 /// dihedrals the side of worse ratio goes.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/simplification/rule_parts.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace dovetail::simplifier {
 
@@ -27,35 +22,20 @@ struct aspect_ratio {
   double volume_dihedral_deg = 30;  ///< smaller dihedral angles between faces are removed; 0: none
   refusal_penalty penalty_of_refusal = {}; ///< of sides that the bound refuses to remove
 
-  side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const {
-    side_judgement judged{std::vector<double>(sides.size()), volume_ratio, volume_dihedral_deg};
-    for (std::size_t s = 0; s < sides.size(); ++s)
-      judged.quality[s] = ratio(corners(span_of(mesh.points), sides.vertices[s]));
-    return judged;
-  }
-  side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const {
-    side_judgement judged{std::vector<double>(sides.size(), 1.0), surface_ratio, surface_dihedral_deg};
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      for (const local_id side : sides.of_element[e]) {
-        double& quality = judged.quality[static_cast<std::size_t>(side)];
-        quality = std::min(quality, ratio(corners(span_of(mesh.points), mesh.elements[e])));
-      }
-    return judged;
-  }
+  side_judgement operator()(const simplicial_mesh<3>& mesh, const side_table<3>& sides) const;
+  side_judgement operator()(const simplicial_mesh<2>& mesh, const side_table<2>& sides) const;
   bool prefer_removal(const dihedral_side& a, const dihedral_side& b) const { return is_worse(a, b); }
   std::optional<ridge_decision> propagate(const side_below& below) const { return as_below(below, 1); }
   double penalty(const deficit& missed) const { return penalty_of_refusal(missed); }
 
   /// Twice the radius of the inscribed circle over that of the circumscribed one; 0 for a degenerate
   /// triangle.
-  static double ratio(const std::array<vec3, 3>& p) {
-    const double a = norm(p[2] - p[1]);
-    const double b = norm(p[0] - p[2]);
-    const double c = norm(p[1] - p[0]);
-    const double product = a * b * c;
-    return product > 0 ? std::max(0.0, (b + c - a) * (c + a - b) * (a + b - c) / product) : 0;
-  }
+  static double ratio(const std::array<vec3, 3>& p);
 };
 static_assert(simplification_rule<aspect_ratio, 2> && simplification_rule<aspect_ratio, 3>);
 
 } // namespace dovetail::simplifier
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/simplification/aspect_ratio.ipp"
+#endif

@@ -2,38 +2,21 @@
 /// The own shape of a side, by which the worse of two sides is told.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
-#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/side_table.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
 namespace dovetail {
 
 /// D = 3: the smallest corner angle of each side, in degrees.
-inline std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const side_table<3>& sides) {
-  std::vector<double> shapes(sides.size());
-  for (std::size_t s = 0; s < sides.size(); ++s)
-    shapes[s] = smallest_corner_angle(corners(span_of(mesh.points), sides.vertices[s]));
-  return shapes;
-}
+std::vector<double> side_shapes(const simplicial_mesh<3>& mesh, const side_table<3>& sides);
 
 /// D = 2: an edge has no angle of its own; it is judged by the smallest corner angle that it bounds.
-inline std::vector<double> side_shapes(const simplicial_mesh<2>& mesh, const side_table<2>& sides) {
-  std::vector<double> shapes(sides.size(), 180.0);
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto angles = dihedral_angles(corners(span_of(mesh.points), mesh.elements[e]));
-    for (std::size_t r = 0; r < angles.size(); ++r)
-      for (const int local : numbering::sides_of_ridge<2>[r]) {
-        double& shape =
-            shapes[static_cast<std::size_t>(sides.of_element[e][static_cast<std::size_t>(local)])];
-        shape = std::min(shape, angles[r]);
-      }
-  }
-  return shapes;
-}
+std::vector<double> side_shapes(const simplicial_mesh<2>& mesh, const side_table<2>& sides);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/simplification/side_shape.ipp"
+#endif

@@ -8,6 +8,9 @@
 #include "dovetail/simplification/bounded_contraction.hpp"
 #include "dovetail/simplification/graph_dual.hpp"
 #include "dovetail/simplification/mesh_duals.hpp"
+#ifdef DOVETAIL_COMPILED
+#include "dovetail/simplification/paper.hpp"
+#endif
 
 #include <algorithm>
 #include <concepts>
@@ -83,4 +86,20 @@ simplification simplify(const G& graph, const graph_dual& duals, const Rule& rul
   return out;
 }
 
+#ifdef DOVETAIL_COMPILED
+// By the default rule.
+extern template simplification simplify<2>(const simplicial_mesh<2>& mesh, const mesh_duals<2>& duals,
+                                           const simplifier::paper& rule, const contraction_bound& bound,
+                                           std::span<const coupled_ridge<2>> coupled,
+                                           const progress& on_progress);
+extern template simplification simplify<3>(const simplicial_mesh<3>& mesh, const mesh_duals<3>& duals,
+                                           const simplifier::paper& rule, const contraction_bound& bound,
+                                           std::span<const coupled_ridge<3>> coupled,
+                                           const progress& on_progress);
+#endif
+
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/simplification/simplify.ipp"
+#endif

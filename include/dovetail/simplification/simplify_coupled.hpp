@@ -2,12 +2,10 @@
 /// The simplification of a solid's coarse mesh: first its surface, then, coupled to it, its volume.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/simplification/simplify.hpp"
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace dovetail {
@@ -47,20 +45,8 @@ struct coupled_simplification {
 namespace detail {
 
 /// Throws `usage_error` for a point of the surface that is none of the volume.
-inline void require_surface_points(std::span<const local_id> volume_point, const simplicial_mesh<2>& surface,
-                                   const simplicial_mesh<3>& volume) {
-  if (volume_point.empty())
-    return;
-  if (volume_point.size() != surface.points.size())
-    throw usage_error("simplify_coupled: " + std::to_string(volume_point.size()) +
-                      " points of the volume for " + std::to_string(surface.points.size()) +
-                      " points of the surface; give one each or none");
-  for (std::size_t v = 0; v < volume_point.size(); ++v)
-    if (volume_point[v] < 0 || static_cast<std::size_t>(volume_point[v]) >= volume.points.size())
-      throw usage_error("simplify_coupled: point " + std::to_string(v) + " of the surface is point " +
-                        std::to_string(volume_point[v]) + " of the volume, which has " +
-                        std::to_string(volume.points.size()));
-}
+void require_surface_points(std::span<const local_id> volume_point, const simplicial_mesh<2>& surface,
+                            const simplicial_mesh<3>& volume);
 
 } // namespace detail
 
@@ -89,3 +75,7 @@ template <class Rule>
   }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/simplification/simplify_coupled.ipp"
+#endif

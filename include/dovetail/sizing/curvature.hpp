@@ -2,7 +2,6 @@
 /// Sizes from the curvature of a CAD model: so many elements per full circle.
 #pragma once
 
-#include "dovetail/core/number_text.hpp"
 #include "dovetail/sizing/point_sizes.hpp"
 #include "dovetail/sizing/surface_samples.hpp"
 
@@ -29,19 +28,7 @@ struct curvature_options {
 namespace sizing {
 
 /// The range with its defaults filled in. Throws `sizing_error` when it is empty.
-inline model_size_range range_for(const box3& bounds, model_size_range range) {
-  const double diagonal = checked_size(bounds.diagonal(), "the diagonal of the model");
-  checked_length(range.smallest, "the smallest size");
-  checked_length(range.largest, "the largest size");
-  if (range.largest == 0)
-    range.largest = 0.1 * diagonal;
-  if (range.smallest == 0)
-    range.smallest = std::min(1e-3 * diagonal, range.largest);
-  if (range.smallest > range.largest)
-    throw sizing_error("the smallest size " + number_text(range.smallest) + " exceeds the largest " +
-                       number_text(range.largest) + "; exchange them");
-  return range;
-}
+model_size_range range_for(const box3& bounds, model_size_range range);
 
 /// Sizes of 2 pi / (elements x curvature) on the faces of a model, where that is below the largest.
 template <geometry_model G>
@@ -73,3 +60,7 @@ point_sizes curvature_size(const G& model, const curvature_options& options = {}
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/curvature.ipp"
+#endif

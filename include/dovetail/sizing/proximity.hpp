@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -36,16 +36,7 @@ public:
 
   /// The sample of least height above the plane through `from` with unit normal `direction`, of at most
   /// `reach`, that looks back; `slack` is the distance between samples. Null when there is none.
-  const surface_sample* find(const surface_sample& from, vec3 direction, double reach, double slack) const {
-    query q{from, direction, reach, slack, nullptr};
-    const auto height_of = [&](std::size_t id) {
-      return dot(tree_.box(id).center() - from.point, direction);
-    };
-    tree_.search([&](std::size_t id) { return may_hold(tree_.box(id), q); },
-                 [&](local_id k) { consider(samples_[static_cast<std::size_t>(k)], q); },
-                 [&](std::size_t a, std::size_t b) { return height_of(a) < height_of(b); });
-    return q.best;
-  }
+  const surface_sample* find(const surface_sample& from, vec3 direction, double reach, double slack) const;
 
 private:
   struct query {
@@ -61,30 +52,9 @@ private:
   static constexpr double aside = 0.5; ///< largest offset along the plane per height
 
   /// Whether a box may hold a point above the plane, low enough and not too far aside.
-  static bool may_hold(const box3& box, const query& q) {
-    const vec3 center = box.center() - q.from.point;
-    const vec3 half = 0.5 * (box.upper - box.lower);
-    const double along = dot(center, q.direction);
-    const double spread = std::abs(q.direction.x) * half.x + std::abs(q.direction.y) * half.y +
-                          std::abs(q.direction.z) * half.z;
-    const double lowest = along - spread;
-    const double highest = std::min(along + spread, q.height);
-    if (highest <= 0 || lowest >= q.height)
-      return false;
-    const double off = norm(center - along * q.direction) - norm(half);
-    return off <= std::max(aside * highest, q.slack);
-  }
+  static bool may_hold(const box3& box, const query& q);
 
-  static void consider(const surface_sample& s, query& q) {
-    const vec3 away = s.point - q.from.point;
-    const double along = dot(away, q.direction);
-    if (along <= 0 || along >= q.height || dot(s.normal, q.from.normal) > looks_back)
-      return;
-    if (norm(away - along * q.direction) > std::max(aside * along, q.slack))
-      return;
-    q.height = along;
-    q.best = &s;
-  }
+  static void consider(const surface_sample& s, query& q);
 
   std::vector<surface_sample> samples_;
   box_tree tree_;
@@ -156,3 +126,7 @@ point_sizes proximity_size(const G& model, const proximity_options& options = {}
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/proximity.ipp"
+#endif

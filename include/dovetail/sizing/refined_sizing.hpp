@@ -7,7 +7,6 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
-#include <algorithm>
 #include <concepts>
 #include <span>
 #include <utility>
@@ -27,17 +26,7 @@ public:
   /// Whether there are balls: else all of it is the same everywhere, and no box need be known.
   bool is_refined() const { return !balls_.empty(); }
   /// Adds the balls that ask for less than the field at their centers. O(n log n) in all balls.
-  void refine(std::span<const size_ball> more) {
-    for (const size_ball& ball : more)
-      if (const double plain = plain_(ball.center); ball.size < plain) {
-        balls_.push_back(ball);
-        reaches_.push_back(ball.radius + (plain - ball.size) / growth);
-      }
-    std::vector<box3> boxes;
-    for (std::size_t k = 0; k < balls_.size(); ++k)
-      boxes.push_back(inflated({balls_[k].center, balls_[k].center}, reaches_[k]));
-    tree_ = box_tree(boxes);
-  }
+  void refine(std::span<const size_ball> more);
 
   /// All that a run adds to the plain field, for another process that has that one: the balls.
   void encode(byte_writer& to) const { to.array(balls_); }
@@ -61,20 +50,7 @@ public:
 private:
   static constexpr double growth = 0.3;
 
-  std::vector<size_ball> balls_near(const box3& entity) const {
-    std::vector<std::size_t> found;
-    tree_.for_each([&](const box3& node, std::size_t) { return node.overlaps(entity); },
-                   [&](local_id ball) {
-                     const auto k = static_cast<std::size_t>(ball);
-                     if (distance_squared(entity, balls_[k].center) <= reaches_[k] * reaches_[k])
-                       found.push_back(k);
-                   });
-    std::sort(found.begin(), found.end());
-    std::vector<size_ball> balls;
-    for (const std::size_t k : found)
-      balls.push_back(balls_[k]);
-    return balls;
-  }
+  std::vector<size_ball> balls_near(const box3& entity) const;
 
   any_sizing plain_;
   std::vector<size_ball> balls_; ///< in the order in which they were added
@@ -83,12 +59,7 @@ private:
 };
 
 /// The box around points of an entity.
-inline box3 box_around(std::span<const vec3> points) {
-  box3 box;
-  for (const vec3 p : points)
-    box.include(p);
-  return box;
-}
+box3 box_around(std::span<const vec3> points);
 /// The same with room for what bulges out between the points of a line or of the boundary of a surface.
 inline box3 roomy_box_around(std::span<const vec3> points) {
   const box3 box = box_around(points);
@@ -96,3 +67,7 @@ inline box3 roomy_box_around(std::span<const vec3> points) {
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/refined_sizing.ipp"
+#endif

@@ -8,7 +8,6 @@
 #include "dovetail/sizing/erased.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -25,30 +24,12 @@ struct size_ball {
 /// p -> min over balls of size + growth * distance to the ball. A tree over the balls: a query visits few.
 class graded_balls {
 public:
-  graded_balls(std::vector<size_ball> balls, double growth)
-      : balls_(std::move(balls)),
-        tree_(boxes_of_points(balls_, [](const size_ball& ball) { return ball.center; }), leaf_size),
-        growth_(growth) {
-    tree_.put_in_order(balls_);
-    nodes_ = tree_.reduce<node>([this](local_id k) { return of_ball(k); },
-                                [](const node& a, const node& b) {
-                                  return node{std::min(a.size, b.size), std::max(a.radius, b.radius)};
-                                });
-  }
+  graded_balls(std::vector<size_ball> balls, double growth);
 
   std::size_t size() const { return balls_.size(); }
 
   /// The smaller of `bound` and the field at p.
-  double operator()(vec3 p, double bound) const {
-    const auto lower_bound = [&](std::size_t id) {
-      const double gap = std::sqrt(distance_squared(tree_.box(id), p));
-      return nodes_[id].size + growth_ * std::max(0.0, gap - nodes_[id].radius);
-    };
-    return tree_.least(bound, lower_bound, [&](local_id k) {
-      const size_ball& ball = balls_[static_cast<std::size_t>(k)];
-      return ball.size + growth_ * std::max(0.0, distance(p, ball.center) - ball.radius);
-    });
-  }
+  double operator()(vec3 p, double bound) const;
 
 private:
   struct node {
@@ -90,13 +71,10 @@ private:
 };
 
 /// `field`, held within those of the bounds that ask for less than it does at their centers.
-inline any_sizing within_bounds(any_sizing field, std::vector<size_ball> bounds, double growth) {
-  bounds.erase(std::remove_if(bounds.begin(), bounds.end(),
-                              [&](const size_ball& ball) { return !(ball.size < field(ball.center)); }),
-               bounds.end());
-  if (bounds.empty())
-    return field;
-  return keep_bounds(bounded_size(std::move(field), std::move(bounds), growth));
-}
+any_sizing within_bounds(any_sizing field, std::vector<size_ball> bounds, double growth);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/size_balls.ipp"
+#endif

@@ -6,15 +6,10 @@
 #include "dovetail/sizing/erased.hpp"
 #include "dovetail/sizing/octree_values.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace dovetail {
 
@@ -51,23 +46,10 @@ private:
 
   class table : public sizing::octree_values {
   public:
-    table(erased_sizing field, const box3& domain, const table_options& options)
-        : octree_values(cube_of(domain)), field_(std::move(field)), domain_(domain) {
-      sizing::checked_size(options.relative_error, "the error of precomputed sizes");
-      fill(options);
-      id_of_ = {};
-      find_least_values();
-    }
+    table(erased_sizing field, const box3& domain, const table_options& options);
 
     double value(vec3 p) const { return contains(domain_, p) ? interpolated(tree_.locate(p), p) : field_(p); }
-    double smallest_in(const box3& box) const {
-      double least = std::numeric_limits<double>::infinity();
-      if (box.overlaps(domain_))
-        least = least_in(box);
-      if (!contains(domain_, box.lower) || !contains(domain_, box.upper))
-        least = std::min(least, field_.smallest_size_in(box));
-      return least;
-    }
+    double smallest_in(const box3& box) const;
     const erased_sizing& field() const { return field_; }
     double error() const { return error_; }
 
@@ -79,41 +61,9 @@ private:
     }
 
     /// Splits level by level. Leaves beside the domain stay as they are.
-    void fill(const table_options& options) {
-      std::vector<std::size_t> level{tree_.leaf(0)};
-      while (!level.empty()) {
-        corners_.resize(tree_.leaf_count());
-        for (const std::size_t leaf : level)
-          for (std::uint32_t k = 0; k < 8; ++k)
-            corners_[tree_.leaf_index(leaf)][k] = corner_at(tree_.corner_key(leaf, k));
-        std::vector<std::size_t> next;
-        for (const std::size_t leaf : level) {
-          const box3 box = tree_.box(leaf);
-          if (!box.overlaps(domain_))
-            continue;
-          const double exact = field_(box.center());
-          const double error = std::abs(interpolated(leaf, box.center()) - exact) / exact;
-          const bool is_fine = error <= options.relative_error &&
-                               box.upper.x - box.lower.x <= width_per_size * field_.smallest_size_in(box);
-          const std::size_t first = tree_.node_count();
-          if (!is_fine && tree_.leaf_count() < options.largest_leaves)
-            tree_.split(leaf);
-          if (tree_.node_count() == first)
-            error_ = std::max(error_, error);
-          for (std::size_t child = first; child < tree_.node_count(); ++child)
-            next.push_back(child);
-        }
-        level.swap(next);
-      }
-    }
+    void fill(const table_options& options);
 
-    std::uint32_t corner_at(const octree::key& at) {
-      const std::uint64_t code = (std::uint64_t{at[0]} << 42U) | (std::uint64_t{at[1]} << 21U) | at[2];
-      const auto [found, is_new] = id_of_.try_emplace(code, static_cast<std::uint32_t>(values_.size()));
-      if (is_new)
-        values_.push_back(field_(tree_.corner_point(at)));
-      return found->second;
-    }
+    std::uint32_t corner_at(const octree::key& at);
 
     erased_sizing field_;
     box3 domain_;
@@ -125,3 +75,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/tabulated.ipp"
+#endif

@@ -109,37 +109,11 @@ void append_children(const volume_cell& parent, const inside_surface& inside, co
 
 /// Of two kinds of errors, adding up linearly and as independent samples, marks the cells to split. Returns
 /// the total error.
-inline double mark_volume_cells(const std::vector<volume_cell>& cells, double allowed,
-                                std::vector<char>& marked) {
-  struct variance_view {
-    double error;
-  };
-  std::vector<variance_view> variances;
-  variances.reserve(cells.size());
-  for (const volume_cell& c : cells)
-    variances.push_back({c.variance});
-  std::vector<char> for_variance;
-  const double bias = mark_largest_errors(cells, 0.25 * allowed, marked);
-  const double variance = mark_largest_errors(variances, 0.0625 * allowed * allowed, for_variance);
-  for (std::size_t i = 0; i < marked.size(); ++i)
-    marked[i] = marked[i] != 0 || for_variance[i] != 0 ? 1 : 0;
-  return bias + 2 * std::sqrt(variance);
-}
+double mark_volume_cells(const std::vector<volume_cell>& cells, double allowed, std::vector<char>& marked);
 
 /// The sum over all cells, the cut ones scaled so that the volume inside comes out as the surface encloses it
 /// (unless its orientation is wrong, which shows in a factor far from one).
-inline double total_integral(const std::vector<volume_cell>& cells, double enclosed_volume) {
-  double whole = 0;
-  double cut = 0;
-  double whole_volume = 0;
-  double cut_volume = 0;
-  for (const volume_cell& c : cells) {
-    (c.triangles.empty() ? whole : cut) += c.integral;
-    (c.triangles.empty() ? whole_volume : cut_volume) += c.volume_inside;
-  }
-  const double factor = cut_volume > 0 ? (enclosed_volume - whole_volume) / cut_volume : 1.0;
-  return whole + (factor > 0.5 && factor < 2 ? factor : 1.0) * cut;
-}
+double total_integral(const std::vector<volume_cell>& cells, double enclosed_volume);
 
 } // namespace sizing
 
@@ -196,3 +170,7 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/sizing/volume_prediction.ipp"
+#endif

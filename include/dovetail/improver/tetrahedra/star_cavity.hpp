@@ -7,6 +7,7 @@
 #include "dovetail/improver/tetrahedra/size_band.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace dovetail::improvement {
 
@@ -22,42 +23,11 @@ struct star_cavity {
 
 /// Marks exactly the elements of `cavity` and lists its outline. Sides at `apex` (an existing vertex on the
 /// outline that the cavity is to be filled from, or `no_id`) are left out. False when there are too many.
-inline bool find_outline(tet_complex& mesh, star_cavity& cavity, local_id apex) {
-  mesh.clear_marks();
-  for (const local_id e : cavity.elements)
-    mesh.mark(e);
-  cavity.outline.size = cavity.inner.size = 0;
-  for (const local_id e : cavity.elements)
-    for (int side = 0; side < 4; ++side) {
-      if (!mesh.is_fixed(e, side) && mesh.is_marked(element_of(mesh.across(e, side))))
-        continue;
-      const auto& local = numbering::sides<3>[static_cast<std::size_t>(side)];
-      const std::array<local_id, 3> v{mesh.vertex(e, local[0]), mesh.vertex(e, local[1]),
-                                      mesh.vertex(e, local[2])};
-      if (std::find(v.begin(), v.end(), apex) != v.end())
-        continue;
-      if (!cavity.outline.push(v) || !cavity.inner.push(half_side_of(e, side)))
-        return false;
-    }
-  return true;
-}
+bool find_outline(tet_complex& mesh, star_cavity& cavity, local_id apex);
 
 /// The vertices of the cavity that are not on its outline: they would be removed. `apex` stays anyway.
-inline void find_inside(const tet_complex& mesh, const star_cavity& cavity, local_id apex,
-                        bounded_list<local_id, 4 * max_cavity>& inside) {
-  bounded_list<local_id, 3 * max_star> outer;
-  for (const auto& side : cavity.outline)
-    for (const local_id v : side)
-      outer.push(v);
-  std::sort(outer.begin(), outer.end());
-  inside.size = 0;
-  for (const local_id e : cavity.elements)
-    for (const local_id v : mesh.vertices(e))
-      if (v != apex && !std::binary_search(outer.begin(), outer.end(), v))
-        inside.push(v);
-  std::sort(inside.begin(), inside.end());
-  inside.size = static_cast<int>(std::unique(inside.begin(), inside.end()) - inside.begin());
-}
+void find_inside(const tet_complex& mesh, const star_cavity& cavity, local_id apex,
+                 bounded_list<local_id, 4 * max_cavity>& inside);
 
 /// No fixed vertex would lose its last element, and the numbers of the free ones that do can be given up,
 /// when `added` vertices are added at the same time.
@@ -71,21 +41,7 @@ inline bool may_lose_inside(const tet_complex& mesh, const star_cavity& cavity, 
 /// Fewer of the fresh elements are bad than of the old ones or, if as many, they together lack less. Without
 /// this a cavity between fixed surfaces that lie too close is filled with ever more elements, each a little
 /// better than the worst one before.
-inline bool pays(const tet_complex& mesh, const local_change& change, float bad) {
-  struct sums {
-    int bad = 0;
-    double lacking = 0;
-  } before, after;
-  for (const local_id e : change.old) {
-    before.bad += mesh.value(e) < bad;
-    before.lacking += mesh.deficit(mesh.value(e));
-  }
-  for (const float value : change.values) {
-    after.bad += value < bad;
-    after.lacking += mesh.deficit(value);
-  }
-  return after.bad != before.bad ? after.bad < before.bad : after.lacking < before.lacking;
-}
+bool pays(const tet_complex& mesh, const local_change& change, float bad);
 
 /// Joins the outline to `apex`, whose place is set, if all values beat `bar`, the elements together lack less
 /// and the edges stay in the band; releases the vertices that are left without elements. False, and nothing
@@ -116,3 +72,7 @@ bool fill_from(tet_complex& mesh, const star_cavity& cavity, local_id apex, floa
 }
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/tetrahedra/star_cavity.ipp"
+#endif

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/laps.hpp"
 #include "dovetail/improver/native_parameters.hpp"
 #include "dovetail/improver/schedule.hpp"
@@ -12,8 +11,6 @@
 #include "dovetail/improver/tetrahedra/poor_tetrahedra.hpp"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 namespace dovetail::improvement {
 
@@ -24,32 +21,10 @@ inline bool is_positive(const tet_complex& complex, local_id e) {
   const auto& v = complex.vertices(e);
   return orient3d(complex.point(v[0]), complex.point(v[1]), complex.point(v[2]), complex.point(v[3])) > 0;
 }
-inline std::size_t count_tangled(const tet_complex& complex) {
-  std::size_t count = 0;
-  for (local_id e = 0; e < complex.element_slots(); ++e)
-    count += complex.is_alive(e) && !is_positive(complex, e);
-  return count;
-}
+std::size_t count_tangled(const tet_complex& complex);
 /// No side belongs to more than two elements.
-inline bool has_distinct_sides(const tet_complex& complex) {
-  std::vector<simplex<3>> alive;
-  for (local_id e = 0; e < complex.element_slots(); ++e)
-    if (complex.is_alive(e))
-      alive.push_back(complex.vertices(e));
-  try {
-    match_sides(span_of(alive), static_cast<std::size_t>(complex.vertex_slots()));
-  } catch (const mesh_error&) {
-    return false;
-  }
-  return true;
-}
-inline void report_tangled(const tet_complex& complex, std::size_t before, report& result) {
-  const std::size_t left = count_tangled(complex);
-  result.set("inverted before", static_cast<double>(before));
-  result.set("inverted after", static_cast<double>(left));
-  if (left > 0)
-    result.warnings.push_back(std::to_string(left) + " elements are still flat or inverted");
-}
+bool has_distinct_sides(const tet_complex& complex);
+void report_tangled(const tet_complex& complex, std::size_t before, report& result);
 
 } // namespace detail
 
@@ -184,3 +159,7 @@ report improve_tetrahedra(const native& parameters, simplicial_mesh<3>& mesh,
 }
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/tetrahedra/tet_improver.ipp"
+#endif

@@ -2,13 +2,10 @@
 /// Quality counts of a surface, of the triangles that its fixed sides limit and of the rest.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/improver/quality_counts.hpp"
 #include "dovetail/improver/triangles/surface_complex.hpp"
 
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -19,53 +16,16 @@ inline constexpr double low_triangle_angle = 30;
 
 /// Which points have two fixed sides that meet at less than `low_triangle_angle` inside the mesh: no
 /// triangulation has a better angle there.
-inline std::vector<bool> limiting_points(const surface_complex& mesh) {
-  const auto& table = mesh.table;
-  std::vector<double> turned(mesh.at(mesh.frozen), 0);
-  for (local_id c = 0; c < static_cast<local_id>(table.vertex.size()); ++c)
-    if (const local_id v = table.vertex[mesh.at(c)]; v != no_id && v < mesh.frozen) {
-      const vec3 p = mesh.point[mesh.at(v)];
-      const vec3 a = mesh.point[mesh.at(table.tail(c))] - p, b = mesh.point[mesh.at(table.head(c))] - p;
-      turned[mesh.at(v)] += std::atan2(norm(cross(a, b)), dot(a, b));
-    }
-  std::vector<bool> is_limiting(mesh.point.size(), false);
-  for (local_id v = 0; v < mesh.frozen; ++v) {
-    const bool is_sharp = turned[mesh.at(v)] < (low_triangle_angle - 1e-9) * std::numbers::pi / 180;
-    for (local_id fan = v; is_sharp && !is_limiting[mesh.at(fan)]; fan = mesh.next_fan[mesh.at(fan)])
-      is_limiting[mesh.at(fan)] = true;
-  }
-  return is_limiting;
-}
+std::vector<bool> limiting_points(const surface_complex& mesh);
 
 /// The cosines of the smallest and of the largest angle of a triangle.
-inline std::array<double, 2> extreme_cosines(vec3 a, vec3 b, vec3 c) {
-  std::array<double, 3> squares{norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)};
-  sort_all(squares);
-  const auto& [x, y, z] = squares;
-  return {(y + z - x) / (2 * std::sqrt(y * z)), (x + y - z) / (2 * std::sqrt(x * y))};
-}
+std::array<double, 2> extreme_cosines(vec3 a, vec3 b, vec3 c);
 
 /// Counts triangles by their smallest angle. Limited are those that touch a limiting point. O(triangles).
-inline quality_counts count_quality(const surface_complex& mesh) {
-  quality_counter counter(low_triangle_angle - 1e-9, 0.5 * low_triangle_angle);
-  const auto& table = mesh.table;
-  const auto is_limiting = limiting_points(mesh);
-  for (local_id t = 0; t < table.triangle_slots(); ++t) {
-    if (!table.alive(t))
-      continue;
-    std::array<std::size_t, 3> v;
-    for (std::size_t k = 0; k < 3; ++k)
-      v[k] = mesh.at(table.vertex[mesh.at(3 * t) + k]);
-    const bool is_limited = is_limiting[v[0]] || is_limiting[v[1]] || is_limiting[v[2]];
-    if (!(mesh.quality(t) > 0)) {
-      counter.add_inverted(is_limited);
-      continue;
-    }
-    const auto [of_smallest, of_largest] =
-        extreme_cosines(mesh.point[v[0]], mesh.point[v[1]], mesh.point[v[2]]);
-    counter.add(is_limited, of_smallest, of_largest);
-  }
-  return counter.result();
-}
+quality_counts count_quality(const surface_complex& mesh);
 
 } // namespace dovetail::improvement
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/improver/triangles/surface_quality.ipp"
+#endif

@@ -11,6 +11,7 @@
 
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/native/kept_entities.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/mesher/native/region_growth.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 
 #include <algorithm>
