@@ -5,6 +5,7 @@
 
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
