@@ -1,5 +1,6 @@
 /// A field whose value is no length is named with the place, by whatever asks it first.
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
 #include "dovetail/sizing/graded.hpp"
 #include "dovetail/sizing/prediction.hpp"

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -37,20 +36,11 @@ public:
     append(items.data(), items.size() * sizeof(T));
   }
   /// How many characters, then the characters.
-  void text(const std::string& s) {
-    count(s.size());
-    append(s.data(), s.size());
-  }
+  void text(const std::string& s);
   byte_buffer take() { return std::move(buffer_); } ///< what has been written; the writer is empty after that
 
 private:
-  void append(const void* data, std::size_t size) {
-    if (size == 0)
-      return;
-    const std::size_t at = buffer_.size();
-    buffer_.resize(at + size);
-    std::memcpy(buffer_.data() + at, data, size);
-  }
+  void append(const void* data, std::size_t size);
   byte_buffer buffer_;
 };
 
@@ -67,16 +57,7 @@ public:
       return item;
     }
   /// A number that `byte_writer::count` wrote.
-  std::uint64_t count() {
-    std::uint64_t number = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
-      const auto next = value<std::uint8_t>();
-      number |= static_cast<std::uint64_t>(next & 127) << shift;
-      if (next < 128)
-        return number;
-    }
-    throw input_error("binary data have a number of more than 64 bits");
-  }
+  std::uint64_t count();
   /// What `byte_writer::array` wrote.
   template <class T>
     requires std::is_trivially_copyable_v<T> std::vector<T> array() {
@@ -85,31 +66,19 @@ public:
       return items;
     }
   /// What `byte_writer::text` wrote.
-  std::string text() {
-    std::string s(count_with_room(1), '\0');
-    read(s.data(), s.size());
-    return s;
-  }
+  std::string text();
   bool at_end() const { return left_ == 0; } ///< whether all has been read
 
 private:
   /// Of items of which so many are left; looked at before memory for them is asked for.
-  std::size_t count_with_room(std::size_t size_of_item) {
-    const std::uint64_t items = count();
-    if (items > left_ / size_of_item)
-      throw input_error("binary data end early");
-    return static_cast<std::size_t>(items);
-  }
-  void read(void* to, std::size_t size) {
-    if (size > left_)
-      throw input_error("binary data end early");
-    if (size > 0)
-      std::memcpy(to, data_, size);
-    data_ += size;
-    left_ -= size;
-  }
+  std::size_t count_with_room(std::size_t size_of_item);
+  void read(void* to, std::size_t size);
   const std::byte* data_;
   std::size_t left_;
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/core/bytes.ipp"
+#endif

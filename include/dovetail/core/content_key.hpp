@@ -29,13 +29,7 @@ struct content_key_hash {
 };
 
 /// As 16 hexadecimal digits.
-inline std::string to_string(content_key key) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t k = text.size(); k-- > 0; key.value >>= 4)
-    text[k] = digits[key.value & 15];
-  return text;
-}
+std::string to_string(content_key key);
 
 /// Hashes plain data into a key, one call after the other.
 class key_maker {
@@ -68,3 +62,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/core/content_key.ipp"
+#endif

@@ -7,12 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -23,25 +21,8 @@ namespace dovetail {
 
 /// The bytes of a file, or its first `most`. Throws `input_error` naming it when it is missing, no file,
 /// unreadable or empty.
-inline std::string read_file(const std::filesystem::path& path,
-                             std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max()) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure))
-    throw input_error(path.string() + ": there is no such file");
-  if (!std::filesystem::is_regular_file(path, failure))
-    throw input_error(path.string() + ": this is not a file");
-  const auto size = std::min(std::filesystem::file_size(path, failure), most);
-  std::ifstream stream(path, std::ios::binary);
-  if (failure || !stream)
-    throw input_error(path.string() + ": the file cannot be read; check its permissions");
-  if (size == 0)
-    throw input_error(path.string() + ": the file is empty");
-  std::string content(static_cast<std::size_t>(size), '\0');
-  stream.read(content.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size))
-    throw input_error(path.string() + ": the file cannot be read to its end");
-  return content;
-}
+std::string read_file(const std::filesystem::path& path,
+                      std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
 /// The value with its bytes in reverse order.
 template <class T>
@@ -68,27 +49,11 @@ public:
   void skip(std::size_t bytes) { at_ += std::min(bytes, left()); }
 
   /// Passes spaces, tabs and line ends.
-  void skip_space() {
-    while (at_ < content_.size() && is_space(content_[at_]))
-      ++at_;
-  }
+  void skip_space();
   /// The next run of characters that are not space; empty at the end.
-  std::string_view word() {
-    skip_space();
-    const auto first = at_;
-    while (at_ < content_.size() && !is_space(content_[at_]))
-      ++at_;
-    return content_.substr(first, at_ - first);
-  }
+  std::string_view word();
   /// The rest of the line, without its end, which is passed.
-  std::string_view line() {
-    const auto end = std::min(content_.find('\n', at_), content_.size());
-    auto text = content_.substr(at_, end - at_);
-    at_ = std::min(end + 1, content_.size());
-    if (text.ends_with('\r'))
-      text.remove_suffix(1);
-    return text;
-  }
+  std::string_view line();
   /// The next number in decimal notation.
   template <class Number>
   Number number() {
@@ -117,19 +82,9 @@ public:
       return swapped ? byte_swapped(value) : value;
     }
   /// Refuses a count of things of at least so many bytes each that cannot be in what is left of the file.
-  std::size_t plausible(std::uint64_t count, std::size_t bytes_each) const {
-    if (count > left() / std::max<std::size_t>(bytes_each, 1))
-      fail("the file ends early: " + std::to_string(count) + " entries are announced");
-    return static_cast<std::size_t>(count);
-  }
+  std::size_t plausible(std::uint64_t count, std::size_t bytes_each) const;
   /// Throws `input_error` with the file's name, the line (in binary files the byte) and `what`.
-  [[noreturn]] void fail(const std::string& what) const {
-    const auto passed = content_.substr(0, at_);
-    const bool binary = passed.find('\0') != std::string_view::npos;
-    const auto place = binary ? "byte " + std::to_string(at_)
-                              : "line " + std::to_string(1 + std::count(passed.begin(), passed.end(), '\n'));
-    throw input_error(name_ + ": " + place + ": " + what);
-  }
+  [[noreturn]] void fail(const std::string& what) const;
 
 private:
   static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -140,3 +95,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/core/input_file.ipp"
+#endif

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -67,21 +66,11 @@ public:
   /// A corner's place in units of the smallest leaf there can be, from the cube's lower corner.
   using key = std::array<std::uint32_t, 3>;
 
-  octree() : octree(box3{{0, 0, 0}, {1, 1, 1}}) {}
-  explicit octree(const box3& cube)
-      : cube_(cube), unit_((cube.upper.x - cube.lower.x) / static_cast<double>(1U << largest_depth)) {
-    nodes_.push_back({});
-    leaves_.push_back(0);
-  }
+  octree();
+  explicit octree(const box3& cube);
 
   /// The octree of the same cube and `splits()`, node by node. Throws `input_error` when these are of none.
-  octree(const box3& cube, const std::vector<std::uint32_t>& splits) : octree(cube) {
-    for (const std::uint32_t node : splits) {
-      if (node >= nodes_.size() || nodes_[node].inner || nodes_[node].depth == largest_depth)
-        throw input_error("the nodes of an octree are damaged");
-      split(node);
-    }
-  }
+  octree(const box3& cube, const std::vector<std::uint32_t>& splits);
   /// The inner nodes in the order in which they were split: with `bounds()` all that makes the octree.
   const std::vector<std::uint32_t>& splits() const { return splits_; }
 
@@ -129,29 +118,7 @@ public:
   }
 
   /// Makes a leaf an inner node; nothing happens at the largest depth.
-  void split(std::size_t leaf) {
-    const node_data parent = nodes_[leaf];
-    if (parent.inner || parent.depth == largest_depth)
-      return;
-    const std::uint32_t half = width_of(parent) / 2;
-    const std::uint32_t index = parent.link;
-    const auto first = static_cast<std::uint32_t>(nodes_.size());
-    splits_.push_back(static_cast<std::uint32_t>(leaf));
-    nodes_[leaf].inner = true;
-    nodes_[leaf].link = first;
-    for (std::uint32_t k = 0; k < 8; ++k) {
-      node_data child;
-      child.lower = {parent.lower[0] + (k & 1U) * half, parent.lower[1] + (k >> 1 & 1U) * half,
-                     parent.lower[2] + (k >> 2) * half};
-      child.depth = static_cast<std::uint8_t>(parent.depth + 1);
-      child.link = k == 0 ? index : static_cast<std::uint32_t>(leaves_.size());
-      if (k == 0)
-        leaves_[index] = first;
-      else
-        leaves_.push_back(first + k);
-      nodes_.push_back(child);
-    }
-  }
+  void split(std::size_t leaf);
 
   /// Splits leaves while `too_coarse(box)`, level by level.
   template <class TooCoarse>
@@ -210,3 +177,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/core/octree.ipp"
+#endif

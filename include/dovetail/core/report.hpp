@@ -24,44 +24,18 @@ struct report {
                             &report::children, &report::files>;
 
   /// Sets a counter, replacing an earlier value.
-  void set(const std::string& key, double value) {
-    for (auto& [name_of, old] : counters)
-      if (name_of == key) {
-        old = value;
-        return;
-      }
-    counters.push_back({key, value});
-  }
+  void set(const std::string& key, double value);
   /// Adds to a counter that starts at zero.
   void add(const std::string& key, double value) { set(key, get(key) + value); }
   /// The counter's value, or `otherwise` if it was never set.
-  double get(const std::string& key, double otherwise = 0) const {
-    for (const auto& [name_of, value] : counters)
-      if (name_of == key)
-        return value;
-    return otherwise;
-  }
+  double get(const std::string& key, double otherwise = 0) const;
   /// The part of that name, one of the children before one of theirs; an empty report when there is none.
-  const report& find(const std::string& part) const {
-    static const report none{};
-    for (const report& child : children)
-      if (child.name == part)
-        return child;
-    for (const report& child : children)
-      if (const report& found = child.find(part); !found.name.empty())
-        return found;
-    return none;
-  }
+  const report& find(const std::string& part) const;
 };
 
 /// How often a limit of wall-clock time, and not the input, has decided what came next: the counter
 /// "stops_by_clock" of a report and of its parts. Where it is not 0 another run may make another mesh.
-inline double stops_by_clock(const report& made) {
-  double stops = made.get("stops_by_clock");
-  for (const report& part : made.children)
-    stops += stops_by_clock(part);
-  return stops;
-}
+double stops_by_clock(const report& made);
 
 /// Wall-clock stopwatch.
 class stopwatch {
@@ -76,3 +50,7 @@ private:
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/core/report.ipp"
+#endif

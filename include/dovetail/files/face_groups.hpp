@@ -5,6 +5,7 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -50,16 +51,7 @@ face_groups collect_face_groups(const distributed_simplicial_mesh<D>& mesh, std:
 }
 
 /// The name of every material: the given one, or "region N" (N counted from 1).
-inline std::vector<std::string> collect_material_names(const distributed_mesh& mesh) {
-  auto names = mesh.material_names;
-  for (const auto& piece : mesh.counts)
-    if (static_cast<std::size_t>(piece.material) >= names.size())
-      names.resize(static_cast<std::size_t>(piece.material) + 1);
-  for (std::size_t m = 0; m < names.size(); ++m)
-    if (names[m].empty())
-      names[m] = "region " + std::to_string(m + 1);
-  return names;
-}
+std::vector<std::string> collect_material_names(const distributed_mesh& mesh);
 
 /// Names of the tags of elements: materials, or in D = 2 CAD faces.
 inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<3>& mesh) {
@@ -70,3 +62,7 @@ inline std::vector<std::string> names_of_tags(const distributed_simplicial_mesh<
 }
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/files/face_groups.ipp"
+#endif

@@ -50,15 +50,11 @@ mesh_document document_of(const simplicial_mesh<D>& mesh, const tag_names& names
   }
   return document;
 }
-inline mesh_document document_of(const loaded_mesh& mesh) {
-  mesh_document document = document_of(mesh.mesh, mesh.material_names);
-  document.ids = mesh.node_ids;
-  document.subdomains = mesh.subdomains;
-  document.triangles = mesh.triangles;
-  document.groups = mesh.triangle_tags;
-  document.group_names = mesh.triangle_names;
-  return document;
-}
+mesh_document document_of(const loaded_mesh& mesh);
 } // namespace detail
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/files/mesh_document.ipp"
+#endif

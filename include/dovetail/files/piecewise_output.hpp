@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -126,15 +125,7 @@ public:
   }
   unfinished_folder(const unfinished_folder&) = delete;
   unfinished_folder& operator=(const unfinished_folder&) = delete;
-  ~unfinished_folder() {
-    std::error_code ignored;
-    if (kept_ || !own_)
-      return;
-    if (was_there_)
-      remove(path_.parent_path());
-    else
-      std::filesystem::remove_all(path_, ignored);
-  }
+  ~unfinished_folder();
 
   /// Writers have a folder each, since some of their files may have the same names.
   std::filesystem::path of_writer(std::size_t number) const { return path_ / std::to_string(number); }
@@ -142,22 +133,7 @@ public:
 
   /// Removes what a killed run has left in a folder: files of meshes, complete or not, in the numbered
   /// folders of the formats. What is not ours stays, and the folder with it.
-  static void remove(const std::filesystem::path& folder) {
-    for (const auto& of_format : entries_of(folder / "unfinished")) {
-      const std::string name = of_format.filename().string();
-      std::error_code ignored;
-      if (name.find_first_not_of("0123456789") != std::string::npos ||
-          !std::filesystem::is_directory(std::filesystem::symlink_status(of_format, ignored)))
-        continue;
-      for (const auto& file : entries_of(of_format))
-        if (const auto ending = file.extension();
-            ending == ".part" || ending == ".vtu" || ending == ".vtp" || ending == ".pvtu" ||
-            ending == ".msh_piece" || ending == ".vtkhdf" || ending == ".xdmf" || ending == ".rank_file")
-          std::filesystem::remove(file, ignored);
-      remove_empty_folder(of_format);
-    }
-    remove_empty_folder(folder / "unfinished");
-  }
+  static void remove(const std::filesystem::path& folder);
 
 private:
   std::filesystem::path path_;
@@ -167,15 +143,7 @@ private:
 };
 
 /// Gives a complete file its final place, on the same disk. Returns its bytes.
-inline std::uint64_t move_file(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code failure;
-  const auto bytes = std::filesystem::file_size(from, failure);
-  if (!failure)
-    std::filesystem::rename(from, to, failure);
-  if (failure)
-    throw io_error("cannot rename the finished file to " + to.string() + ": " + failure.message());
-  return bytes;
-}
+std::uint64_t move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes all files one after the other, here.
 template <int D>
@@ -206,3 +174,7 @@ report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_pie
 }
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/files/piecewise_output.ipp"
+#endif

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/files/merge_points.hpp"
 #include "dovetail/files/mesh_parts.hpp"
 #include "dovetail/files/msh_reader.hpp"
 #include "dovetail/files/read_mesh.hpp"
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>

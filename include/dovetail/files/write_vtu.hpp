@@ -2,101 +2,17 @@
 /// Writes a mesh held in memory to a VTU file.
 #pragma once
 
-#include "dovetail/core/output_file.hpp"
 #include "dovetail/files/mesh_document.hpp"
-#include "dovetail/files/vtk_xml_output.hpp"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace dovetail::io {
 
 namespace detail {
 
-/// VTK's list of names, the tag being the index; tags without a name get an empty one. Tags beyond any
-/// sensible count are left out.
-inline std::vector<std::string> names_by_tag(const tag_names& names) {
-  constexpr local_id most = 1 << 16;
-  std::vector<std::string> list;
-  for (const auto& [tag, name] : names)
-    if (tag >= 0 && tag < most) {
-      list.resize(std::max(list.size(), static_cast<std::size_t>(tag) + 1));
-      list[static_cast<std::size_t>(tag)] = name;
-    }
-  return list;
-}
-
-inline void write_vtu_document(const mesh_document& mesh, const std::filesystem::path& path,
-                               const std::vector<point_array>& arrays) {
-  for (const auto& array : arrays)
-    if (array.values.size() != mesh.points.size())
-      throw io_error("the array \"" + array.name + "\" for " + path.string() + " has " +
-                     std::to_string(array.values.size()) + " values for " +
-                     std::to_string(mesh.points.size()) + " points");
-  const auto solid = mesh.tetrahedra.size();
-  const auto cells = solid + mesh.triangles.size();
-  // Where there are no tetrahedra, triangles have regions.
-  const bool flat = solid == 0;
-  struct cell_array {
-    const char* name;
-    std::span<const local_id> of_tetrahedra, of_triangles;
-  };
-  std::vector<cell_array> tags;
-  for (const cell_array& each :
-       {cell_array{"region", mesh.materials, flat ? mesh.groups : mesh.groups.first(0)},
-        cell_array{"subdomain", mesh.subdomains, {}},
-        cell_array{"patch", {}, flat ? mesh.groups.first(0) : mesh.groups}})
-    if (!each.of_tetrahedra.empty() || !each.of_triangles.empty())
-      tags.push_back(each);
-
-  output_file file(path);
-  appended_layout layout(file);
-  file.text(vtk_xml_opening("UnstructuredGrid"));
-  file.text("<UnstructuredGrid>\n" +
-            vtk_field_data({{"region_names", names_by_tag(flat ? mesh.group_names : mesh.material_names)},
-                            {"patch_names", names_by_tag(flat ? tag_names{} : mesh.group_names)}}));
-  file.text("<Piece NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" +
-            std::to_string(cells) + "\">\n<Points>\n");
-  layout.array<double>("Points", mesh.points.size(), 3);
-  file.text("</Points>\n<PointData>\n");
-  if (!mesh.ids.empty())
-    layout.array<global_id>("GlobalNodeIds", mesh.ids.size());
-  for (const auto& array : arrays)
-    layout.array<double>(xml_escaped(array.name), mesh.points.size());
-  file.text("</PointData>\n<Cells>\n");
-  layout.array<local_id>("connectivity", 4 * solid + 3 * mesh.triangles.size());
-  layout.array<std::int64_t>("offsets", cells);
-  layout.array<std::uint8_t>("types", cells);
-  file.text("</Cells>\n<CellData>\n");
-  for (const cell_array& each : tags)
-    layout.array<local_id>(each.name, cells);
-  file.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-
-  append_values(file, mesh.points);
-  if (!mesh.ids.empty())
-    append_values(file, mesh.ids);
-  for (const auto& array : arrays)
-    append_values(file, std::span(array.values));
-  file.value<std::uint64_t>(mesh.tetrahedra.size_bytes() + mesh.triangles.size_bytes());
-  file.array(mesh.tetrahedra);
-  file.array(mesh.triangles);
-  append_computed<std::int64_t>(file, cells, [&](std::uint64_t i) {
-    return static_cast<std::int64_t>(i < solid ? 4 * (i + 1) : 4 * solid + 3 * (i - solid + 1));
-  });
-  append_computed<std::uint8_t>(
-      file, cells, [&](std::uint64_t i) { return i < solid ? std::uint8_t{10} : std::uint8_t{5}; });
-  for (const cell_array& each : tags)
-    append_computed<local_id>(file, cells, [&](std::uint64_t i) {
-      const auto values = i < solid ? each.of_tetrahedra : each.of_triangles;
-      return values.empty() ? no_id : values[static_cast<std::size_t>(i < solid ? i : i - solid)];
-    });
-  file.text("\n</AppendedData>\n</VTKFile>\n");
-  file.commit();
-}
+void write_vtu_document(const mesh_document& mesh, const std::filesystem::path& path,
+                        const std::vector<point_array>& arrays);
 
 } // namespace detail
 
@@ -116,3 +32,7 @@ inline void write_vtu(const loaded_mesh& mesh, const std::filesystem::path& path
 }
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/files/write_vtu.ipp"
+#endif

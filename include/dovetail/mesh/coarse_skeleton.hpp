@@ -4,11 +4,11 @@
 /// same keys.
 #pragma once
 
-#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace dovetail {
@@ -49,14 +49,7 @@ struct coarse_skeleton {
 };
 
 /// Index of the line between two coarse vertices, or no_id. O(log lines).
-inline local_id find_line(const std::vector<skeleton_line>& lines, local_id a, local_id b) {
-  const std::array<local_id, 2> key{std::min(a, b), std::max(a, b)};
-  const auto found =
-      std::lower_bound(lines.begin(), lines.end(), key,
-                       [](const skeleton_line& line, const auto& wanted) { return line.vertices < wanted; });
-  return found != lines.end() && found->vertices == key ? static_cast<local_id>(found - lines.begin())
-                                                        : no_id;
-}
+local_id find_line(const std::vector<skeleton_line>& lines, local_id a, local_id b);
 
 /// Whether two orders of the same three vertices turn the same way.
 inline bool same_turn(const simplex<2>& a, const simplex<2>& b) {
@@ -65,3 +58,7 @@ inline bool same_turn(const simplex<2>& a, const simplex<2>& b) {
 }
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesh/coarse_skeleton.ipp"
+#endif

@@ -6,7 +6,7 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/mid_nodes.hpp"
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
 namespace dovetail::io {
@@ -22,51 +22,17 @@ struct global_numbering {
 
 /// O(pieces).
 template <int D>
-global_numbering number_globally(const distributed_simplicial_mesh<D>& mesh) {
-  global_numbering numbers{{static_cast<global_id>(mesh.skeleton.points.size())}, {0}};
-  for (const auto& piece : mesh.counts) {
-    numbers.first_point.push_back(numbers.first_point.back() + piece.inner_points);
-    numbers.first_element.push_back(numbers.first_element.back() + piece.elements);
-  }
-  return numbers;
-}
+global_numbering number_globally(const distributed_simplicial_mesh<D>& mesh);
 
 /// The same for nodes: `points()` counts those in the middle of edges too, and `first_point` is the number of
 /// a piece's first own node.
 template <int D>
-global_numbering number_nodes(const distributed_simplicial_mesh<D>& mesh) {
-  global_numbering numbers = number_globally(mesh);
-  numbers.first_point = {static_cast<global_id>(skeleton_nodes(mesh))};
-  for (std::size_t p = 0; p < mesh.counts.size(); ++p)
-    numbers.first_point.push_back(numbers.first_point.back() + inner_nodes(mesh, p));
-  return numbers;
-}
+global_numbering number_nodes(const distributed_simplicial_mesh<D>& mesh);
 
 /// Loads a piece and checks it against its counts and the skeleton, so that consumers may index freely;
 /// throws `mesh_error` naming the subdomain when they disagree. O(size of the piece).
 template <int D>
-simplicial_piece<D> load_checked(const distributed_simplicial_mesh<D>& mesh, local_id index) {
-  const auto refuse = [index](const char* what) {
-    throw mesh_error("subdomain " + std::to_string(index) + ": " + what);
-  };
-  auto piece = mesh.load(index);
-  const auto& counts = mesh.counts[static_cast<std::size_t>(index)];
-  const auto points = static_cast<local_id>(piece.mesh.points.size());
-  const auto shared = piece.skeleton_points.size();
-  if (piece.subdomain != index)
-    refuse("the loaded piece belongs to another subdomain");
-  if (static_cast<global_id>(piece.mesh.elements.size()) != counts.elements ||
-      points - static_cast<global_id>(shared) != counts.inner_points)
-    refuse("the loaded piece has other counts than announced");
-  for (const auto s : piece.skeleton_points)
-    if (s < 0 || static_cast<std::size_t>(s) >= mesh.skeleton.points.size())
-      refuse("a skeleton point is out of range");
-  for (const auto& element : piece.mesh.elements)
-    for (const auto v : element)
-      if (v < 0 || v >= points)
-        refuse("an element refers to a point that does not exist");
-  return piece;
-}
+simplicial_piece<D> load_checked(const distributed_simplicial_mesh<D>& mesh, local_id index);
 
 /// The global number of node `i` of a piece.
 template <int D>
@@ -86,4 +52,19 @@ global_id global_point(const simplicial_piece<D>& piece, const global_numbering&
   return numbers.first_point[static_cast<std::size_t>(piece.subdomain)] + (i - shared);
 }
 
+#ifdef DOVETAIL_COMPILED
+extern template global_numbering number_globally<2>(const distributed_simplicial_mesh<2>& mesh);
+extern template global_numbering number_nodes<2>(const distributed_simplicial_mesh<2>& mesh);
+extern template simplicial_piece<2> load_checked<2>(const distributed_simplicial_mesh<2>& mesh,
+                                                    local_id index);
+extern template global_numbering number_globally<3>(const distributed_simplicial_mesh<3>& mesh);
+extern template global_numbering number_nodes<3>(const distributed_simplicial_mesh<3>& mesh);
+extern template simplicial_piece<3> load_checked<3>(const distributed_simplicial_mesh<3>& mesh,
+                                                    local_id index);
+#endif
+
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesh/global_numbering.ipp"
+#endif

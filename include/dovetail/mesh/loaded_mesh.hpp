@@ -5,6 +5,7 @@
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -47,12 +48,11 @@ struct loaded_mesh {
       passed_over.push_back(what);
   }
   /// The values of a point array, or null when the file has none of that name.
-  const std::vector<double>* scalars(const std::string& name) const {
-    for (const auto& array : point_scalars)
-      if (array.name == name)
-        return &array.values;
-    return nullptr;
-  }
+  const std::vector<double>* scalars(const std::string& name) const;
 };
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesh/loaded_mesh.ipp"
+#endif

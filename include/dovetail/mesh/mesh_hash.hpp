@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -22,13 +23,7 @@ namespace dovetail::io {
 class mesh_hasher {
 public:
   /// Adds a point under its global number.
-  void point(global_id id, vec3 at) {
-    content_hash hash;
-    hash.word(static_cast<std::uint64_t>(id));
-    for (int axis = 0; axis < 3; ++axis)
-      hash.number(at[axis]);
-    sum_ += hash.value();
-  }
+  void point(global_id id, vec3 at);
   /// An element, triangle or tetrahedron, given by the global numbers of its points.
   template <std::size_t N>
   void element(std::array<global_id, N> vertices) {
@@ -134,19 +129,10 @@ std::uint64_t mesh_hash(const simplicial_mesh<D>& mesh) {
 
 /// The hash of a mesh read from a file, by the global numbers of the file: that of the mesh it was written
 /// from. Triangles count where there are no tetrahedra.
-inline std::uint64_t mesh_hash(const loaded_mesh& loaded) {
-  const bool numbered = loaded.node_ids.size() == loaded.mesh.points.size();
-  const auto id = [&](local_id v) { return numbered ? loaded.node_ids[static_cast<std::size_t>(v)] : v; };
-  mesh_hasher hasher;
-  for (std::size_t v = 0; v < loaded.mesh.points.size(); ++v)
-    hasher.point(id(static_cast<local_id>(v)), loaded.mesh.points[v]);
-  for (const auto& e : loaded.mesh.elements)
-    hasher.element(std::array<global_id, 4>{id(e[0]), id(e[1]), id(e[2]), id(e[3])});
-  for (std::size_t t = 0; loaded.mesh.elements.empty() && t < loaded.triangles.size(); ++t) {
-    const auto& [a, b, c] = loaded.triangles[t];
-    hasher.element(std::array<global_id, 3>{id(a), id(b), id(c)});
-  }
-  return hasher.value();
-}
+std::uint64_t mesh_hash(const loaded_mesh& loaded);
 
 } // namespace dovetail::io
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesh/mesh_hash.ipp"
+#endif

@@ -4,16 +4,12 @@
 #pragma once
 
 #include "dovetail/core/predicates.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,13 +33,7 @@ enum class mesh_fault {
 };
 
 /// What a message calls a fault.
-inline std::string_view name_of(mesh_fault kind) {
-  constexpr std::array<std::string_view, 12> names{"missing point",   "tags mismatch",     "non-finite point",
-                                                   "repeated vertex", "duplicate element", "inverted element",
-                                                   "flat element",    "non-manifold side", "misoriented side",
-                                                   "open boundary",   "coincident point",  "isolated point"};
-  return names[static_cast<std::size_t>(kind)];
-}
+std::string_view name_of(mesh_fault kind);
 
 /// One kind of fault: how often it occurs, and the first few entities that have it.
 struct fault_count {
@@ -73,25 +63,9 @@ struct validity {
 
   bool valid() const { return faults.empty(); } ///< whether there are no faults
   /// How often a kind of fault occurs.
-  std::int64_t count(mesh_fault kind) const {
-    for (const fault_count& fault : faults)
-      if (fault.kind == kind)
-        return fault.count;
-    return 0;
-  }
+  std::int64_t count(mesh_fault kind) const;
   /// One line such as "2 inverted elements (3, 17)"; empty for a valid mesh.
-  std::string text() const {
-    std::string line;
-    for (const fault_count& fault : faults) {
-      line +=
-          (line.empty() ? "" : "; ") + std::to_string(fault.count) + " x " + std::string(name_of(fault.kind));
-      for (std::size_t k = 0; k < fault.examples.size(); ++k)
-        line += (k == 0 ? " (" : ", ") + std::to_string(fault.examples[k]);
-      if (!fault.examples.empty())
-        line += static_cast<std::size_t>(fault.count) > fault.examples.size() ? ", ...)" : ")";
-    }
-    return line;
-  }
+  std::string text() const;
 };
 
 namespace detail {
@@ -106,106 +80,17 @@ public:
   void add(mesh_fault kind, local_id entity) { counts_[static_cast<std::size_t>(kind)].add(entity); }
   void add(mesh_fault kind) { ++counts_[static_cast<std::size_t>(kind)].count; }
   bool has(mesh_fault kind) const { return counts_[static_cast<std::size_t>(kind)].count > 0; }
-  validity result() const {
-    validity found;
-    for (const fault_count& fault : counts_)
-      if (fault.count > 0)
-        found.faults.push_back(fault);
-    return found;
-  }
+  validity result() const;
 
 private:
   std::array<fault_count, 12> counts_{};
 };
-
-template <int D>
-void check_references(const simplicial_mesh<D>& mesh, fault_collector& faults) {
-  const auto count = static_cast<local_id>(mesh.points.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(),
-                    [&](local_id v) { return v < 0 || v >= count; }))
-      faults.add(mesh_fault::missing_point, static_cast<local_id>(e));
-  if (!mesh.tags.empty() && mesh.tags.size() != mesh.elements.size())
-    faults.add(mesh_fault::tags_mismatch);
-}
-
-template <int D>
-void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowed, fault_collector& faults) {
-  const auto& points = mesh.points;
-  std::vector<bool> used(points.size(), false);
-  for (const auto& element : mesh.elements)
-    for (const local_id v : element)
-      used[static_cast<std::size_t>(v)] = true;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y) || !std::isfinite(points[v].z))
-      faults.add(mesh_fault::non_finite_point, static_cast<local_id>(v));
-    if (!used[v] && !allowed.isolated_points)
-      faults.add(mesh_fault::isolated_point, static_cast<local_id>(v));
-  }
-  if (faults.has(mesh_fault::non_finite_point))
-    return;
-  std::vector<local_id> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto coordinates = [&](local_id v) {
-    const vec3& p = points[static_cast<std::size_t>(v)];
-    return std::array{p.x, p.y, p.z};
-  };
-  sort_all(order, [&](local_id a, local_id b) {
-    const auto pa = coordinates(a);
-    const auto pb = coordinates(b);
-    return pa != pb ? pa < pb : a < b;
-  });
-  std::vector<local_id> repeated;
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (coordinates(order[k]) == coordinates(order[k - 1]))
-      repeated.push_back(order[k]);
-  sort_all(repeated);
-  for (const local_id v : repeated)
-    faults.add(mesh_fault::coincident_point, v);
-}
 
 /// Exactly collinear, by the exact sign of the area in the three coordinate planes.
 inline bool collinear(vec3 a, vec3 b, vec3 c) {
   return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 &&
          orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
          orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
-}
-
-template <int D>
-void check_elements(const simplicial_mesh<D>& mesh, fault_collector& faults) {
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto id = static_cast<local_id>(e);
-    const auto key = sorted_vertices(mesh.elements[e]);
-    if (std::adjacent_find(key.begin(), key.end()) != key.end()) {
-      faults.add(mesh_fault::repeated_vertex, id);
-      continue;
-    }
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]; };
-    if constexpr (D == 3) {
-      const double sign = orient3d(at(0), at(1), at(2), at(3));
-      if (sign < 0)
-        faults.add(mesh_fault::inverted_element, id);
-      else if (sign == 0)
-        faults.add(mesh_fault::flat_element, id);
-    } else if (collinear(at(0), at(1), at(2))) {
-      faults.add(mesh_fault::flat_element, id);
-    }
-  }
-}
-
-template <int D>
-void check_duplicates(const simplicial_mesh<D>& mesh, fault_collector& faults) {
-  std::vector<local_id> repeated;
-  for_each_group<static_cast<std::size_t>(D + 1)>(
-      mesh.elements.size(), mesh.points.size(),
-      [&](std::size_t e) { return sorted_vertices(mesh.elements[e]); },
-      [&](const auto&, std::span<const std::uint32_t> members) {
-        for (std::size_t k = 1; k < members.size(); ++k)
-          repeated.push_back(static_cast<local_id>(members[k]));
-      });
-  sort_all(repeated);
-  for (const local_id e : repeated)
-    faults.add(mesh_fault::duplicate_element, e);
 }
 
 /// Do the two vertex lists of a side have opposite orientation, as seen from its two elements?
@@ -239,66 +124,31 @@ void check_sides(const simplicial_mesh<D>& mesh, const side_table<D>& sides, con
 }
 
 /// The boundary sides of a mesh of tetrahedra must meet in pairs at every edge.
-inline void check_closed(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
-                         fault_collector& faults) {
-  std::vector<std::array<local_id, 2>> edges;
-  for (std::size_t s = 0; s < sides.size(); ++s)
-    if (sides.is_boundary(static_cast<local_id>(s)))
-      for (const auto& local : numbering::sides<2>)
-        edges.push_back(sorted_vertices(pick(sides.vertices[s], local)));
-  local_id edge = 0;
-  for_each_group<2>(
-      edges.size(), mesh.points.size(), [&](std::size_t k) { return edges[k]; },
-      [&](const auto&, std::span<const std::uint32_t> members) {
-        if (members.size() % 2 == 1)
-          faults.add(mesh_fault::open_boundary, edge);
-        ++edge;
-      });
-}
-
-/// `sides()` is called when references are known to be right.
-template <int D, class Sides>
-validity check_all(const simplicial_mesh<D>& mesh, const Sides& sides, const validity_options& allowed) {
-  fault_collector faults;
-  check_references(mesh, faults);
-  if (faults.has(mesh_fault::missing_point))
-    return faults.result();
-  check_points(mesh, allowed, faults);
-  if (!faults.has(mesh_fault::non_finite_point))
-    check_elements(mesh, faults);
-  check_duplicates(mesh, faults);
-  if (faults.has(mesh_fault::repeated_vertex))
-    return faults.result();
-  const side_table<D>& table = sides();
-  check_sides(mesh, table, allowed, faults);
-  if constexpr (D == 3)
-    if (allowed.closed_boundary)
-      check_closed(mesh, table, faults);
-  return faults.result();
-}
+void check_closed(const simplicial_mesh<3>& mesh, const side_table<3>& sides, fault_collector& faults);
 
 } // namespace detail
 
 /// Checks a mesh, D = 2 or 3. When references are broken only those are reported, since nothing else can be
 /// asked then. About linear, but for one sort of the points.
 template <int D>
-validity check_validity(const simplicial_mesh<D>& mesh, const validity_options& allowed = {}) {
-  side_table<D> sides;
-  return detail::check_all(
-      mesh,
-      [&]() -> const side_table<D>& {
-        sides = build_sides(mesh);
-        return sides;
-      },
-      allowed);
-}
+validity check_validity(const simplicial_mesh<D>& mesh, const validity_options& allowed = {});
 
 /// The same, where the sides of the mesh are known: `build_sides(mesh)`.
 template <int D>
 validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
-                        const validity_options& allowed = {}) {
-  return detail::check_all(
-      mesh, [&]() -> const side_table<D>& { return sides; }, allowed);
-}
+                        const validity_options& allowed = {});
+
+#ifdef DOVETAIL_COMPILED
+extern template validity check_validity<2>(const simplicial_mesh<2>& mesh, const validity_options& allowed);
+extern template validity check_validity<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
+                                           const validity_options& allowed);
+extern template validity check_validity<3>(const simplicial_mesh<3>& mesh, const validity_options& allowed);
+extern template validity check_validity<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
+                                           const validity_options& allowed);
+#endif
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/mesh/validity.ipp"
+#endif

@@ -6,6 +6,7 @@
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/remesh/patch.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"

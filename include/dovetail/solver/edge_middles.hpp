@@ -2,12 +2,8 @@
 /// Where the middle of a mesh edge on a curve or a face of a model lies.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -27,19 +23,7 @@ public:
   /// Nothing when the model finds no such point within half the edge's length. Exactly the straight middle
   /// on planes, inside solids, and where the entity is as near to it as rounding tells. About 1000 distances
   /// and a few evaluations of the model.
-  std::optional<vec3> operator()(vec3 a, vec3 b, host on) {
-    const vec3 straight = midpoint(a, b);
-    if (on.dimension == 2 ? model_.plane_of_face(on.id).has_value() : on.dimension != 1)
-      return straight;
-    const double length = distance(a, b);
-    for (const auto& seed : nearest_samples(straight, on)) {
-      const auto found = projected(straight, on, seed.at);
-      if (!found || !(distance(*found, straight) <= longest_way * length))
-        continue;
-      return distance(*found, straight) <= rounding * length ? straight : *found;
-    }
-    return std::nullopt;
-  }
+  std::optional<vec3> operator()(vec3 a, vec3 b, host on);
 
 private:
   static constexpr double longest_way = 0.5;
@@ -53,69 +37,22 @@ private:
     vec3 point;
   };
 
-  std::optional<vec3> projected(vec3 p, host on, vec2 seed) const {
-    try {
-      return on.dimension == 1 ? model_.curve_point(on.id, model_.project_to_curve(on.id, p, seed.x))
-                               : model_.face_point(on.id, model_.project_to_face(on.id, p, seed));
-    } catch (const geometry_error&) { // of a place where the kernel cannot evaluate it
-      return std::nullopt;
-    }
-  }
+  std::optional<vec3> projected(vec3 p, host on, vec2 seed) const;
 
   /// The nearest first.
-  std::vector<sample> nearest_samples(vec3 p, host on) {
-    auto& samples = samples_[on];
-    if (samples.empty())
-      samples = on.dimension == 1 ? of_curve(on.id) : of_face(on.id);
-    std::vector<sample> nearest(std::min(tried, samples.size()));
-    std::partial_sort_copy(samples.begin(), samples.end(), nearest.begin(), nearest.end(),
-                           [p](const sample& a, const sample& b) {
-                             return norm_squared(a.point - p) < norm_squared(b.point - p);
-                           });
-    return nearest;
-  }
+  std::vector<sample> nearest_samples(vec3 p, host on);
 
-  std::vector<sample> of_curve(local_id c) const {
-    const auto& curve = model_.topology().curves[static_cast<std::size_t>(c)];
-    std::vector<sample> samples;
-    for (int i = 0; i < curve_samples && !curve.degenerate; ++i) {
-      const double t = curve.t[0] + (curve.t[1] - curve.t[0]) * i / (curve_samples - 1);
-      try {
-        samples.push_back({{t, 0}, model_.curve_point(c, t)});
-      } catch (const geometry_error&) { // the others will do
-      }
-    }
-    return samples;
-  }
+  std::vector<sample> of_curve(local_id c) const;
 
   /// On a grid over the parameters of the face's boundary.
-  std::vector<sample> of_face(local_id f) const {
-    const auto& topology = model_.topology();
-    const auto& coedges = topology.faces[static_cast<std::size_t>(f)].coedges;
-    box3 parameters;
-    for (std::size_t k = 0; k < coedges.size(); ++k) {
-      const auto& t = topology.curves[static_cast<std::size_t>(coedges[k].curve)].t;
-      constexpr int steps = 8;
-      for (int i = 0; i <= steps; ++i) {
-        const vec2 uv = model_.curve_uv(f, static_cast<int>(k), t[0] + (t[1] - t[0]) * i / steps);
-        parameters.include({uv.x, uv.y, 0});
-      }
-    }
-    std::vector<sample> samples;
-    const vec3 step = (parameters.upper - parameters.lower) / (face_samples - 1);
-    for (int i = 0; i < face_samples; ++i)
-      for (int j = 0; j < face_samples; ++j) {
-        const vec2 uv{parameters.lower.x + i * step.x, parameters.lower.y + j * step.y};
-        try {
-          samples.push_back({uv, model_.face_point(f, uv)});
-        } catch (const geometry_error&) { // outside of the face, where it need not be defined
-        }
-      }
-    return samples;
-  }
+  std::vector<sample> of_face(local_id f) const;
 
   any_geometry model_;
   std::map<host, std::vector<sample>> samples_;
 };
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/solver/edge_middles.ipp"
+#endif

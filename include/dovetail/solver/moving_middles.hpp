@@ -13,12 +13,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace dovetail::io::detail {
@@ -33,23 +31,11 @@ struct moving_middles {
   std::vector<vec3> curved; ///< on the CAD model; where there is none as `straight`
   std::vector<halvings> moved;
 
-  vec3 at(std::size_t edge) const {
-    const auto h = moved[edge];
-    return h == 0             ? curved[edge]
-           : h == all_the_way ? straight[edge]
-                              : straight[edge] + std::ldexp(1.0, -h) * (curved[edge] - straight[edge]);
-  }
+  vec3 at(std::size_t edge) const;
   bool bent(std::size_t edge) const { return at(edge) != straight[edge]; }
 };
 
-inline std::vector<vec3> straight_middles(const std::vector<simplex<1>>& edges,
-                                          std::span<const vec3> points) {
-  std::vector<vec3> middles;
-  middles.reserve(edges.size());
-  for (const auto& [a, b] : edges)
-    middles.push_back(midpoint(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
-  return middles;
-}
+std::vector<vec3> straight_middles(const std::vector<simplex<1>>& edges, std::span<const vec3> points);
 
 /// Moves middles back until no element is inverted; those of edges that are not `movable` stay, if there are
 /// any.
@@ -86,13 +72,7 @@ void settle(const simplicial_mesh<D>& mesh, const edge_table<D>& edges, moving_m
 }
 
 /// The face of each edge of a mesh of triangles, where there are several the one of the last triangle.
-inline std::vector<host> faces_of_edges(const simplicial_mesh<2>& mesh, const edge_table<2>& edges) {
-  std::vector<host> hosts(edges.vertices.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    for (const local_id k : edges.of_element[e])
-      hosts[static_cast<std::size_t>(k)] = {2, mesh.tags[e]};
-  return hosts;
-}
+std::vector<host> faces_of_edges(const simplicial_mesh<2>& mesh, const edge_table<2>& edges);
 
 /// Finds the middles of some edges, and counts those that the model has not.
 struct found_middles {
@@ -110,26 +90,13 @@ inline bool on_cad(host on) {
   return on.dimension == 1 || on.dimension == 2;
 }
 
-inline void count_middles(report& summary, const std::vector<host>& hosts, const moving_middles& middles,
-                          std::int64_t not_found) {
-  const auto& moved = middles.moved;
-  summary.set("nodes", static_cast<double>(moved.size()));
-  summary.set("on_cad", static_cast<double>(std::count_if(hosts.begin(), hosts.end(), on_cad)));
-  summary.set("not_found", static_cast<double>(not_found));
-  summary.set("moved_back", static_cast<double>(
-                                std::count_if(moved.begin(), moved.end(), [](halvings h) { return h > 0; })));
-  summary.set("straightened", static_cast<double>(std::count(moved.begin(), moved.end(), all_the_way)));
-}
+void count_middles(report& summary, const std::vector<host>& hosts, const moving_middles& middles,
+                   std::int64_t not_found);
 
-inline void warn_of_middles(report& summary) {
-  const auto count = [&](const char* counter) { return std::to_string(std::llround(summary.get(counter))); };
-  if (summary.get("not_found") > 0)
-    summary.warnings.push_back(count("not_found") +
-                               " edges on the CAD model have straight middles: it has no point near");
-  if (summary.get("moved_back") > 0)
-    summary.warnings.push_back(
-        count("moved_back") + " middles of edges were moved back from the CAD model, " +
-        count("straightened") + " of them all the way, so that no second-order element is inverted");
-}
+void warn_of_middles(report& summary);
 
 } // namespace dovetail::io::detail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/solver/moving_middles.ipp"
+#endif

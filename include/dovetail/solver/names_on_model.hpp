@@ -5,9 +5,6 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/nearest_point.hpp"
-#include "dovetail/core/number_text.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/models/discrete/mesh_boundary.hpp"
@@ -17,10 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -38,50 +32,19 @@ namespace detail {
 /// The triangle of a surface that is nearest to a point, of those that face the same way.
 class facing_triangles {
 public:
-  explicit facing_triangles(const simplicial_mesh<2>& mesh) : mesh_(&mesh) {
-    std::vector<box3> boxes(mesh.elements.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-      for (const local_id v : mesh.elements[t])
-        boxes[t].include(point(v));
-    tree_ = box_tree(boxes);
-  }
+  explicit facing_triangles(const simplicial_mesh<2>& mesh);
 
   struct found {
     std::size_t triangle = 0;
     double distance = std::numeric_limits<double>::infinity();
   };
   /// `either_way`: triangles that face the other way will do.
-  found nearest(vec3 p, vec3 normal, bool either_way) const {
-    constexpr double least_cosine = 0.3;
-    found best;
-    tree_.for_each_near(
-        p,
-        [&](const box3& box, std::size_t) {
-          return distance_squared(box, p) <= best.distance * best.distance;
-        },
-        [&](local_id id) {
-          const auto t = static_cast<std::size_t>(id);
-          const auto [a, b, c] = corners(t);
-          const double turned = dot(normalized(cross(b - a, c - a)), normal);
-          if ((either_way ? std::abs(turned) : turned) < least_cosine)
-            return;
-          const auto w = nearest_on_triangle(a, b, c, p);
-          const double away = distance(p, w[0] * a + w[1] * b + w[2] * c);
-          if (away < best.distance || (away == best.distance && t < best.triangle))
-            best = {t, away};
-        });
-    return best;
-  }
+  found nearest(vec3 p, vec3 normal, bool either_way) const;
   double longest_edge(std::size_t t) const {
     const auto [a, b, c] = corners(t);
     return std::max({distance(a, b), distance(b, c), distance(c, a)});
   }
-  double mean_longest_edge() const {
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh_->elements.size(); ++t)
-      sum += longest_edge(t);
-    return sum / std::max(1.0, static_cast<double>(mesh_->elements.size()));
-  }
+  double mean_longest_edge() const;
 
 private:
   vec3 point(local_id v) const { return mesh_->points[static_cast<std::size_t>(v)]; }
@@ -94,57 +57,6 @@ private:
   box_tree tree_;
 };
 
-/// How much of each entity of a model has which number.
-class number_votes {
-public:
-  number_votes(std::string entity, std::string number, std::size_t entities)
-      : entity_(std::move(entity)), number_(std::move(number)), votes_(entities) {}
-
-  void add(local_id entity, local_id number, double size) {
-    votes_[static_cast<std::size_t>(entity)][number] += size;
-  }
-  /// Per entity the number that most of it has, or `otherwise` where nothing is known. Throws `mesh_error`
-  /// where a number cannot come back, since no entity has it as a whole.
-  std::vector<local_id> winners(local_id otherwise) const {
-    std::vector<local_id> won;
-    std::map<local_id, std::size_t> lost; // number, and an entity that has it in part
-    for (std::size_t e = 0; e < votes_.size(); ++e) {
-      won.push_back(otherwise);
-      double most = 0;
-      for (const auto& [number, size] : votes_[e])
-        if (size > most) {
-          most = size;
-          won.back() = number;
-        }
-      for (const auto& [number, size] : votes_[e])
-        if (number != won.back()) {
-          if (size > largest_stray * most)
-            refuse(number, e, won.back());
-          lost.emplace(number, e);
-        }
-    }
-    for (const auto& [number, e] : lost)
-      if (number != no_id && std::find(won.begin(), won.end(), number) == won.end())
-        refuse(number, e, won[e]);
-    return won;
-  }
-
-private:
-  static constexpr double largest_stray = 0.3; ///< what is beside edges may be nearer to a neighbour
-
-  [[noreturn]] void refuse(local_id a, std::size_t entity, local_id b) const {
-    const auto name = [&](local_id n) {
-      return n == no_id ? "no " + number_ : "the " + number_ + " " + std::to_string(n);
-    };
-    throw mesh_error("of the model's " + entity_ + " " + std::to_string(entity) + " a part has " + name(a) +
-                     " in the mesh, and a part " + name(b) + "; on a model a whole " + entity_ + " has one " +
-                     number_ + ": adapt without the model, which keeps such parts");
-  }
-
-  std::string entity_, number_;
-  std::vector<std::map<local_id, double>> votes_;
-};
-
 /// Points of the model's faces, spread over the triangles of a coarse surface on them.
 struct face_sample {
   local_id face;
@@ -152,61 +64,12 @@ struct face_sample {
   double area;        ///< that it stands for
 };
 
-/// Calls `visit(sample)` for points about `spacing` apart, at most 256 per triangle.
-template <class Visit>
-void for_each_sample(const any_geometry& model, const surface_mesh& coarse, double spacing,
-                     const Visit& visit) {
-  constexpr int most = 16;
-  for (std::size_t t = 0; t < coarse.mesh.elements.size(); ++t) {
-    const auto at = [&](std::size_t k) {
-      return coarse.mesh.points[static_cast<std::size_t>(coarse.mesh.elements[t][k])];
-    };
-    const local_id face = coarse.mesh.tags[t];
-    const double longest = std::max({distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
-    const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, double{most}));
-    const double area = 0.5 * norm(cross(at(1) - at(0), at(2) - at(0))) / (parts * parts);
-    const vec3 normal = normalized(cross(at(1) - at(0), at(2) - at(0)));
-    const auto& uv = coarse.corner_uv[t];
-    const auto add = [&](double a, double b) { // barycentric coordinates, in parts
-      const double u = a / parts, v = b / parts;
-      const vec2 where = (1 - u - v) * uv[0] + u * uv[1] + v * uv[2];
-      visit(face_sample{face, model.face_point(face, where), normal, area});
-    };
-    for (int i = 0; i < parts; ++i)
-      for (int j = 0; i + j < parts; ++j) {
-        add(i + 1.0 / 3, j + 1.0 / 3);
-        if (i + j + 1 < parts)
-          add(i + 2.0 / 3, j + 2.0 / 3);
-      }
-  }
-}
-
 /// Counts how much of a model is where the mesh has no boundary.
 class strays {
 public:
-  void look(const face_sample& at, bool is_stray, double away) {
-    all_ += at.area;
-    if (!is_stray)
-      return;
-    stray_ += at.area;
-    if (away > farthest_ || face_ == no_id) {
-      farthest_ = away;
-      face_ = at.face;
-      point_ = at.point;
-    }
-  }
+  void look(const face_sample& at, bool is_stray, double away);
   /// Throws `mesh_error` when that is more than what rounding of corners explains.
-  void refuse_many(const geometry_topology& topology) const {
-    if (stray_ <= 0.1 * all_)
-      return;
-    const std::string& name = topology.faces[static_cast<std::size_t>(face_)].name;
-    throw mesh_error("the mesh is not one of the model: of the model's face " + std::to_string(face_) +
-                     (name.empty() ? name : " '" + name + "'") + " the point (" + number_text(point_.x) +
-                     ", " + number_text(point_.y) + ", " + number_text(point_.z) + ") is " +
-                     (std::isfinite(farthest_) ? number_text(farthest_) + " away from the mesh's boundary"
-                                               : "nowhere near the mesh's boundary") +
-                     "; give the model that it was made of, in the same unit, or adapt without one");
-  }
+  void refuse_many(const geometry_topology& topology) const;
 
 private:
   double all_ = 0, stray_ = 0, farthest_ = 0;
@@ -224,107 +87,18 @@ inline bool is_stray(const facing_triangles& surface, const facing_triangles::fo
 /// The ids of faces and materials of solids, by the `boundary` of a mesh of tetrahedra; `coarse` is a
 /// triangulation of the model. O(n log n). Throws `mesh_error` when the mesh is not one of the model, and
 /// when a face has parts of different ids, or a solid of different materials.
-inline model_names names_on_model(const any_geometry& model, const surface_mesh& coarse,
-                                  const mesh_boundary& boundary) {
-  const geometry_topology& topology = model.topology();
-  const oriented_surfaces& old = boundary.surfaces;
-  const detail::facing_triangles surface(old.mesh);
-  detail::number_votes ids("face", "id", topology.faces.size());
-  detail::number_votes materials("solid", "material", topology.solids.size());
-  detail::strays strays;
-  const auto id_of = [&](local_id group) {
-    return group == no_id ? no_id : old.group_numbers[static_cast<std::size_t>(group)];
-  };
-  detail::for_each_sample(model, coarse, surface.mean_longest_edge(), [&](const detail::face_sample& at) {
-    const auto [behind, front] = topology.faces[static_cast<std::size_t>(at.face)].solids;
-    if (behind == no_id && front == no_id)
-      return;
-    const bool both = behind != no_id && front != no_id;
-    const vec3 outwards = behind == no_id ? -at.normal : at.normal;
-    const auto found = surface.nearest(at.point, outwards, both);
-    const bool stray = detail::is_stray(surface, found);
-    strays.look(at, stray, found.distance);
-    if (stray)
-      return;
-    const std::size_t t = found.triangle;
-    ids.add(at.face, id_of(old.groups[t]), at.area);
-    const auto& v = old.mesh.elements[t];
-    const auto corner = [&](std::size_t k) { return old.mesh.points[static_cast<std::size_t>(v[k])]; };
-    const bool same_way = dot(cross(corner(1) - corner(0), corner(2) - corner(0)), at.normal) > 0;
-    const auto material = [&](local_id solid) {
-      return solid == no_id ? no_id : boundary.material_of_solid[static_cast<std::size_t>(solid)];
-    };
-    if (behind != no_id)
-      materials.add(behind, material(same_way ? old.solid_of[t] : old.front_of[t]), at.area);
-    if (front != no_id)
-      materials.add(front, material(same_way ? old.front_of[t] : old.solid_of[t]), at.area);
-  });
-  strays.refuse_many(topology);
-  model_names names;
-  names.id_of_face = ids.winners(no_id);
-  names.material_of_solid = materials.winners(no_id);
-  for (std::size_t s = 0; s < names.material_of_solid.size(); ++s)
-    if (names.material_of_solid[s] == no_id)
-      throw mesh_error(
-          "the model's solid " + std::to_string(s) +
-          " has no elements in the mesh; give the model that it was made of, or adapt without one");
-  for (const local_id id : old.group_numbers)
-    if (std::find(names.id_of_face.begin(), names.id_of_face.end(), id) == names.id_of_face.end())
-      throw mesh_error("no face of the model has the id " + std::to_string(id) +
-                       " that sides of the mesh have; adapt without the model, which keeps it");
-  return names;
-}
+model_names names_on_model(const any_geometry& model, const surface_mesh& coarse,
+                           const mesh_boundary& boundary);
 
 /// The ids of faces and of curves, by a mesh of triangles with tags, and its edges with ids. O(n log n).
 /// Throws `mesh_error` when the mesh is not one of the model, and when a face or curve has parts of different
 /// ids. Of edges with ids that lie on no curve a warning tells.
-inline model_names names_on_model(const any_geometry& model, const surface_mesh& coarse,
-                                  const simplicial_mesh<2>& mesh, const std::vector<simplex<1>>& edges,
-                                  const std::vector<local_id>& edge_ids_given) {
-  const geometry_topology& topology = model.topology();
-  const detail::facing_triangles surface(mesh);
-  const double spacing = surface.mean_longest_edge();
-  detail::number_votes ids("face", "id", topology.faces.size());
-  detail::strays strays;
-  detail::for_each_sample(model, coarse, spacing, [&](const detail::face_sample& at) {
-    const auto found = surface.nearest(at.point, at.normal, true);
-    const bool stray = detail::is_stray(surface, found);
-    strays.look(at, stray, found.distance);
-    if (!stray)
-      ids.add(at.face, mesh.tags.empty() ? no_id : mesh.tags[found.triangle], at.area);
-  });
-  strays.refuse_many(topology);
-  model_names names;
-  names.id_of_face = ids.winners(no_id);
-
-  names.id_of_curve.assign(topology.curves.size(), no_id);
-  if (edges.empty())
-    return names;
-  edge_ids known(mesh.points, edges, edge_ids_given);
-  detail::number_votes curves("curve", "id", topology.curves.size());
-  for (const auto& edge : coarse.curve_edges) {
-    const auto end = [&](std::size_t k) {
-      return coarse.mesh.points[static_cast<std::size_t>(edge.vertices[k])];
-    };
-    const double length = distance(end(0), end(1));
-    const int parts = static_cast<int>(std::clamp(std::ceil(2 * length / spacing), 1.0, 64.0));
-    for (int k = 0; k < parts; ++k) {
-      const double t = edge.t[0] + (k + 0.5) / parts * (edge.t[1] - edge.t[0]);
-      curves.add(edge.curve, known.at(model.curve_point(edge.curve, t), 0.3), length / parts);
-    }
-  }
-  names.id_of_curve = curves.winners(no_id);
-  std::vector<local_id> missed, given = edge_ids_given;
-  sort_unique(given);
-  for (const local_id id : given)
-    if (id != no_id &&
-        std::find(names.id_of_curve.begin(), names.id_of_curve.end(), id) == names.id_of_curve.end())
-      missed.push_back(id);
-  if (!missed.empty())
-    names.warnings.push_back(std::to_string(missed.size()) + " ids of edges, the first of them " +
-                             std::to_string(missed.front()) +
-                             ", are on no curve of the model; the adapted mesh knows nothing of them");
-  return names;
-}
+model_names names_on_model(const any_geometry& model, const surface_mesh& coarse,
+                           const simplicial_mesh<2>& mesh, const std::vector<simplex<1>>& edges,
+                           const std::vector<local_id>& edge_ids_given);
 
 } // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/solver/names_on_model.ipp"
+#endif
