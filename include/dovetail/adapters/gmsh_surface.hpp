@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dovetail/adapters/parameter_square.hpp"
+#include "dovetail/core/predicates.hpp"
 #include "dovetail/distributed/run_in_child.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
