@@ -154,7 +154,7 @@ void write_page(const view_scene& scene, const view_options& options) {
   file.commit();
   const std::string left_out = text_of_left_out(scene, part);
   std::printf("%s: %s%s\n", options.out.c_str(), megabytes(page.size()).c_str(),
-              left_out.empty() ? "" : (", " + left_out + "; --most has the bound").c_str());
+              left_out.empty() ? "" : (", " + left_out + "; see --most").c_str());
 }
 
 void write_picture(const view_scene& scene, const asked_picture& asked, const view_options& options) {
@@ -180,8 +180,9 @@ int run_view(const view_options& options) {
     throw command_line_error("view: give -o with an HTML file, or --png with a picture, or both");
   const asked_picture asked(options);
   if (!options.out.empty() && !has_three_js())
-    throw usage_error("view: this dovetail was built without three.js, which pages need; install libjs-three "
-                      "and build it again, or use --png");
+    throw usage_error(options.out +
+                      ": pages need three.js, which was not there when this dovetail was built; "
+                      "install libjs-three and build it again, or use --png");
   for (const std::string& file : {options.out, options.png})
     if (!file.empty())
       check_can_create(file);

@@ -17,7 +17,7 @@ namespace {
 constexpr rgb outline_colour{45, 50, 60};
 constexpr rgb faint_outline{150, 155, 165};
 constexpr rgb inside{214, 208, 196}; ///< of elements where colours are of groups
-constexpr double shortest_edge = 3;  ///< in pixels
+constexpr double shortest_edge = 5;  ///< in pixels
 
 using polygon = std::vector<vec3>;
 

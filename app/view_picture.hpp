@@ -28,7 +28,7 @@ struct view_wishes {
   bool edges = true;                  ///< of elements; those of the outline are always drawn
 };
 
-/// Elements seen in part where a section cuts them. Edges of less than three pixels are left out, since they
+/// Elements seen in part where a section cuts them. Edges of less than five pixels are left out, since they
 /// would hide the colours.
 raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes);
 

@@ -88,7 +88,7 @@ expect_success view "$inputs/solid" -o page.html
 grep -q "\"count\":$elements," "$sandbox/work/page.html" || fault "the page counts otherwise"
 cp "$sandbox/work/page.html" "$inputs/all.html"
 expect_success view "$inputs/solid" -o page.html --most 600
-grep -qE "only .*of $elements elements inside, half of them the worst; --most has the bound$" "$sandbox/stdout" ||
+grep -qE "only .*of $elements elements inside, half of them the worst; see --most$" "$sandbox/stdout" ||
   fault "it is not said what is left out"
 grep -q "of $elements elements inside" "$sandbox/work/page.html" || fault "the page does not say what is left out"
 largest "$inputs/all.html" "$sandbox/work/page.html"
