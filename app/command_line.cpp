@@ -157,6 +157,40 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 
+/// Which mean nothing without --png.
+void add_picture_options(CLI::App& command, view_options& options, CLI::Option* png) {
+  command
+      .add_option("--view", options.view,
+                  "From where the picture is taken: default, front, back, left, right, top, bottom, or "
+                  "azimuth,elevation in degrees")
+      ->needs(png)
+      ->capture_default_str();
+  command.add_option("--size", options.size, "Pixels of the picture, WxH")->needs(png)->capture_default_str();
+  command
+      .add_option("--colour", options.colour,
+                  "What the picture's colours tell apart: group, piece, material, angle")
+      ->check(CLI::IsMember({"group", "piece", "material", "angle"}))
+      ->needs(png)
+      ->capture_default_str();
+  command
+      .add_option("--cut", options.cut,
+                  "Section: x, y, z or view, through the middle; or x=1.5 for its place. What is nearer to "
+                  "the viewer is taken away")
+      ->needs(png);
+  command
+      .add_option("--under", options.under,
+                  "Only elements whose least angle is under so many degrees, in the model's outline")
+      ->check(CLI::Range(0.0, 180.0))
+      ->needs(png);
+  command
+      .add_option("--explode", options.explode,
+                  "Pull pieces apart, by this fraction of their distance from the middle")
+      ->check(CLI::Range(0.0, 10.0))
+      ->needs(png)
+      ->capture_default_str();
+  command.add_flag("--no-edges", options.no_edges, "Elements without their edges")->needs(png);
+}
+
 /// The commands and what the command line said for each.
 struct parser {
   CLI::App app{
@@ -165,6 +199,7 @@ struct parser {
   plan_options plan;
   check_options check;
   stats_options stats;
+  view_options view;
   improve_options improve;
   filling_options fill;
   adapt_options adapt;
@@ -191,6 +226,7 @@ struct parser {
     add_models();
     add_check();
     add_stats();
+    add_view();
     add_improve();
     add_fill();
     add_adapt();
@@ -326,6 +362,29 @@ struct parser {
       chosen = [this] { return run_stats(stats); };
       inputs = inputs_of_mesh("MESH", stats.mesh);
       outputs.files = {{"--report", stats.report}};
+    });
+  }
+  void add_view() {
+    auto& command = *app.add_subcommand("view", "Show a mesh file: a page to turn and cut it, or a picture");
+    add_examples(command, {"dovetail view wing/mesh.pvtu -o wing.html",
+                           "dovetail view wing.msh --png wing.png --cut y --colour piece",
+                           "dovetail view wing.msh --png worst.png --under 20 --view 30,20"});
+    command.add_option("MESH", view.mesh, "Mesh file (VTU, PVTU, VTP, MSH), or a folder with one")
+        ->required();
+    auto* out =
+        command.add_option("-o,--out", view.out, "HTML file to write; a browser shows it without a network");
+    command
+        .add_option("--most", view.most,
+                    "Most triangles in the HTML file; four for an element inside, and the worst come first")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
+        ->needs(out)
+        ->capture_default_str();
+    auto* png = command.add_option("--png", view.png, "Picture to write; needs no display");
+    add_picture_options(command, view, png);
+    command.callback([this] {
+      chosen = [this] { return run_view(view); };
+      inputs = inputs_of_mesh("MESH", view.mesh);
+      outputs.files = {{"--out", view.out}, {"--png", view.png}};
     });
   }
   void add_improve() {

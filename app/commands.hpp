@@ -7,6 +7,7 @@
 #include "filling_options.hpp"
 #include "options.hpp"
 #include "simulate_options.hpp"
+#include "view_options.hpp"
 
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ int run_improve(const improve_options& options);
 int run_fill(const filling_options& options);
 int run_adapt(const adapt_options& options);
 int run_simulate(const simulate_options& options);
+int run_view(const view_options& options);
 int run_experiment(const experiment_options& options);
 /// What that may be asked for.
 std::vector<std::string> experiment_names();

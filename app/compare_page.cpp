@@ -1,32 +1,18 @@
 #include "compare_page.hpp"
 
+#include "base64.hpp"
 #include "compare_page_template.hpp" // compare_page.html as a string
 #include "compare_table.hpp"
 #include "json_text.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <span>
 #include <utility>
 
 namespace dovetail::app {
 namespace {
 
 using json = nlohmann::json;
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      group = group << 8 | (i < count ? bytes[k + i] : 0U);
-    for (std::size_t i = 0; i < 4; ++i)
-      text += i <= count ? digits[group >> (18 - 6 * i) & 63U] : '=';
-  }
-  return text;
-}
 
 constexpr std::pair<const char*, double stage_seconds::*> stages[] = {
     {"background mesh", &stage_seconds::background}, {"simplification", &stage_seconds::simplification},

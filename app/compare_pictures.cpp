@@ -1,5 +1,6 @@
 #include "compare_pictures.hpp"
 
+#include "colours.hpp"
 #include "compare_rows.hpp"
 
 #include "dovetail/mesh/quality.hpp"
@@ -31,19 +32,6 @@ vec3 direction_to_viewer(const raster_scene& scene) {
 raster_image rendered(const raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
   const raster_view view = fitted(view_from(from), scene, width, height);
   return render(scene, view, width, height, 2);
-}
-
-/// Soft colours, neighbours in number far apart in hue: hues go round by the golden ratio.
-rgb colour_of_subdomain(local_id s) {
-  const double turn = 0.58 + 0.6180339887498949 * s;
-  const double hue = 6 * (turn - std::floor(turn));
-  const double light = 0.85 + 0.1 * (s % 2);
-  const auto part = [&](double offset) {
-    const double k = std::fmod(offset + hue, 6.0);
-    const double saturation = 0.5 * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
-    return static_cast<std::uint8_t>(255 * light * (1 - saturation));
-  };
-  return {part(5), part(3), part(1)};
 }
 
 vec3 center_of(const std::array<vec3, 3>& p) {
@@ -187,7 +175,7 @@ raster_image picture_of_decomposition(const generated<3>& result) {
       auto p = corners(std::span(skeleton.points), skeleton.sides[t]);
       for (vec3& corner : p)
         corner += explosion * (centers[static_cast<std::size_t>(s)] - box.center());
-      add_with_edges(scene, p, colour_of_subdomain(s));
+      add_with_edges(scene, p, colour_of_number(s));
     }
   return rendered(scene);
 }
@@ -198,7 +186,7 @@ raster_image picture_of_decomposition(const generated<2>& result) {
     const auto piece = result.mesh.load(static_cast<local_id>(s));
     for (const simplex<2>& triangle : piece.mesh.elements)
       add_with_edges(scene, corners(std::span(piece.mesh.points), triangle),
-                     colour_of_subdomain(static_cast<local_id>(s)));
+                     colour_of_number(static_cast<local_id>(s)));
   }
   add_outline(scene, result.mesh.skeleton);
   return rendered(scene, direction_to_viewer(scene));
@@ -213,7 +201,7 @@ raster_image picture_of_interfaces(const generated<3>& result) {
     if (skeleton.side_hosts[t] == no_id) {
       const auto& [first, second] = skeleton.subdomains[t];
       add_with_edges(scene, corners(std::span(skeleton.points), skeleton.sides[t]),
-                     colour_of_subdomain(first + 3 * second));
+                     colour_of_number(first + 3 * second));
     }
   const vec3 before_all = 2 * scene.bounds().diagonal() * normalized({0.8, -1, 0.65});
   const auto mark = [&](local_id a, local_id b) {

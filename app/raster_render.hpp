@@ -48,7 +48,7 @@ public:
 
 private:
   static constexpr double line_lift = 0.002; ///< of the picture's height
-  static constexpr double ambient = 0.5;     ///< brightness of what the light does not reach
+  static constexpr double ambient = 0.55;    ///< brightness of what the light does not reach
 
   /// x to the right and y down in samples; z towards the viewer in lengths.
   vec3 on_canvas(vec3 p) const {
@@ -57,9 +57,10 @@ private:
             0.5 * image_.height() - scale_ * dot(d, view_.up), dot(d, view_.towards)};
   }
 
-  /// The light comes from above, a little from the left; both sides of a triangle are alike.
+  /// The light comes from the viewer's side, above and a little from the left, so that it reaches nearly all
+  /// that is seen; both sides of a triangle are alike.
   double brightness(vec3 normal) const {
-    const vec3 light = normalized(0.8 * view_.towards + 0.9 * view_.up - 0.35 * view_.right);
+    const vec3 light = normalized(view_.towards + 0.45 * view_.up - 0.2 * view_.right);
     const vec3 facing = dot(normal, view_.towards) < 0 ? -normal : normal;
     return ambient + (1 - ambient) * std::max(0.0, dot(facing, light));
   }

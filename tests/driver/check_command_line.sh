@@ -118,7 +118,7 @@ predicted --proximity 0 --size 0.1
 
 # The examples at the end of each help are command lines: what is missing are their files.
 examples=0
-for command in mesh plan check stats improve fill adapt compare; do
+for command in mesh plan check stats view improve fill adapt compare; do
   mapfile -t lines < <("$driver" $command --help | sed -n '/^Examples:/,$ s/^  dovetail //p')
   ((${#lines[@]})) || { what="$command --help"; fault "there is no example"; }
   for line in "${lines[@]}"; do

@@ -1,0 +1,202 @@
+#include "commands.hpp"
+#include "failure.hpp"
+#include "mesh_files.hpp"
+#include "output.hpp"
+#include "png.hpp"
+#include "view_page.hpp"
+#include "view_picture.hpp"
+#include "view_scene.hpp"
+
+#include "dovetail/core/output_file.hpp"
+#include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/zlib.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+/// A whole text as a finite number.
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number{};
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failure != std::errc() || end != text.data() + text.size() ||
+      !std::isfinite(static_cast<double>(number)))
+    return std::nullopt;
+  return number;
+}
+
+/// The numbers on both sides of a sign.
+template <class Number>
+std::optional<std::pair<Number, Number>> two_numbers(const std::string& text, char sign) {
+  const std::size_t at = text.find(sign);
+  if (at == std::string::npos)
+    return std::nullopt;
+  const auto first = number_of<Number>(std::string_view(text).substr(0, at));
+  const auto second = number_of<Number>(std::string_view(text).substr(at + 1));
+  return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
+}
+
+/// Azimuth 0 is the front, where y is smallest; it grows to the right, where x is largest.
+vec3 direction_of(double azimuth, double elevation) {
+  const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+  return {std::sin(a) * std::cos(e), -std::cos(a) * std::cos(e), std::sin(e)};
+}
+
+/// Nothing for the default one, which depends on the mesh.
+std::optional<vec3> asked_direction(const std::string& view) {
+  constexpr std::pair<std::string_view, vec3> named[] = {{"front", {0, -1, 0}}, {"back", {0, 1, 0}},
+                                                         {"left", {-1, 0, 0}},  {"right", {1, 0, 0}},
+                                                         {"top", {0, 0, 1}},    {"bottom", {0, 0, -1}}};
+  if (view == "default")
+    return std::nullopt;
+  for (const auto& [name, direction] : named)
+    if (name == view)
+      return direction;
+  const auto angles = two_numbers<double>(view, ',');
+  if (!angles)
+    throw command_line_error("--view " + view +
+                             ": give front, back, left, right, top, bottom, or azimuth,elevation in degrees");
+  return direction_of(angles->first, angles->second);
+}
+
+std::pair<int, int> asked_size(const std::string& size) {
+  constexpr int most = 16384;
+  const auto pixels = two_numbers<int>(size, 'x');
+  if (!pixels || pixels->first < 1 || pixels->second < 1 || pixels->first > most || pixels->second > most)
+    throw command_line_error("--size " + size + ": give WxH, each from 1 to " + std::to_string(most));
+  return *pixels;
+}
+
+view_colours asked_colours(const std::string& name) {
+  return name == "piece"      ? view_colours::piece
+         : name == "material" ? view_colours::material
+         : name == "angle"    ? view_colours::angle
+                              : view_colours::group;
+}
+
+/// A section: its axis, or that of the view, and the place on it; without one the middle.
+struct asked_cut {
+  std::optional<vec3> axis;
+  std::optional<double> place;
+};
+
+std::optional<asked_cut> asked_section(const std::string& cut) {
+  if (cut.empty())
+    return std::nullopt;
+  const std::size_t sign = cut.find('=');
+  const std::string axis = cut.substr(0, sign);
+  asked_cut asked;
+  if (sign != std::string::npos)
+    asked.place = number_of<double>(std::string_view(cut).substr(sign + 1));
+  const bool known = axis == "x" || axis == "y" || axis == "z" || axis == "view";
+  if (!known || (sign != std::string::npos && !asked.place))
+    throw command_line_error("--cut " + cut +
+                             ": give x, y, z or view, or one of them and its place, as x=1.5");
+  if (axis != "view")
+    asked.axis = vec3{axis == "x" ? 1.0 : 0.0, axis == "y" ? 1.0 : 0.0, axis == "z" ? 1.0 : 0.0};
+  return asked;
+}
+
+/// The plane, with its normal to the viewer.
+view_plane plane_of(const asked_cut& cut, const view_scene& scene, vec3 towards) {
+  const vec3 axis = cut.axis.value_or(normalized(towards));
+  const double place = cut.place.value_or(dot(axis, scene.box.center()));
+  return dot(axis, towards) < 0 ? view_plane{-axis, -place} : view_plane{axis, place};
+}
+
+/// What the command line says of a picture, checked before the mesh is read.
+struct asked_picture {
+  std::optional<vec3> direction;
+  std::pair<int, int> size;
+  std::optional<asked_cut> cut;
+
+  explicit asked_picture(const view_options& options)
+      : direction(asked_direction(options.view)), size(asked_size(options.size)),
+        cut(asked_section(options.cut)) {}
+
+  view_wishes wishes(const view_scene& scene, const view_options& options) const {
+    view_wishes wishes{.towards = direction.value_or(default_direction(scene)),
+                       .width = size.first,
+                       .height = size.second,
+                       .colours = asked_colours(options.colour),
+                       .under = options.under,
+                       .explode = options.explode,
+                       .edges = !options.no_edges};
+    if (cut)
+      wishes.cut = plane_of(*cut, scene, wishes.towards);
+    return wishes;
+  }
+};
+
+std::string megabytes(std::size_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MB", 1e-6 * static_cast<double>(bytes));
+  return text;
+}
+
+void write_page(const view_scene& scene, const view_options& options) {
+  const view_part part = part_that_fits(scene, options.most);
+  const std::string page =
+      page_of_view(scene, part, std::filesystem::path(options.mesh).lexically_normal().string());
+  output_file file(options.out);
+  file.text(page);
+  file.commit();
+  const std::string left_out = text_of_left_out(scene, part);
+  std::printf("%s: %s%s\n", options.out.c_str(), megabytes(page.size()).c_str(),
+              left_out.empty() ? "" : (", " + left_out + "; see --most").c_str());
+}
+
+void write_picture(const view_scene& scene, const asked_picture& asked, const view_options& options) {
+  const auto png = encode_png(picture_of_view(scene, asked.wishes(scene, options)));
+  output_file file(options.png);
+  file.bytes(png.data(), png.size());
+  file.commit();
+  std::printf("%s: %d x %d pixels\n", options.png.c_str(), asked.size.first, asked.size.second);
+  if (!options.under)
+    return;
+  const std::size_t shown = elements_under(scene, *options.under);
+  std::printf("%zu of %zu elements have an angle under %g degrees\n", shown, scene.elements(),
+              *options.under);
+  if (shown == 0)
+    std::fprintf(stderr, "warning: %s: no element has so small an angle; the picture is the outline alone\n",
+                 options.png.c_str());
+}
+
+} // namespace
+
+int run_view(const view_options& options) {
+  if (options.out.empty() && options.png.empty())
+    throw command_line_error("view: give -o with an HTML file, or --png with a picture, or both");
+  const asked_picture asked(options);
+  if (!options.out.empty() && !has_three_js())
+    throw usage_error(options.out +
+                      ": pages need three.js, which was not there when this dovetail was built; "
+                      "install libjs-three and build it again, or use --png");
+  for (const std::string& file : {options.out, options.png})
+    if (!file.empty())
+      check_can_create(file);
+  const std::filesystem::path mesh = io::find_mesh_file(options.mesh);
+  io::loaded_mesh loaded = io::read_mesh(mesh, io::zlib_expand);
+  warn_of_part(loaded, mesh);
+  const view_scene scene = scene_of(std::move(loaded));
+  if (scene.elements() == 0)
+    throw input_error(mesh.string() + ": has no tetrahedra or triangles to show");
+  if (!options.out.empty())
+    write_page(scene, options);
+  if (!options.png.empty())
+    write_picture(scene, asked, options);
+  return exit_ok;
+}
+
+} // namespace dovetail::app

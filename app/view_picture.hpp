@@ -1,0 +1,41 @@
+/// @file
+/// Pictures of a mesh without a display: of its surface, a section, or its worst elements.
+#pragma once
+
+#include "raster_image.hpp"
+#include "view_scene.hpp"
+
+#include <optional>
+
+namespace dovetail::app {
+
+enum class view_colours { group, piece, material, angle };
+
+/// The points p with dot(normal, p) = place.
+struct view_plane {
+  vec3 normal;
+  double place;
+};
+
+struct view_wishes {
+  vec3 towards{0.8, -1, 0.65}; ///< from the mesh to the viewer
+  int width = 1200;            ///< pixels
+  int height = 900;
+  view_colours colours = view_colours::group;
+  std::optional<view_plane> cut = {}; ///< what is on the side of its normal is taken away
+  std::optional<double> under = {};   ///< degrees: only elements with smaller angles, in the outline
+  double explode = 0;                 ///< how far pieces are moved, over their distance from the middle
+  bool edges = true;                  ///< of elements; those of the outline are always drawn
+};
+
+/// Elements seen in part where a section cuts them. Edges of less than five pixels are left out, since they
+/// would hide the colours.
+raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes);
+
+/// How many elements have a smaller angle.
+std::size_t elements_under(const view_scene& scene, double degrees);
+
+/// From where a mesh is seen unless somebody says otherwise: one in a plane z = const from above.
+vec3 default_direction(const view_scene& scene);
+
+} // namespace dovetail::app

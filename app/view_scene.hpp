@@ -1,0 +1,74 @@
+/// @file
+/// What is seen of a mesh: the sides of its pieces, and the elements behind them.
+#pragma once
+
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/loaded_mesh.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dovetail::app {
+
+/// What can be told apart by colours: names, and the index of one of them for each of some things.
+struct view_labels {
+  std::vector<std::string> names;
+  std::vector<local_id> of;
+};
+
+/// An edge of the outline: where the surface ends, turns, or has another group.
+struct outline_edge {
+  std::array<local_id, 2> ends;
+  local_id piece;
+};
+
+/// A mesh as pictures and pages show it. Pieces are the subdomains of the file, else its materials; of
+/// triangles the groups, since no file says which subdomain they are of.
+struct view_scene {
+  int dimension = 3; ///< of the elements
+  std::vector<vec3> points;
+  std::vector<simplex<3>> tetrahedra; ///< none of a mesh of triangles, which are all in `triangles`
+  std::vector<float> angles;          ///< per element: the least one between its sides, in degrees
+  view_labels pieces;                 ///< per element
+  view_labels materials;              ///< per element
+  /// First the outer sides. Then, once for each element at it and outwards of that one, what is between
+  /// pieces or materials or has a group.
+  std::vector<simplex<2>> triangles;
+  std::vector<local_id> element_of; ///< per triangle
+  view_labels groups;               ///< per triangle: that of the file; without one by material or place
+  std::size_t outer = 0;            ///< how many of the triangles are on the outside
+  std::vector<outline_edge> outline;
+  std::vector<vec3> centres; ///< per piece: the middle of its triangles
+  std::size_t vertices = 0;  ///< of elements
+  box3 box;
+
+  std::size_t elements() const { return angles.size(); }
+  local_id piece_of_triangle(std::size_t t) const {
+    return pieces.of[static_cast<std::size_t>(element_of[t])];
+  }
+  /// Which is 180 where there are none.
+  float least_angle() const;
+};
+
+/// Takes the tetrahedra, or the triangles where there are none. O(n log n) in time. Throws `mesh_error` where
+/// an element names a point that there is not.
+view_scene scene_of(io::loaded_mesh loaded);
+
+/// The triangles and elements of a scene that a page has.
+struct view_part {
+  std::vector<local_id> triangles;
+  std::vector<local_id> elements; ///< the worst first, where not all are here; none of a mesh of triangles
+};
+
+/// As many triangles as `most`, where an element inside counts four. The outer surface comes first, then what
+/// is between pieces; of what does not fit evenly spread ones. Of the elements half are the worst ones, and
+/// the others every n-th of the rest.
+view_part part_that_fits(const view_scene& scene, std::int64_t most);
+
+/// What a part lacks of the scene, in words; empty: nothing.
+std::string text_of_left_out(const view_scene& scene, const view_part& part);
+
+} // namespace dovetail::app

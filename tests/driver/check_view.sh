@@ -1,0 +1,98 @@
+#!/bin/bash
+# Pages and pictures of meshes: they are written as a whole and need nothing else; what is wrong is one clear line.
+#   check_view.sh <driver>
+driver=$1
+source "$(dirname "$0")/expectations.sh"
+limit=300
+
+write_cube >"$inputs/cube.off"
+expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --quiet
+mv "$sandbox/work/out" "$inputs/solid"
+expect_success mesh "$inputs/cube.off" --dimension 2 -s 0.25 --subdomains 2 --quiet
+mv "$sandbox/work/out" "$inputs/shell"
+elements=$("$driver" check "$inputs/solid" | sed -n '1s/.*valid mesh of \([0-9]*\) .*/\1/p')
+((elements > 100)) || fault "there are '$elements' elements"
+
+is_png() { # file, width, height as hexadecimal digits
+  [[ $(head -c 24 "$1" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a0000000d49484452"$2$3" ]] || fault "$1 is no such PNG"
+}
+largest() { # the more there is to see, the larger the file
+  [[ $(stat -c %s "$1") -gt $(stat -c %s "$2") ]] || fault "$1 is not larger than $2"
+}
+
+# Pictures: of all kinds of files, from anywhere, and the same each time.
+for mesh in solid solid/mesh.pvtu solid/mesh.msh shell; do
+  expect_success view "$inputs/$mesh" --png picture.png --size 320x200
+  grep -q "^picture.png: 320 x 200 pixels$" "$sandbox/stdout" || fault "it is not said what was written"
+  is_png "$sandbox/work/picture.png" 00000140 000000c8
+done
+cp "$sandbox/work/picture.png" "$inputs/first.png"
+expect_success view "$inputs/shell" --png picture.png --size 320x200
+cmp "$sandbox/work/picture.png" "$inputs/first.png" || fault "another picture"
+for options in "--view front" "--view -30,20" "--cut x" "--cut z=0.3 --colour angle" "--cut view --no-edges" \
+  "--explode 0.5 --colour piece" "--under 40" "--colour material"; do
+  expect_success view "$inputs/solid/mesh.msh" --png picture.png --size 320x200 $options
+  is_png "$sandbox/work/picture.png" 00000140 000000c8
+  [[ -s $sandbox/stderr ]] && fault "it warns"
+  cmp -s "$sandbox/work/picture.png" "$inputs/before.png" && fault "the same picture as with other options"
+  cp "$sandbox/work/picture.png" "$inputs/before.png"
+done
+expect_success view "$inputs/solid" --png picture.png --under 0.01
+grep -q "0 of $elements elements have an angle under 0.01 degrees" "$sandbox/stdout" || fault "the elements are not counted"
+grep -q "^warning: picture.png: no element" "$sandbox/stderr" || fault "it does not warn"
+expect_success view "$inputs/solid" --png picture.png --no-edges --size 640x480
+cp "$sandbox/work/picture.png" "$inputs/plain.png"
+expect_success view "$inputs/solid" --png picture.png --size 640x480
+largest "$sandbox/work/picture.png" "$inputs/plain.png"
+
+# What is wrong is said before or instead of a file.
+printf 'no mesh at all\n' >"$inputs/text.vtu"
+head -c 3000 "$inputs/solid/mesh.msh" >"$inputs/short.msh"
+mkdir "$inputs/empty"
+for mesh in text.vtu short.msh missing.vtu empty; do
+  expect_error "${mesh//./\\.}" view "$inputs/$mesh" --png p.png
+done
+expect_error 'p\.png' view "$inputs/solid" --png nowhere/p.png
+expect_usage_error 'give -o with an HTML file' view "$inputs/solid"
+expect_usage_error 'MESH' view --png p.png
+expect_usage_error '--view up: give front' view "$inputs/solid" --png p.png --view up
+expect_usage_error '--view 1,x: give' view "$inputs/solid" --png p.png --view 1,x
+expect_usage_error '--size 10: give WxH' view "$inputs/solid" --png p.png --size 10
+expect_usage_error '--size 0x5: give WxH' view "$inputs/solid" --png p.png --size 0x5
+expect_usage_error '--cut w: give' view "$inputs/solid" --png p.png --cut w
+expect_usage_error '--cut x=: give' view "$inputs/solid" --png p.png --cut x=
+expect_usage_error '--under' view "$inputs/solid" --png p.png --under 200
+expect_usage_error '--most' view "$inputs/solid" -o p.html --most 0
+expect_usage_error '--most requires' view "$inputs/solid" --png p.png --most 10
+expect_usage_error '--cut requires' view "$inputs/solid" -o p.html --cut x
+expect_usage_error 'same file|--png' view "$inputs/solid" -o p.png --png p.png
+expect_usage_error 'MESH' view "$inputs/solid/mesh.msh" --png "$inputs/solid/mesh.msh"
+
+# Pages: whole, with nothing from outside; bounded where that is asked for.
+run_driver view "$inputs/solid" -o page.html
+if grep -q "install libjs-three" "$sandbox/stderr"; then
+  expect_error 'install libjs-three' view "$inputs/solid" -o page.html --png p.png
+  finish
+fi
+for mesh in solid solid/mesh.msh shell; do
+  expect_success view "$inputs/$mesh" -o page.html --png picture.png
+  page=$sandbox/work/page.html
+  grep -q "^page.html: [0-9.]* MB$" "$sandbox/stdout" || fault "it is not said what was written"
+  [[ $(head -n 1 "$page") == "<!DOCTYPE html>" && $(tail -n 1 "$page") == "</html>" ]] || fault "the page is not whole"
+  grep -qiE '(src|href|action|data) *= *["'\'']?(https?:)?//' "$page" && fault "the page refers to something outside"
+  grep -qE '<(link|iframe|img|object|embed|base)[ >]' "$page" && fault "the page loads something"
+  grep -q '"count":' "$page" || fault "the page has no data"
+  is_png "$sandbox/work/picture.png" 000004b0 00000384
+done
+expect_success view "$inputs/solid" -o page.html
+grep -q "\"count\":$elements," "$sandbox/work/page.html" || fault "the page counts otherwise"
+cp "$sandbox/work/page.html" "$inputs/all.html"
+expect_success view "$inputs/solid" -o page.html --most 600
+grep -qE "only .*of $elements elements inside, half of them the worst; see --most$" "$sandbox/stdout" ||
+  fault "it is not said what is left out"
+grep -q "of $elements elements inside" "$sandbox/work/page.html" || fault "the page does not say what is left out"
+largest "$inputs/all.html" "$sandbox/work/page.html"
+expect_error 'text\.vtu' view "$inputs/text.vtu" -o p.html
+expect_error 'nowhere' view "$inputs/solid" -o nowhere/p.html
+expect_usage_error 'MESH' view "$inputs/solid/mesh.msh" -o "$inputs/solid/mesh.msh"
+finish

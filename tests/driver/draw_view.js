@@ -1,0 +1,109 @@
+// node draw_view.js PAGE: runs the scripts of a page of `dovetail view` and prints what they draw for some positions of the
+// controls, one "key value" on each line, without a browser: the page and WebGL are stand-ins, three.js is the page's own.
+const [, , file] = process.argv;
+const page = require("fs").readFileSync(file, "utf8");
+const script = id => page.match(new RegExp(`<script id="${id}"[^>]*>([^]*?)</script>`))[1];
+
+class stand_in {
+  constructor(tag = "", attributes = "") {
+    const said = name => (attributes.match(new RegExp(` ${name}="([^"]*)"`)) || [, ""])[1];
+    Object.assign(this, {tag, type: said("type"), value: said("value"), checked: / checked/.test(attributes), style: {}, listeners: {},
+      dataset: {from: said("data-from")}, children: [], textContent: "", width: 300, height: 150});
+  }
+  addEventListener(name, listener) { this.listeners[name] = listener; }
+  append(...items) { this.children.push(...items); }
+  insertBefore(item) { this.children.unshift(item); }
+  set(value) { Object.assign(this, value); this.listeners.input(); }
+  get firstChild() { return this.children[0]; }
+}
+const markup = page.slice(page.indexOf("<details"), page.indexOf('<script id="three"'));
+const tags = [...markup.matchAll(/<(\w+)((?: [^<>]*)?)>/g)].map(([, tag, attributes]) => [attributes, new stand_in(tag, attributes)]);
+const byId = {data: {textContent: script("data")}};
+for (const [attributes, element] of tags) {
+  const id = attributes.match(/ id="(\w+)"/);
+  if (id) byId[id[1]] = element;
+}
+const frames = [], rendered = [];
+const document = {body: new stand_in("body"), title: "", getElementById: id => byId[id], createElement: tag => new stand_in(tag),
+  querySelectorAll: () => tags.filter(([attributes]) => attributes.includes("data-from")).map(([, element]) => element)};
+globalThis.self = globalThis;
+new Function("exports", "module", "define", script("three"))();
+THREE.WebGLRenderer = class {
+  constructor() { this.domElement = new stand_in("canvas"); }
+  setPixelRatio() {}
+  setSize() {}
+  render(scene, camera) { rendered.push({scene, camera}); }
+};
+const run = new Function("document", "location", "addEventListener", "requestAnimationFrame", "innerWidth", "innerHeight", "devicePixelRatio",
+  script("model") + script("show") + "return {layers, lines, state, eye, uniforms};");
+const shown = run(document, {hash: "#edges=0"}, () => {}, frame => frames.push(frame), 800, 600, 1);
+
+const areaOf = ({geometry}) => {
+  const p = geometry.attributes.position.array;
+  let sum = 0;
+  for (let k = 0; k < p.length; k += 9) {
+    const at = i => new THREE.Vector3(p[k + 3 * i], p[k + 3 * i + 1], p[k + 3 * i + 2]);
+    sum += new THREE.Triangle(at(0), at(1), at(2)).getArea();
+  }
+  return sum;
+};
+const count = ({geometry}) => geometry.attributes.position.count / 3;
+const print = (key, value) => console.log(key, typeof value === "number" ? +value.toFixed(4) : value);
+function settle() { while (frames.length) frames.shift()(); }
+function report(name) {
+  settle();
+  const {surface, section, ghost} = shown.layers;
+  for (const [what, layer] of Object.entries({surface, section, ghost})) print(`${name}.${what}`, count(layer));
+  print(`${name}.area`, areaOf(section));
+  const box = new THREE.Box3().setFromBufferAttribute(surface.geometry.attributes.position);
+  print(`${name}.width`, count(surface) ? box.max.x - box.min.x : 0);
+}
+print("title", document.title);
+print("figures", byId.figures.textContent);
+print("groups", byId.groups.children.length);
+print("edges", shown.uniforms.edges.value);
+report("whole");
+byId.cut.set({value: "x"});
+byId.place.set({value: 0.25});
+report("cut");
+print("cut.place", shown.uniforms.plane.value.w);
+byId.cut.set({value: "view"});
+report("view");
+byId.cut.set({value: ""});
+byId.apart.set({value: 1});
+report("apart");
+byId.apart.set({value: 0});
+byId.under.set({value: 44});
+report("under44");
+byId.under.set({value: 46});
+report("under46");
+byId.under.set({value: 71});
+byId.none.listeners.click();
+report("none");
+byId.all.listeners.click();
+report("all");
+byId.groups.children[0].children[0].checked = false;
+byId.groups.children[0].children[0].listeners.input();
+report("without");
+for (const colours of ["piece", "material", "angle", "group"]) {
+  byId.colours.set({value: colours});
+  settle();
+  print(`colour.${colours}`, Array.from((shown.layers.surface.geometry.attributes.colour || {array: []}).array.slice(0, 3)).join(","));
+}
+const canvas = document.body.children[0];
+canvas.setPointerCapture = () => {};
+const event = (x, y, more = {}) => ({pointerId: 1, clientX: x, clientY: y, buttons: 1, preventDefault() {}, ...more});
+const before = {...shown.eye};
+canvas.listeners.pointerdown(event(0, 0));
+canvas.listeners.pointermove(event(10, 0));
+print("turned", shown.eye.azimuth - before.azimuth);
+canvas.listeners.pointermove(event(20, 0, {buttons: 2}));
+print("moved", Math.hypot(...shown.eye.target) > 0);
+canvas.listeners.pointerdown(event(120, 0, {pointerId: 2}));
+canvas.listeners.pointermove(event(220, 0, {pointerId: 2}));
+print("pinched", shown.eye.away / before.away);
+canvas.listeners.pointerup(event(0, 0));
+canvas.listeners.pointerup(event(0, 0, {pointerId: 2}));
+canvas.listeners.wheel({deltaY: 100, preventDefault() {}});
+settle();
+print("rendered", rendered.length > 0);

@@ -1,0 +1,111 @@
+#include "view_page.hpp"
+
+#include "files/scratch_folder.hpp"
+#include "view_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace dovetail::app {
+namespace {
+
+using dovetail::testing::file_content;
+using dovetail::testing::scratch_folder;
+using dovetail::testing::write_content;
+
+std::string page_of(io::loaded_mesh mesh, std::int64_t most = 1000, const std::string& name = "a mesh") {
+  const view_scene scene = scene_of(std::move(mesh));
+  return page_of_view(scene, part_that_fits(scene, most), name);
+}
+
+/// What draw_view.js says of a page, by key; empty without node or three.js.
+std::map<std::string, std::string> drawn(const std::string& page) {
+  std::map<std::string, std::string> values;
+  if (!has_three_js() || std::system("node --version > /dev/null 2>&1") != 0) {
+    MESSAGE("skipped: node or three.js is not installed");
+    return values;
+  }
+  const scratch_folder folder("view_page");
+  write_content(folder / "page.html", page);
+  const int status = std::system(("node '" DOVETAIL_DRAW_VIEW "' '" + (folder / "page.html").string() +
+                                  "' > '" + (folder / "drawn").string() + "'")
+                                     .c_str());
+  CHECK(status == 0);
+  std::istringstream lines(file_content(folder / "drawn"));
+  for (std::string key, value; lines >> key && std::getline(lines >> std::ws, value);)
+    values[key] = value;
+  return values;
+}
+
+TEST_CASE("the page is whole, and refers to nothing outside") {
+  const std::string page = page_of(testing::cubes_in_pieces(2), 1000, "an <odd> </script> name\xff");
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(page.ends_with("</html>\n"));
+  // three.js has loaders, which nothing here uses.
+  const std::size_t begin = page.find("<script id=\"three\">");
+  const std::string own = page.substr(0, begin) + page.substr(page.find("</script>", begin));
+  CHECK(own.find("THREE.WebGLRenderer") != std::string::npos);
+  for (const std::string not_there : {"http", "src=\"", "href=\"", "fetch(", "XMLHttpRequest", "import",
+                                      "<odd>", "DATA_OF", "TEXT_OF", "SCRIPT_OF"})
+    CHECK_MESSAGE(own.find(not_there) == std::string::npos, not_there);
+}
+
+TEST_CASE("two pieces: their sides, sections, and elements by angle") {
+  auto values = drawn(page_of(testing::cubes_in_pieces(2)));
+  if (values.empty())
+    return;
+  CHECK(values["title"] == "a mesh");
+  CHECK(values["figures"] ==
+        "a mesh · 12 tetrahedra · 12 vertices · least angle 45.00° · 2 groups · 2 pieces");
+  CHECK(values["groups"] == "2");
+  CHECK(values["edges"] == "0"); // as the address of the page asks
+  CHECK(values["whole.surface"] == "20");
+  CHECK(values["whole.section"] == "0");
+  CHECK(values["whole.width"] == "2");
+  CHECK(values["cut.surface"] == "24");
+  CHECK(values["cut.area"] == "1"); // the square across the row
+  CHECK(values["cut.place"] == "-0.5");
+  CHECK(std::stod(values["view.area"]) > 0.5);
+  CHECK(values["apart.surface"] == "24");
+  CHECK(values["apart.width"] == "3");
+  CHECK(values["under44.surface"] == "0");
+  CHECK(values["under44.ghost"] == "20");
+  CHECK(values["under46.surface"] == "48");
+  CHECK(values["none.surface"] == "0");
+  CHECK(values["all.surface"] == "20");
+  CHECK(values["without.surface"] == "4"); // what is between the pieces
+  CHECK(values["colour.piece"] != values["colour.angle"]);
+  CHECK(values["turned"] == "-3.5");
+  CHECK(values["moved"] == "true");
+  CHECK(values["pinched"] == "0.5"); // from 100 to 200 pixels
+  CHECK(values["rendered"] == "true");
+}
+
+TEST_CASE("triangles have groups as pieces, and no sections") {
+  auto values = drawn(page_of(testing::two_squares()));
+  if (values.empty())
+    return;
+  CHECK(values["figures"] == "a mesh · 4 triangles · 6 vertices · least angle 45.00° · 2 groups · 2 pieces");
+  CHECK(values["whole.surface"] == "4");
+  CHECK(values["cut.section"] == "0");
+  CHECK(values["apart.width"] == "3");
+  CHECK(values["under44.surface"] == "0");
+  CHECK(values["under46.surface"] == "4");
+  CHECK(values["without.surface"] == "2");
+  CHECK(values["colour.group"] != values["colour.angle"]);
+}
+
+TEST_CASE("what was left out is said on the page") {
+  auto values = drawn(page_of(testing::cubes_in_pieces(2), 24 + 4 * 6));
+  if (values.empty())
+    return;
+  CHECK(values["figures"].ends_with("2 pieces · only 6 of 12 elements inside, half of them the worst"));
+  CHECK(values["under46.surface"] == "24");
+}
+
+} // namespace
+} // namespace dovetail::app

@@ -1,0 +1,123 @@
+#include "view_picture.hpp"
+
+#include "colours.hpp"
+#include "view_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dovetail::app {
+namespace {
+
+constexpr rgb inside{214, 208, 196};
+
+/// Seen along y, the row lies from left to right.
+view_wishes from_front(view_colours colours) {
+  view_wishes wishes;
+  wishes.towards = {0, -1, 0};
+  wishes.width = 120;
+  wishes.height = 60;
+  wishes.colours = colours;
+  wishes.edges = false;
+  return wishes;
+}
+
+/// Whether a pixel has this colour, brighter or darker.
+bool is_shade_of(rgb pixel, rgb colour) {
+  const double factor =
+      static_cast<double>(pixel.red + pixel.green + pixel.blue) / (colour.red + colour.green + colour.blue);
+  const auto agrees = [&](int found, int wanted) { return std::abs(found - factor * wanted) < 2.5; };
+  return agrees(pixel.red, colour.red) && agrees(pixel.green, colour.green) &&
+         agrees(pixel.blue, colour.blue);
+}
+
+int pixels_unlike_background(const raster_image& image) {
+  return static_cast<int>(std::count_if(image.data(), image.data() + image.width() * image.height(),
+                                        [](rgb pixel) { return pixel != white; }));
+}
+
+TEST_CASE("corners have the background, the middle the colours of pieces") {
+  const view_scene scene = scene_of(testing::cubes_in_pieces(2));
+  const raster_image image = picture_of_view(scene, from_front(view_colours::piece));
+  for (const int x : {0, 119})
+    for (const int y : {0, 59})
+      CHECK(image.at(x, y) == white);
+  CHECK(is_shade_of(image.at(30, 30), colour_of_number(0)));
+  CHECK(is_shade_of(image.at(90, 30), colour_of_number(1)));
+  CHECK_FALSE(is_shade_of(image.at(90, 30), colour_of_number(0)));
+}
+
+TEST_CASE("groups and angles are colours too") {
+  const view_scene scene = scene_of(testing::two_squares());
+  view_wishes wishes = from_front(view_colours::group);
+  wishes.towards = default_direction(scene);
+  CHECK(wishes.towards == vec3{0, 0, 1});
+  raster_image image = picture_of_view(scene, wishes);
+  CHECK(is_shade_of(image.at(30, 30), colour_of_number(0)));
+  CHECK(is_shade_of(image.at(90, 30), colour_of_number(1)));
+  wishes.colours = view_colours::angle;
+  image = picture_of_view(scene, wishes);
+  CHECK(is_shade_of(image.at(30, 30), colour_of_angle(45)));
+  CHECK(colour_of_angle(0) == rgb{190, 20, 40});
+  CHECK(colour_of_angle(180) == colour_of_angle(70));
+}
+
+TEST_CASE("a section shows elements inside, and takes away what is before it") {
+  const view_scene scene = scene_of(testing::row_of_cubes(2));
+  view_wishes wishes = from_front(view_colours::group);
+  CHECK_FALSE(is_shade_of(picture_of_view(scene, wishes).at(40, 35), inside));
+  wishes.cut = view_plane{{0, -1, 0}, -0.5};
+  CHECK(is_shade_of(picture_of_view(scene, wishes).at(40, 35), inside));
+  wishes.cut = view_plane{{1, 0, 0}, 1}; // half of the row stays, and fills the picture
+  const raster_image half = picture_of_view(scene, wishes);
+  CHECK(half.at(20, 30) == white);
+  CHECK(half.at(100, 30) == white);
+  CHECK(half.at(60, 30) != white);
+  wishes.cut = view_plane{{1, 0, 0}, -5}; // nothing stays
+  CHECK(pixels_unlike_background(picture_of_view(scene, wishes)) == 0);
+}
+
+TEST_CASE("elements are drawn from an angle on; of none there is the outline") {
+  const view_scene scene = scene_of(testing::row_of_cubes(2));
+  view_wishes wishes = from_front(view_colours::angle);
+  wishes.under = 46;
+  CHECK(elements_under(scene, 46) == 12);
+  CHECK(is_shade_of(picture_of_view(scene, wishes).at(40, 35), colour_of_angle(45)));
+  wishes.under = 44;
+  CHECK(elements_under(scene, 44) == 0);
+  const raster_image none = picture_of_view(scene, wishes);
+  CHECK(none.at(40, 35) == white);
+  CHECK(pixels_unlike_background(none) > 50);
+}
+
+TEST_CASE("pieces are pulled apart") {
+  const view_scene scene = scene_of(testing::cubes_in_pieces(2));
+  view_wishes wishes = from_front(view_colours::piece);
+  CHECK(picture_of_view(scene, wishes).at(57, 30) != white);
+  wishes.explode = 1;
+  const raster_image apart = picture_of_view(scene, wishes);
+  CHECK(apart.at(57, 30) == white);
+  CHECK(apart.at(63, 30) == white);
+  CHECK(is_shade_of(apart.at(25, 30), colour_of_number(0)));
+  CHECK(is_shade_of(apart.at(95, 30), colour_of_number(1)));
+}
+
+TEST_CASE("edges are dark where they are long enough to be seen") {
+  const view_scene scene = scene_of(testing::row_of_cubes(2));
+  view_wishes wishes = from_front(view_colours::group);
+  const auto darkest = [&] {
+    const raster_image image = picture_of_view(scene, wishes);
+    int sum = 3 * 255;
+    for (int x = 10; x < 55; ++x) // a row that crosses the diagonal of a square
+      sum = std::min(sum, image.at(x, 25).red + image.at(x, 25).green + image.at(x, 25).blue);
+    return sum;
+  };
+  const int without = darkest();
+  wishes.edges = true;
+  CHECK(darkest() < 0.85 * without);
+}
+
+} // namespace
+} // namespace dovetail::app
