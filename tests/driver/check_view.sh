@@ -3,7 +3,6 @@
 #   check_view.sh <driver>
 driver=$1
 source "$(dirname "$0")/expectations.sh"
-limit=300
 
 write_cube >"$inputs/cube.off"
 expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --quiet
