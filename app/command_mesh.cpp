@@ -123,9 +123,10 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
   figures.merges =
       static_cast<std::int64_t>(intersection.get("merges") + intersection.get("merged_after_failure"));
   figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
-  const double geometry = figures.seconds.geometry;
+  const stage_seconds before = figures.seconds;
   figures.seconds = seconds_of_stages(summary);
-  figures.seconds.geometry = geometry;
+  figures.seconds.geometry = before.geometry;
+  figures.seconds.scaling = before.scaling;
   figures.peak_rss_bytes = std::max(
       figures.peak_rss_bytes, static_cast<std::uint64_t>(summary.find("meshing").get("peak_rss_bytes")));
 }
@@ -164,7 +165,10 @@ public:
     parameters_.on_progress("geometry", 0, 0);
     model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
-    scale_to_elements(source, options_.model, policies_, parameters_);
+    if (options_.model.elements) {
+      scale_to_elements(source, options_.model, policies_, parameters_);
+      figures_.seconds.scaling = clock_.seconds() - figures_.seconds.geometry;
+    }
     const run_identity identity = identity_of_run(options_, source);
     for (const auto& [what, value] : identity)
       require_same(what + " " + value);

@@ -19,6 +19,7 @@ namespace dovetail::app {
 /// Wall time of the stages.
 struct stage_seconds {
   double geometry = 0;
+  double scaling = 0; ///< of the sizes to a number of elements
   double background = 0;
   double simplification = 0;
   double partition = 0;

@@ -19,6 +19,7 @@ using json = nlohmann::ordered_json;
 
 json seconds_json(const stage_seconds& seconds) {
   return {{"geometry", seconds.geometry},
+          {"scaling", seconds.scaling},
           {"background", seconds.background},
           {"simplification", seconds.simplification},
           {"partition", seconds.partition},

@@ -56,6 +56,8 @@ void add_timing(table& rows, const run_figures& figures) {
   rows.heading("Timing (seconds)");
   rows.row("Entire run", "%.2f", s.total);
   rows.row("  Geometry", "%.2f", s.geometry);
+  if (s.scaling > 0)
+    rows.row("  Sizes for the number of elements", "%.2f", s.scaling);
   rows.row("  Domain decomposition", "%.2f",
            s.background + s.simplification + s.partition + s.skeleton + s.intersection + s.bisection);
   rows.row("    Bkg. mesh generation", "%.2f", s.background);

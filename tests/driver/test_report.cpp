@@ -77,9 +77,10 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   for (const char* key : {"elements", "vertices", "background_elements", "subdomains", "seconds", "quality",
                           "interfaces", "merges", "failed_subdomains", "peak_rss_bytes", "mesh_hash"})
     CHECK_MESSAGE(document.contains(key), key);
-  for (const char* key : {"background", "simplification", "partition", "skeleton", "intersection", "meshing",
-                          "improvement", "output", "total", "bisection", "fine_partition", "redistribution",
-                          "first_pass", "between_passes", "second_pass", "writing_back"})
+  for (const char* key :
+       {"geometry", "scaling", "background", "simplification", "partition", "skeleton", "intersection",
+        "meshing", "improvement", "output", "total", "bisection", "fine_partition", "redistribution",
+        "first_pass", "between_passes", "second_pass", "writing_back"})
     CHECK_MESSAGE(document["seconds"].contains(key), key);
   for (const char* key :
        {"min_dihedral_deg", "max_dihedral_deg", "bad_per_million", "low_per_million", "histogram"})

@@ -5,6 +5,8 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/report.hpp"
 
+#include <cmath>
+
 namespace dovetail {
 
 /// Of a mesh of `made` elements where `planned` were predicted: a warning in `summary`, the report of the
@@ -16,7 +18,7 @@ inline void compare_with_plan(double planned, double made, report& summary) {
   if (planned <= 0 || made <= allowed * planned || made < worth_telling)
     return;
   summary.warnings.push_back(
-      "the mesh has " + number_text(made) + " elements, and about " + number_text(planned, 3) +
+      "the mesh has " + number_text(made) + " elements, and about " + number_text(std::round(planned)) +
       " were predicted: small features of the model need elements smaller than the sizes "
       "ask for");
 }
