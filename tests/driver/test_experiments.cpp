@@ -50,6 +50,8 @@ json example_report() {
                      .writing_back = 0.125,
                      .output = 7,
                      .total = 68};
+  figures.interfaces.min_face_angle_deg = figures.interfaces.min_dihedral_deg = 31;
+  figures.coarse_interfaces = figures.interfaces;
   figures.quality.min_dihedrals.bins[5] = 1;
   figures.quality.min_dihedrals.bins[11] = 20;
   figures.quality.min_dihedrals.bins[23] = 300;
@@ -243,6 +245,7 @@ TEST_CASE("rows are sums, over products of sums, of what the paper and reports s
         doctest::Approx(2.34).epsilon(1e-2));
   CHECK(std::isnan(value_of({{"/nowhere"}}, {{"here", 1}})));
   CHECK(std::isnan(value_of({{"/here"}}, json())));
+  CHECK(std::isnan(value_of({{"/here"}}, {{"here", nullptr}})));
 }
 
 TEST_CASE("a run has the paper's elements and background over the scale, and its ten subdomains per worker") {
