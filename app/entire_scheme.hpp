@@ -22,8 +22,8 @@ inline std::vector<std::string> other_parts() {
           "between_passes", "second_pass", "writing_back"};
 }
 /// The entire scheme: in its Tables 2, 3, 8 and 9 the paper's times of these add up to it. Neither the
-/// reading of the model ("geometry") is in it nor the pass that checks, counts and writes finished pieces
-/// ("output").
+/// reading of the model ("geometry") is in it nor the search of sizes for a number of elements ("scaling"),
+/// nor the pass that checks, counts and writes finished pieces ("output").
 inline std::vector<std::string> scheme_parts() {
   std::vector<std::string> parts = decomposition_parts();
   const std::vector<std::string> others = other_parts();

@@ -300,9 +300,9 @@ TEST_CASE("a simulation takes the place of a report's times and workers") {
   CHECK(scheme == doctest::Approx(22 - 1 - 4).epsilon(1e-3));
 }
 
-TEST_CASE("the entire scheme has every part of a run but reading and finishing") {
+TEST_CASE("the entire scheme has every part of a run but reading, scaling of sizes and finishing") {
   std::vector<std::string> parts = scheme_parts();
-  parts.insert(parts.end(), {"geometry", "output", "total"});
+  parts.insert(parts.end(), {"geometry", "scaling", "output", "total"});
   std::vector<std::string> reported;
   const json report = example_report();
   for (const auto& [part, seconds] : report.at("seconds").items())
