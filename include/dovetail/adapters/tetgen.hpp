@@ -95,8 +95,8 @@ public:
   std::size_t calls() const { return calls_; }
 
   /// TetGen's signature: the four corners, and two arguments that it leaves empty.
-  static bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
-    const auto point = [](const REAL* p) { return vec3{p[0], p[1], p[2]}; };
+  static bool unsuitable(double* a, double* b, double* c, double* d, double*, double) {
+    const auto point = [](const double* p) { return vec3{p[0], p[1], p[2]}; };
     return current->too_large(point(a), point(b), point(c), point(d));
   }
 
@@ -153,15 +153,15 @@ public:
   tetgenio& io() { return io_; }
 
 private:
-  static std::vector<REAL> flat(const std::vector<vec3>& points) {
-    std::vector<REAL> coordinates;
+  static std::vector<double> flat(const std::vector<vec3>& points) {
+    std::vector<double> coordinates;
     coordinates.reserve(3 * points.size());
     for (const vec3 p : points)
       coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
     return coordinates;
   }
-  std::vector<REAL> coordinates_;
-  std::vector<REAL> holes_;
+  std::vector<double> coordinates_;
+  std::vector<double> holes_;
   std::vector<int> corners_;
   std::vector<tetgenio::polygon> polygons_;
   std::vector<tetgenio::facet> facets_;

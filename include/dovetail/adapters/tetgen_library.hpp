@@ -14,6 +14,7 @@
 #define TETLIBRARY // declares the library's interface and makes its errors exceptions
 #endif
 #include <tetgen.h>
+#undef REAL // a macro; MPI has a constant of this name
 
 #include <string>
 
