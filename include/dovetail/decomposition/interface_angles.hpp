@@ -83,11 +83,12 @@ struct interface_angles {
                             &interface_angles::interface_dihedral, &interface_angles::surface_dihedral,
                             &interface_angles::violations>;
 
-  /// The smaller one of both kinds, 360 when there is nothing to measure; and where it is.
-  double min_dihedral_deg() const { return min_dihedral().angle_deg; }
+  /// The smaller one of both kinds of dihedrals, and where it is.
   const least_angle& min_dihedral() const {
     return surface_dihedral.angle_deg < interface_dihedral.angle_deg ? surface_dihedral : interface_dihedral;
   }
+  /// How large it is; 360 when there is nothing to measure.
+  double min_dihedral_deg() const { return min_dihedral().angle_deg; }
   /// How many violations have a cause.
   std::size_t count(violation_cause cause) const {
     return static_cast<std::size_t>(
