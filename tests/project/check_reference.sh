@@ -19,7 +19,7 @@ without() { # file, the begin of the line before which a comment ends, which is 
   ! cmp -s "$work/changed" "$include/$1" || { echo "$1 has no commented line '$2'"; exit 1; }
   mv "$work/changed" "$include/$1"
 }
-without graph/contraction.hpp 'inline csr_graph make_csr_graph('
+without graph/contraction.hpp 'csr_graph make_csr_graph('
 without graph/csr_graph.hpp 'struct csr_graph {'
 without sizing/concepts.hpp 'template <class H>'
 without pipeline/parameters.hpp '  double limit_seconds'
