@@ -130,7 +130,7 @@ int run_experiment(const experiment_options& options) {
       tell_seconds(each->name, result.seconds);
     }
   } catch (const cancelled&) {
-    complain("stopped; the same command goes on after the runs that are finished");
+    complain(stopped_experiment_line(true));
     return exit_stopped;
   }
   if (chosen.size() > 1)

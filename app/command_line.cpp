@@ -207,6 +207,7 @@ struct parser {
   simulate_options simulate;
   experiment_options experiment;
   std::function<int()> chosen;
+  std::function<std::string(bool)> stopped = stopped_line; ///< what it says then
   command_inputs inputs;
   command_outputs outputs;
 
@@ -335,6 +336,7 @@ struct parser {
     command.add_flag("--quiet", experiment.quiet, "Nothing of the runs under way");
     command.callback([this] {
       chosen = [this] { return run_experiment(experiment); };
+      stopped = stopped_experiment_line;
       inputs = {{"--input", experiment.input}};
       outputs.folder = experiment.out;
       outputs.names_in_folder = names_of_experiment_files();
@@ -566,7 +568,7 @@ int run_command_line(int argc, char** argv) {
         help);
   };
   if (!shared)
-    return refused != nullptr ? chosen() : run_supervised(chosen, clean_up);
+    return refused != nullptr ? chosen() : run_supervised(chosen, clean_up, line.stopped);
   const auto on_ranks = [&] {
     return run_on_ranks(
         [&](const relayed_rank& rank) {

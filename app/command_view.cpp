@@ -126,7 +126,7 @@ struct asked_picture {
         cut(asked_section(options.cut)) {}
 
   view_wishes wishes(const view_scene& scene, const view_options& options) const {
-    view_wishes wishes{.towards = direction.value_or(default_direction(scene)),
+    view_wishes wishes{.towards = direction.value_or(direction_to_viewer(scene.box)),
                        .width = size.first,
                        .height = size.second,
                        .colours = asked_colours(options.colour),

@@ -22,14 +22,7 @@ constexpr rgb orange{240, 150, 30};
 constexpr rgb blue{70, 120, 200};
 constexpr rgb outline{120, 125, 135};
 
-/// From where a scene is seen: one that lies in the plane z = const from above.
-vec3 direction_to_viewer(const raster_scene& scene) {
-  const box3 box = scene.bounds();
-  const bool flat = box.upper.z - box.lower.z <= 1e-9 * box.diagonal();
-  return flat ? vec3{0, 0, 1} : normalized({0.8, -1, 0.65});
-}
-
-raster_image rendered(const raster_scene& scene, vec3 from = normalized({0.8, -1, 0.65})) {
+raster_image rendered(const raster_scene& scene, vec3 from = oblique_direction()) {
   const raster_view view = fitted(view_from(from), scene, width, height);
   return render(scene, view, width, height, 2);
 }
@@ -189,7 +182,7 @@ raster_image picture_of_decomposition(const generated<2>& result) {
                      colour_of_number(static_cast<local_id>(s)));
   }
   add_outline(scene, result.mesh.skeleton);
-  return rendered(scene, direction_to_viewer(scene));
+  return rendered(scene, direction_to_viewer(scene.bounds()));
 }
 
 raster_image picture_of_interfaces(const generated<3>& result) {
@@ -203,7 +196,7 @@ raster_image picture_of_interfaces(const generated<3>& result) {
       add_with_edges(scene, corners(std::span(skeleton.points), skeleton.sides[t]),
                      colour_of_number(first + 3 * second));
     }
-  const vec3 before_all = 2 * scene.bounds().diagonal() * normalized({0.8, -1, 0.65});
+  const vec3 before_all = 2 * scene.bounds().diagonal() * oblique_direction();
   const auto mark = [&](local_id a, local_id b) {
     scene.lines.push_back(
         lifted({{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
@@ -231,7 +224,7 @@ raster_image picture_of_interfaces(const generated<2>& result) {
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (skeleton.side_hosts[e] == no_id)
       scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), blue, 3});
-  const vec3 from = direction_to_viewer(scene);
+  const vec3 from = direction_to_viewer(scene.bounds());
   const double diagonal = scene.bounds().diagonal();
   const raster_view view = view_from(from);
   for (const angle_violation& violation : result.fine_angles.violations) {
@@ -252,7 +245,7 @@ raster_image picture_of_worst_elements(const generated<D>& result) {
   box3 box;
   for (const vec3 p : result.mesh.skeleton.points)
     box.include(p);
-  const vec3 from = D == 3 ? normalized({0.8, -1, 0.65}) : direction_to_viewer(scene);
+  const vec3 from = D == 3 ? oblique_direction() : direction_to_viewer(scene.bounds());
   for (const auto& element : worst_elements(result.mesh))
     add_element<D>(scene, element, least_across * box.diagonal());
   return rendered(scene, from);

@@ -30,6 +30,10 @@ inline std::string stopped_line(bool can_go_on) {
   return can_go_on ? "stopped; --resume goes on from what is kept, if that is of the same command"
                    : "stopped";
 }
+/// The same of an experiment, which keeps the runs that are finished.
+inline std::string stopped_experiment_line(bool) {
+  return "stopped; the same command goes on after the runs that are finished";
+}
 
 /// Writes "dovetail: <text>" on one line of the error stream.
 void complain(const std::string& text);

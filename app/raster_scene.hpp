@@ -51,6 +51,18 @@ struct raster_view {
   double height = 1;
 };
 
+/// To the viewer of whatever has no direction of its own: in front of it, to the right and above.
+inline vec3 oblique_direction() {
+  return normalized({0.8, -1, 0.65});
+}
+
+/// From where what fills a box is seen unless somebody says otherwise: what lies in a plane z = const from
+/// above.
+inline vec3 direction_to_viewer(const box3& box) {
+  const bool flat = box.upper.z - box.lower.z <= 1e-9 * box.diagonal();
+  return flat ? vec3{0, 0, 1} : oblique_direction();
+}
+
 /// The view against the direction `towards`, with the z axis pointing up where it is not seen end on. Place
 /// and height are left as they are by default.
 inline raster_view view_from(vec3 towards) {

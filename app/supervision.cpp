@@ -224,7 +224,8 @@ bool cleaned_up(const std::function<bool()>& clean_up) noexcept {
   }
 }
 
-int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up) {
+int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up,
+                   const std::function<std::string(bool)>& stopped) {
   supervisor watched;
   if (!watched.supervises()) // or there can be no other process: without supervision then
     return command();
@@ -234,7 +235,7 @@ int run_supervised(const std::function<int()>& command, const std::function<bool
     watched.await_workers();
     const bool can_go_on = cleaned_up(clean_up);
     if (watched.was_killed() && !has_complained())
-      complain(watched.ended() ? stopped_line(can_go_on) : watched.killed_line());
+      complain(watched.ended() ? stopped(can_go_on) : watched.killed_line());
   }
   return watched.code();
 }

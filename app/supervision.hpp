@@ -2,6 +2,8 @@
 /// A command runs in a child process: whatever becomes of that, this one ends in time and cleans up.
 #pragma once
 
+#include "failure.hpp"
+
 #include "dovetail/parallel/owned_descriptor.hpp"
 
 #include <chrono>
@@ -16,13 +18,13 @@ namespace dovetail::app {
 
 /// Runs a command in a child and returns its exit code. The first SIGINT or SIGTERM (or what else is
 /// in `stop_signals`) asks the child to stop at the next safe point; a second one, or a second without one,
-/// ends it and its workers at once
-/// (`exit_stopped`). A child that a signal ends, a crash inside a library for example, is one line on the
-/// error stream and `exit_failure`. Where a child was stopped or did not end by itself, `clean_up` is called
-/// when all its processes are gone, since a worker may leave part of a file; it returns whether another run
-/// can go on from what is left. Where there is a `spare_process` the command goes on after it was killed.
-/// Call it from a process without threads.
-int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up);
+/// ends it and its workers at once (`exit_stopped`). A child that a signal ends, a crash inside a library for
+/// example, is one line on the error stream and `exit_failure`. Where a child was stopped or did not end by
+/// itself, `clean_up` is called when all its processes are gone, since a worker may leave part of a file; it
+/// returns whether another run can go on from what is left, which `stopped` puts into words. Where there is a
+/// `spare_process` the command goes on after it was killed. Call it from a process without threads.
+int run_supervised(const std::function<int()>& command, const std::function<bool()>& clean_up,
+                   const std::function<std::string(bool)>& stopped = stopped_line);
 
 /// Forks a child, and is its parent's side: from then on there are two processes in the program. Made in a
 /// process without threads. The parent gets the stop signals here alone.

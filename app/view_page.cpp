@@ -176,8 +176,8 @@ std::string page_of_view(const view_scene& scene, const view_part& part, const s
     text.replace(at, 1, "\\u003c");
   std::string page = view_page_template;
   put_in(page, "SCRIPT_OF_THE_MODEL", view_model_script);
-  put_in(page, "DATA_OF_THE_MESH", text);
   put_in(page, "TEXT_OF_THREE_JS", three_js());
+  put_in(page, "DATA_OF_THE_MESH", text); // the last, since a name in it may be any text
   return page;
 }
 

@@ -187,9 +187,4 @@ std::size_t elements_under(const view_scene& scene, double degrees) {
       std::count_if(scene.angles.begin(), scene.angles.end(), [&](float angle) { return angle < degrees; }));
 }
 
-vec3 default_direction(const view_scene& scene) {
-  const bool flat = scene.box.upper.z - scene.box.lower.z <= 1e-9 * scene.box.diagonal();
-  return flat ? vec3{0, 0, 1} : normalized({0.8, -1, 0.65});
-}
-
 } // namespace dovetail::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster_image.hpp"
+#include "raster_scene.hpp"
 #include "view_scene.hpp"
 
 #include <optional>
@@ -18,8 +19,8 @@ struct view_plane {
 };
 
 struct view_wishes {
-  vec3 towards{0.8, -1, 0.65}; ///< from the mesh to the viewer
-  int width = 1200;            ///< pixels
+  vec3 towards = oblique_direction(); ///< from the mesh to the viewer
+  int width = 1200;                   ///< pixels
   int height = 900;
   view_colours colours = view_colours::group;
   std::optional<view_plane> cut = {}; ///< what is on the side of its normal is taken away
@@ -34,8 +35,5 @@ raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes)
 
 /// How many elements have a smaller angle.
 std::size_t elements_under(const view_scene& scene, double degrees);
-
-/// From where a mesh is seen unless somebody says otherwise: one in a plane z = const from above.
-vec3 default_direction(const view_scene& scene);
 
 } // namespace dovetail::app

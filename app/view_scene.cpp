@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -50,7 +51,8 @@ public:
     std::sort(known_.begin(), known_.end());
   }
   std::optional<local_id> tag_of(const simplex<2>& triangle) const {
-    const auto found = std::lower_bound(known_.begin(), known_.end(), std::pair(sorted(triangle), no_id));
+    const auto found = std::lower_bound(known_.begin(), known_.end(),
+                                        std::pair(sorted(triangle), std::numeric_limits<local_id>::min()));
     if (found == known_.end() || found->first != sorted(triangle))
       return std::nullopt;
     return found->second;

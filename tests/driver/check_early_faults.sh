@@ -45,7 +45,7 @@ await_others_of() {
   done
 }
 ends_in_one_line() {
-  wait_for_process
+  wait_for_process 60
   ((status != 0)) || fault "exit code is 0"
   [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
   grep -q "^dovetail: rank $1: .*killed.*signal 9" "$sandbox/stderr" || fault "the line does not say that rank $1 was killed"

@@ -194,7 +194,7 @@ for victim in first last; do
     else
       kill -SEGV "$(computing | tail -n 1)"
     fi
-    wait_for_process
+    wait_for_process 10
     ((status == 1)) || fault "exit code is $status, not 1"
     [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
     grep -q "^dovetail: .*ended by signal 11" "$sandbox/stderr" || fault "the line does not say what happened"
@@ -206,7 +206,7 @@ resume_on 7
 
 start_until 2 intersection "${long[@]}"
 kill -KILL "$(relays | tail -n 1)"
-wait_for_process
+wait_for_process 10
 ((status != 0)) || fault "exit code is 0"
 nothing_left several
 resume_on 1
@@ -218,7 +218,7 @@ on_ranks 1 whole "${long[@]}" --workers 2
 ((status == 0)) || fault "exit code is $status"
 start_until 4 intersection "${long[@]}"
 kill -TERM $process
-wait_for_process
+wait_for_process 10
 ((status != 0)) || fault "exit code is 0"
 [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
 grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
@@ -234,7 +234,7 @@ on_ranks 4 several "${mesh[@]}" --format vtu,msh --spool "$disks"
 [[ -d $disks && -z $(find "$disks" -mindepth 1) && ! -e several/out/spool ]] || fault "the spools are not gone: $(find "$disks")"
 start_until 3 intersection "${long[@]}" --spool "$disks"
 kill -TERM $process
-wait_for_process
+wait_for_process 10
 ((status != 0)) || fault "exit code is 0"
 grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
 for rank in 0 1 2; do

@@ -96,10 +96,10 @@ kill_in() {
   reader=$!
   exec 9<&-
 }
-# see_it_end: sets $status.
+# see_it_end <seconds>: sets $status.
 see_it_end() {
   local tenths
-  wait_for_process
+  wait_for_process "$1"
   for ((tenths = 0; tenths < 300; ++tenths)); do # until all that was said is read
     kill -0 $reader 2>/dev/null || break
     sleep 0.1
@@ -136,7 +136,7 @@ try() {
   local ranks=$1 stage=$2 rank=$((tried++ % $1)) begun=$SECONDS
   shift 2
   kill_in "$ranks" "$stage" $rank "${mesh[@]}" "$@"
-  see_it_end
+  see_it_end $([[ $victim == worker ]] && echo 100 || echo 10)
   echo "$what: exit code $status after $((SECONDS - begun)) s; $(grep '^dovetail: ' "$sandbox/stderr")"
   if [[ $victim == worker ]]; then
     same_as_whole

@@ -24,7 +24,7 @@ if "$driver" mesh --help | grep -q "Mesh improver:.* cgal"; then
   (cd "$sandbox/late" && exec "$driver" mesh "$inputs/sharp.off" --size 0.12 --subdomains 2 --workers 1 --improver cgal \
     --format none --report report.json >stdout 2>stderr </dev/null) &
   late=$!
-  for ((tries = 0; tries < 600; ++tries)); do
+  for ((tries = 0; tries < 20000; ++tries)); do
     work=$(pgrep -P $late) && worker=$(pgrep -P "$work") && child=$(pgrep -P "$worker") && break
     sleep 0.05
   done

@@ -57,9 +57,27 @@ expect_success() {
   ((status == 0)) || fault "exit code is $status"
 }
 
-# wait_for_process: waits for the process $process, whose exit code is $status then; of one that hangs it is no end.
+# now: in milliseconds.
+now() {
+  local microseconds=${EPOCHREALTIME/./}
+  echo $((microseconds / 1000))
+}
+
+# expect_soon <milliseconds> <limit>: what took so long took less than the limit, on a machine that starts the program within
+# 400 ms; one that is slower, or busy, has more in proportion.
+expect_soon() {
+  (($1 < $2)) && return
+  local begin start
+  begin=$(now)
+  "$driver" --version >/dev/null
+  start=$(($(now) - begin))
+  (($1 * 400 < $2 * start)) || fault "it took $1 ms, of a program that starts in $start ms"
+}
+
+# wait_for_process [<seconds>]: waits for the process $process, whose exit code is $status then, and which ends so soon.
 wait_for_process() {
-  local tenths
+  local tenths begin
+  begin=$(now)
   for ((tenths = 0; tenths < 10000; ++tenths)); do
     kill -0 $process 2>/dev/null || break
     sleep 0.1
@@ -67,6 +85,7 @@ wait_for_process() {
   kill -0 $process 2>/dev/null && fault "it has not ended within 1000 s" && kill -9 $process
   wait $process 2>/dev/null
   status=$?
+  [[ -z ${1:-} ]] || expect_soon $(($(now) - begin)) $((1000 * $1))
 }
 
 finish() {

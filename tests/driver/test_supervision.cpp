@@ -30,7 +30,8 @@ struct ending {
 };
 
 ending end_of(
-    const std::function<int()>& command, const std::function<bool()>& clean_up = [] { return false; }) {
+    const std::function<int()>& command, const std::function<bool()>& clean_up = [] { return false; },
+    const std::function<std::string(bool)>& stopped = stopped_line) {
   std::FILE* file = std::tmpfile();
   REQUIRE(file != nullptr);
   std::fflush(stderr);
@@ -39,10 +40,13 @@ ending end_of(
   const auto start = std::chrono::steady_clock::now();
   const pid_t test = ::getpid();
   ending result{0, 0, 0, {}};
-  result.code = run_supervised(command, [&] {
-    ++result.cleaned;
-    return clean_up();
-  });
+  result.code = run_supervised(
+      command,
+      [&] {
+        ++result.cleaned;
+        return clean_up();
+      },
+      stopped);
   if (::getpid() != test) // the child, whose command has returned
     ::_exit(result.code);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -287,6 +291,10 @@ TEST_CASE("only where something is left it is said that another run can go on fr
   };
   CHECK(end_of(deaf, [] { return true; }).told.find("--resume") != std::string::npos);
   CHECK(end_of(deaf, [] { return false; }).told == "dovetail: stopped\n");
+  // An experiment says it in words of its own.
+  CHECK(end_of(
+            deaf, [] { return false; }, stopped_experiment_line)
+            .told == "dovetail: " + stopped_experiment_line(false) + "\n");
 }
 
 TEST_CASE("who has said how it ends, and is ended on its way out, has said enough") {

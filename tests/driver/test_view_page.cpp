@@ -54,6 +54,12 @@ TEST_CASE("the page is whole, and refers to nothing outside") {
     CHECK_MESSAGE(own.find(not_there) == std::string::npos, not_there);
 }
 
+TEST_CASE("a name may be what a script's place is called") {
+  const std::string page = page_of(testing::cubes_in_pieces(2), 1000, "TEXT_OF_THREE_JS");
+  CHECK(page.find("\"TEXT_OF_THREE_JS\"") != std::string::npos);
+  CHECK(page.find("<script id=\"three\">TEXT_OF") == std::string::npos);
+}
+
 TEST_CASE("two pieces: their sides, sections, and elements by angle") {
   auto values = drawn(page_of(testing::cubes_in_pieces(2)));
   if (values.empty())

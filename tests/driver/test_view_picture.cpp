@@ -52,7 +52,7 @@ TEST_CASE("corners have the background, the middle the colours of pieces") {
 TEST_CASE("groups and angles are colours too") {
   const view_scene scene = scene_of(testing::two_squares());
   view_wishes wishes = from_front(view_colours::group);
-  wishes.towards = default_direction(scene);
+  wishes.towards = direction_to_viewer(scene.box);
   CHECK(wishes.towards == vec3{0, 0, 1});
   raster_image image = picture_of_view(scene, wishes);
   CHECK(is_shade_of(image.at(30, 30), colour_of_number(0)));

@@ -77,11 +77,11 @@ TEST_CASE("triangles of the file give groups to sides, also to those within a pi
   const auto plain = scene_of(row);
   row.triangles = {plain.triangles[0], {4, 5, 7}, {0, 1, 11}}; // the last one is no side
   std::swap(row.triangles[0][0], row.triangles[0][2]);         // whatever their order
-  row.triangle_tags = {2, 4, 8};
+  row.triangle_tags = {-2, 4, 8};                              // any number
   row.triangle_names = {{4, "film"}};
   const view_scene scene = scene_of(row);
   CHECK(scene.outer == 20);
-  CHECK(of_label(scene.groups, "group 2") == 1);
+  CHECK(of_label(scene.groups, "group -2") == 1);
   CHECK(of_label(scene.groups, "without a group") == 19);
   CHECK(of_label(scene.groups, "film") == 2);
   CHECK(scene.groups.names.size() == 3);

@@ -113,18 +113,18 @@ local_id find_side(const side_table<D>& sides, const simplex<D - 1>& vertices);
 #ifdef DOVETAIL_COMPILED
 extern template side_table<2> build_sides<2>(std::span<const simplex<2>> elements, std::size_t point_count);
 extern template side_table<2> build_sides<2>(const simplicial_mesh<2>& mesh);
-extern template std::vector<std::array<local_id, 2 + 1>> element_neighbours<2>(const side_table<2>& sides);
+extern template std::vector<std::array<local_id, 3>> element_neighbours<2>(const side_table<2>& sides);
 extern template ridge_table<2> build_ridges<2>(std::span<const simplex<2>> elements, std::size_t point_count,
                                                const side_table<2>& sides);
 extern template ridge_table<2> build_ridges<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides);
-extern template local_id find_side<2>(const side_table<2>& sides, const simplex<2 - 1>& vertices);
+extern template local_id find_side<2>(const side_table<2>& sides, const simplex<1>& vertices);
 extern template side_table<3> build_sides<3>(std::span<const simplex<3>> elements, std::size_t point_count);
 extern template side_table<3> build_sides<3>(const simplicial_mesh<3>& mesh);
-extern template std::vector<std::array<local_id, 3 + 1>> element_neighbours<3>(const side_table<3>& sides);
+extern template std::vector<std::array<local_id, 4>> element_neighbours<3>(const side_table<3>& sides);
 extern template ridge_table<3> build_ridges<3>(std::span<const simplex<3>> elements, std::size_t point_count,
                                                const side_table<3>& sides);
 extern template ridge_table<3> build_ridges<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides);
-extern template local_id find_side<3>(const side_table<3>& sides, const simplex<3 - 1>& vertices);
+extern template local_id find_side<3>(const side_table<3>& sides, const simplex<2>& vertices);
 #endif
 
 } // namespace dovetail

@@ -34,44 +34,40 @@ public:
   /// Throws `geometry_error` when the body is empty, reaches the border of the box, or its surface cannot be
   /// triangulated at this resolution.
   template <class F>
-    requires std::invocable<const F&, vec3> implicit_model(F value, const box3& box,
-                                                           const implicit_options& options = {})
-        : implicit_model(std::function<double(vec3)>(std::move(value)), checked(box, options), options, 0) {}
+    requires(std::invocable<const F&, vec3>)
+  implicit_model(F value, const box3& box, const implicit_options& options = {})
+      : implicit_model(std::function<double(vec3)>(std::move(value)), checked(box, options), options, 0) {}
 
-    const geometry_topology& topology() const;
-    box3 bounds() const;
-    bool thread_safe() const {
-      return true;
-    }
-    /// The start triangulation, split into charts; `chart_of` is the face of each triangle.
-    const charted_surface& surface() const;
+  const geometry_topology& topology() const;
+  box3 bounds() const;
+  bool thread_safe() const { return true; }
+  /// The start triangulation, split into charts; `chart_of` is the face of each triangle.
+  const charted_surface& surface() const;
 
-    vec3 curve_point(local_id c, double t) const;
-    dovetail::curve_frame curve_frame(local_id c, double t) const;
-    vec2 curve_uv(local_id f, int k, double t) const;
+  vec3 curve_point(local_id c, double t) const;
+  dovetail::curve_frame curve_frame(local_id c, double t) const;
+  vec2 curve_uv(local_id f, int k, double t) const;
 
-    vec3 face_point(local_id f, vec2 uv) const;
-    surface_frame face_frame(local_id f, vec2 uv) const;
-    double face_curvature(local_id f, vec2 uv) const;
+  vec3 face_point(local_id f, vec2 uv) const;
+  surface_frame face_frame(local_id f, vec2 uv) const;
+  double face_curvature(local_id f, vec2 uv) const;
 
-    vec2 project_to_face(local_id f, vec3 p, vec2 seed) const;
+  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const;
 
-    double project_to_curve(local_id c, vec3 p, double seed) const;
+  double project_to_curve(local_id c, vec3 p, double seed) const;
 
-  private:
-    struct data;
+private:
+  struct data;
 
-    implicit_model(std::function<double(vec3)> value, const box3& box, const implicit_options& options, int);
+  implicit_model(std::function<double(vec3)> value, const box3& box, const implicit_options& options, int);
 
-    static const box3& checked(const box3& box, const implicit_options& options);
+  static const box3& checked(const box3& box, const implicit_options& options);
 
-    static std::size_t index(local_id id) {
-      return static_cast<std::size_t>(id);
-    }
-    const discrete::chart_frame& frame_of(local_id f) const;
-    vec3 carried(vec3 p) const;
+  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
+  const discrete::chart_frame& frame_of(local_id f) const;
+  vec3 carried(vec3 p) const;
 
-    std::shared_ptr<const data> data_;
+  std::shared_ptr<const data> data_;
 };
 
 static_assert(geometry_model<implicit_model>);
