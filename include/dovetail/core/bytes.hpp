@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -40,7 +41,14 @@ public:
   byte_buffer take() { return std::move(buffer_); } ///< what has been written; the writer is empty after that
 
 private:
-  void append(const void* data, std::size_t size);
+  // Here, since numbers come one by one, and most are of a byte.
+  void append(const void* data, std::size_t size) {
+    if (size == 0)
+      return;
+    const std::size_t at = buffer_.size();
+    buffer_.resize(at + size);
+    std::memcpy(buffer_.data() + at, data, size);
+  }
   byte_buffer buffer_;
 };
 
@@ -72,7 +80,15 @@ public:
 private:
   /// Of items of which so many are left; looked at before memory for them is asked for.
   std::size_t count_with_room(std::size_t size_of_item);
-  void read(void* to, std::size_t size);
+  void read(void* to, std::size_t size) {
+    if (size > left_)
+      throw_end();
+    if (size > 0)
+      std::memcpy(to, data_, size);
+    data_ += size;
+    left_ -= size;
+  }
+  [[noreturn]] static void throw_end();
   const std::byte* data_;
   std::size_t left_;
 };

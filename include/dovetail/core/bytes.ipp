@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace dovetail {
@@ -16,14 +15,6 @@ namespace dovetail {
 DOVETAIL_INLINE void byte_writer::text(const std::string& s) {
   count(s.size());
   append(s.data(), s.size());
-}
-
-DOVETAIL_INLINE void byte_writer::append(const void* data, std::size_t size) {
-  if (size == 0)
-    return;
-  const std::size_t at = buffer_.size();
-  buffer_.resize(at + size);
-  std::memcpy(buffer_.data() + at, data, size);
 }
 
 DOVETAIL_INLINE std::uint64_t byte_reader::count() {
@@ -46,17 +37,12 @@ DOVETAIL_INLINE std::string byte_reader::text() {
 DOVETAIL_INLINE std::size_t byte_reader::count_with_room(std::size_t size_of_item) {
   const std::uint64_t items = count();
   if (items > left_ / size_of_item)
-    throw input_error("binary data end early");
+    throw_end();
   return static_cast<std::size_t>(items);
 }
 
-DOVETAIL_INLINE void byte_reader::read(void* to, std::size_t size) {
-  if (size > left_)
-    throw input_error("binary data end early");
-  if (size > 0)
-    std::memcpy(to, data_, size);
-  data_ += size;
-  left_ -= size;
+DOVETAIL_INLINE void byte_reader::throw_end() {
+  throw input_error("binary data end early");
 }
 
 } // namespace dovetail
