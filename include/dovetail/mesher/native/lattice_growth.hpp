@@ -221,7 +221,7 @@ private:
   void add(const spot& at, std::uint8_t settled = 0) {
     const auto id = static_cast<std::uint32_t>(points_.size());
     points_.push_back({at.place, at.size, static_cast<std::uint32_t>(at.leaf), settled});
-    grid_.add(at.leaf, at.place, id);
+    grid_.add(at.leaf, at.place);
     const std::size_t c = class_of(at.size);
     queues_[c].points.push_back(id);
     lowest_ = std::min(lowest_, c);

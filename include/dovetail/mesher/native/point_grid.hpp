@@ -19,87 +19,180 @@ struct gathered_point {
   std::uint32_t id;
 };
 
-/// Leaves are about as wide as the size, so there are few points in each, and few leaves to look in. They
-/// hold points in chunks next to each other in memory. A leaf's neighbours are looked up once, when first
-/// wanted.
+/// Cells are leaves, or where all octants of a node are leaves the node: some sizes wide, so that a ball of a
+/// size meets few of them. A cell's points lie in chunks that are searched in single precision, several at
+/// once; what that finds is looked at in double. A cell's neighbours are looked up once, when first wanted.
 class point_grid {
 public:
   /// For radii of at most `reach` times the size at the place.
   point_grid(const piece_octree& piece, double reach)
-      : piece_(piece), reach_(reach), leaves_(piece.tree().node_count()) {
-    for (std::size_t k = 0; k < piece.tree().leaf_count(); ++k) {
-      const std::size_t leaf = piece.tree().leaf(k);
-      const box3 box = piece.tree().box(leaf);
-      leaves_[leaf].center = box.center();
-      leaves_[leaf].half = 0.5 * (box.upper.x - box.lower.x);
+      : piece_(piece), reach_(reach), cell_of_(piece.tree().node_count(), none),
+        has_points_(piece.tree().node_count(), false) {
+    const octree& tree = piece.tree();
+    for (std::size_t k = 0; k < tree.leaf_count(); ++k) {
+      const std::size_t node = node_of_cell(tree.leaf(k));
+      if (cell_of_[node] == none)
+        add_cell(node);
+      cell_of_[tree.leaf(k)] = cell_of_[node];
     }
   }
 
-  void add(std::size_t leaf, vec3 place, std::uint32_t id) {
-    std::uint32_t& first = leaves_[leaf].first;
-    if (first == none || chunks_[first].count == chunk::room) {
-      chunks_.push_back({{}, 0, first});
-      first = static_cast<std::uint32_t>(chunks_.size() - 1);
+  /// The point with the number of points before it.
+  void add(std::size_t leaf, vec3 place) {
+    cell& to = cells_[cell_of_[leaf]];
+    if (to.first == none || chunks_[to.first].count == chunk::room) {
+      chunks_.emplace_back().next = to.first;
+      to.first = static_cast<std::uint32_t>(chunks_.size() - 1);
     }
-    chunk& to = chunks_[first];
-    to.points[to.count++] = {place, id};
+    chunk& last = chunks_[to.first];
+    const vec3 from_center = place - to.center;
+    last.x[last.count] = static_cast<float>(from_center.x);
+    last.y[last.count] = static_cast<float>(from_center.y);
+    last.z[last.count] = static_cast<float>(from_center.z);
+    last.ids[last.count++] = static_cast<std::uint32_t>(places_.size());
+    places_.push_back(place);
+    has_points_[leaf] = true;
   }
 
-  bool has_points(std::size_t leaf) const { return leaves_[leaf].first != none; }
+  bool has_points(std::size_t leaf) const { return has_points_[leaf]; }
 
   /// The points within `radius` of a place in the leaf, in an order that depends on what was added alone.
   void gather(std::size_t leaf, vec3 place, double radius, std::vector<gathered_point>& to) {
     to.clear();
-    if (leaves_[leaf].begin == leaves_[leaf].end)
-      find_neighbours(leaf);
+    cell& own = cells_[cell_of_[leaf]];
+    if (own.begin == own.end)
+      find_neighbours(own);
     const double bound = radius * radius;
-    for (std::uint32_t k = leaves_[leaf].begin; k < leaves_[leaf].end; ++k) {
-      const leaf_points& near = leaves_[neighbours_[k]];
-      if (near.first == none || near.distance_squared_to(place) >= bound)
+    const vec3 from_own = place - own.center;
+    for (std::uint32_t k = own.begin; k < own.end; ++k) {
+      const neighbour& near = neighbours_[k];
+      if (!near.may_hold(from_own, radius))
         continue;
-      for (std::uint32_t at = near.first; at != none; at = chunks_[at].next)
-        for (std::uint32_t i = 0; i < chunks_[at].count; ++i)
-          if (norm_squared(chunks_[at].points[i].place - place) < bound)
-            to.push_back(chunks_[at].points[i]);
+      const cell& other = cells_[near.number];
+      const vec3 from_center = place - other.center;
+      const float loose = loosened(radius, other.half);
+      for (std::uint32_t at = other.first; at != none; at = chunks_[at].next)
+        search(chunks_[at], from_center, loose, [&](std::uint32_t id) {
+          if (norm_squared(places_[id] - place) < bound)
+            to.push_back({places_[id], id});
+        });
     }
   }
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct chunk {
-    static constexpr std::uint32_t room = 6;
-    std::array<gathered_point, room> points;
-    std::uint32_t count;
-    std::uint32_t next;
+    static constexpr std::size_t room = 8;
+    static constexpr float far = 1e18F; ///< from anything: where there is no point
+    std::array<float, room> x, y, z;    ///< from the cell's centre
+    std::array<std::uint32_t, room> ids;
+    std::uint32_t count = 0;
+    std::uint32_t next = none;
+
+    chunk() : ids{} {
+      x.fill(far);
+      y.fill(far);
+      z.fill(far);
+    }
   };
-  struct leaf_points {
+  struct cell {
     vec3 center;
     double half = 0;                  ///< of its width
     std::uint32_t first = none;       ///< of its chunks; only this one may have room
     std::uint32_t begin = 0, end = 0; ///< of its neighbours; none until wanted
+    std::uint32_t node = 0;
+  };
+  /// A cell near another one, as that sees it.
+  struct neighbour {
+    std::array<float, 3> center; ///< from the centre of the other one
+    float half;                  ///< of its width
+    std::uint32_t number;
 
-    double distance_squared_to(vec3 p) const {
-      const auto outside = [&](double x, double middle) {
-        return std::max(std::abs(x - middle) - half, 0.0);
-      };
-      return norm_squared({outside(p.x, center.x), outside(p.y, center.y), outside(p.z, center.z)});
+    /// Whether it may have points within a radius of a place.
+    bool may_hold(vec3 place, double radius) const {
+      float squared = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float outside =
+            std::max(std::abs(static_cast<float>(place[static_cast<int>(k)]) - center[k]) - half, 0.0F);
+        squared += outside * outside;
+      }
+      return squared <= loosened(radius, half);
     }
   };
 
-  void find_neighbours(std::size_t leaf) {
-    const octree& tree = piece_.tree();
-    const double reach = reach_ * piece_.greatest_size(leaf);
-    const box3 box = inflated(tree.box(leaf), reach);
-    leaves_[leaf].begin = static_cast<std::uint32_t>(neighbours_.size());
-    visit(0, tree.bounds(), box);
-    leaves_[leaf].end = static_cast<std::uint32_t>(neighbours_.size());
+  /// The square of a radius, so much larger that single precision loses nothing within it: coordinates are
+  /// some radii and widths.
+  static float loosened(double radius, double half) {
+    const double loose = radius + 1e-5 * (half + radius);
+    return static_cast<float>(loose * loose);
   }
-  /// The leaves of a node that meet a box.
-  void visit(std::size_t node, const box3& bounds, const box3& box) {
+
+  /// Calls `found(id)` for the points of a chunk whose squared distance is at most `bound`. The loops are
+  /// such that compilers do several points at once.
+  template <class Found>
+  static void search(const chunk& in, vec3 place, float bound, const Found& found) {
+    const auto x = static_cast<float>(place.x), y = static_cast<float>(place.y),
+               z = static_cast<float>(place.z);
+    std::array<float, chunk::room> squared;
+    for (std::size_t i = 0; i < chunk::room; ++i) {
+      const float dx = in.x[i] - x, dy = in.y[i] - y, dz = in.z[i] - z;
+      squared[i] = dx * dx + dy * dy + dz * dz;
+    }
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < chunk::room; ++i)
+      near += squared[i] <= bound ? 1U : 0U;
+    for (std::size_t i = 0; near != 0; ++i)
+      if (squared[i] <= bound) {
+        found(in.ids[i]);
+        --near;
+      }
+  }
+
+  /// The node that the cell of a leaf is.
+  std::size_t node_of_cell(std::size_t leaf) const {
     const octree& tree = piece_.tree();
-    if (tree.is_leaf(node)) {
-      if (!piece_.is_outside(node))
-        neighbours_.push_back(static_cast<std::uint32_t>(node));
+    if (leaf == 0)
+      return leaf;
+    const std::size_t parent = tree.parent(leaf);
+    for (std::size_t k = 0; k < 8; ++k)
+      if (!tree.is_leaf(tree.child(parent, k)))
+        return leaf;
+    return parent;
+  }
+  void add_cell(std::size_t node) {
+    cell_of_[node] = static_cast<std::uint32_t>(cells_.size());
+    const box3 box = piece_.tree().box(node);
+    cell& made = cells_.emplace_back();
+    made.center = box.center();
+    made.half = 0.5 * (box.upper.x - box.lower.x);
+    made.node = static_cast<std::uint32_t>(node);
+  }
+
+  double greatest_size(std::size_t node) const {
+    const octree& tree = piece_.tree();
+    if (tree.is_leaf(node))
+      return piece_.is_outside(node) ? 0 : piece_.greatest_size(node);
+    double greatest = 0;
+    for (std::size_t k = 0; k < 8; ++k)
+      greatest = std::max(greatest, greatest_size(tree.child(node, k)));
+    return greatest;
+  }
+  void find_neighbours(cell& of) {
+    const octree& tree = piece_.tree();
+    const box3 box = inflated(tree.box(of.node), reach_ * greatest_size(of.node));
+    of.begin = static_cast<std::uint32_t>(neighbours_.size());
+    visit(0, tree.bounds(), box, of.center);
+    of.end = static_cast<std::uint32_t>(neighbours_.size());
+  }
+  /// The cells in a node that meet a box, as seen from a place.
+  void visit(std::size_t node, const box3& bounds, const box3& box, vec3 from) {
+    const octree& tree = piece_.tree();
+    if (const std::uint32_t number = cell_of_[node]; number != none) {
+      const vec3 center = cells_[number].center - from;
+      if (!tree.is_leaf(node) || !piece_.is_outside(node))
+        neighbours_.push_back({{static_cast<float>(center.x), static_cast<float>(center.y),
+                                static_cast<float>(center.z)},
+                               static_cast<float>(cells_[number].half), number});
       return;
     }
     const vec3 center = bounds.center();
@@ -109,15 +202,18 @@ private:
         meets = meets &&
                 ((k >> axis & 1U) != 0 ? box.upper[axis] >= center[axis] : box.lower[axis] < center[axis]);
       if (meets)
-        visit(tree.child(node, k), octant(bounds, k), box);
+        visit(tree.child(node, k), octant(bounds, k), box, from);
     }
   }
 
   const piece_octree& piece_;
   double reach_;
-  std::vector<leaf_points> leaves_; ///< per node of the octree
-  std::vector<std::uint32_t> neighbours_;
+  std::vector<std::uint32_t> cell_of_; ///< of the nodes that are cells, and of their leaves
+  std::vector<bool> has_points_;       ///< per leaf
+  std::vector<cell> cells_;
+  std::vector<neighbour> neighbours_;
   std::vector<chunk> chunks_;
+  std::vector<vec3> places_; ///< by number
 };
 
 } // namespace dovetail::detail
