@@ -394,6 +394,9 @@ inline std::string read_sizing_text(const std::filesystem::path& file) {
 }
 
 /// The field that a JSON file describes. As `parse_sizing` and `read_sizing_text`.
+/// Throws `input_error` for a file that cannot be read, and what `parse_sizing` throws. Linear in the file.
+/// \param file a JSON file; files that it names are looked for beside it
+/// \param options what the field may refer to, such as a model
 inline erased_sizing read_sizing(const std::filesystem::path& file, const json_options& options = {}) {
   return parse_sizing(read_sizing_text(file), file.string(), options, file.parent_path());
 }

@@ -87,9 +87,13 @@ simplex<D - 1> side_of_element(const simplicial_mesh<D>& mesh, const side_table<
 
 /// Finds the unique sides of `elements`. About linear time. Throws `mesh_error` when an element refers to a
 /// point that does not exist.
+/// \param elements D + 1 indices of points each
+/// \param point_count how many points there are
 template <int D>
 side_table<D> build_sides(std::span<const simplex<D>> elements, std::size_t point_count);
 
+/// The same for all elements of a mesh.
+/// \param mesh triangles (D = 2) or tetrahedra (D = 3)
 template <int D>
 side_table<D> build_sides(const simplicial_mesh<D>& mesh);
 

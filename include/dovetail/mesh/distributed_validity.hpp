@@ -120,6 +120,7 @@ subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_
 /// duplicates. Against the skeleton: same coordinates, and every skeleton side is a side of exactly the
 /// one or two subdomains that it names, facing outwards of each. Throws `mesh_error` when pieces cannot even
 /// be indexed. About linear.
+/// \param mesh what `generate` makes, or a reader
 template <int D>
 distributed_validity check_distributed(const distributed_simplicial_mesh<D>& mesh);
 

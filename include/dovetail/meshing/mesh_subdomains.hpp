@@ -126,6 +126,14 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
 ///
 /// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
+/// Complexity: that of the mesher and the improver, once per piece and attempt.
+/// \param count how many subdomains there are
+/// \param source gives the closed boundary of subdomain i, i < count
+/// \param mesh_it keeps the boundary it is given
+/// \param improve improves a piece inside its boundary; may hold nothing
+/// \param size edge lengths wanted, in the units of the model
+/// \param run_tasks carries out independent tasks; the result does not depend on it
+/// \param options attempts, time limits, store and progress
 template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const Mesher& mesh_it, const Improver& improve, const refined_sizing& size,

@@ -31,6 +31,14 @@ content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_point
 
 /// Points of all lines; those that are not in `made` are made through `run`.
 /// Throws `mesher_error` naming what could not be evaluated.
+/// About linear in the points made.
+/// \param model the model that the lines are of
+/// \param lines lines of the coarse skeleton
+/// \param coarse_points points of the background mesh, that lines refer to
+/// \param size edge lengths wanted, in the units of the model
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param made lines of earlier rounds, by their keys; grows
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
                                     std::span<const vec3> coarse_points, const refined_sizing& size,
                                     const any_executor& run, batched_entities<fine_line>& made,

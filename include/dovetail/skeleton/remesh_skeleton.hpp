@@ -46,12 +46,12 @@ struct remeshed_skeleton {
 /// What is remeshed: a skeleton of a coarse surface and what lies inside it, with its lines. All of it
 /// outlives the calls that it is given to.
 struct skeleton_to_remesh {
-  const any_geometry& model;           ///< what the surface is of
-  const surface_mesh& surface;         ///< the coarse surface
-  std::span<const vec3> coarse_points; ///< of the coarse mesh
-  const coarse_skeleton& skeleton;     ///< its lines, regions and interface faces
-  const numbered_lines& lines;         ///< its lines, remeshed
-  const refined_sizing& size;
+  const any_geometry& model;                       ///< what the surface is of
+  const surface_mesh& surface;                     ///< the coarse surface
+  std::span<const vec3> coarse_points;             ///< of the coarse mesh
+  const coarse_skeleton& skeleton;                 ///< its lines, regions and interface faces
+  const numbered_lines& lines;                     ///< its lines, remeshed
+  const refined_sizing& size;                      ///< edge lengths wanted
   std::span<const local_id> material_of_subdomain; ///< by subdomain
 };
 
@@ -96,6 +96,13 @@ remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches pa
                                const progress& on_progress = {});
 
 /// `mesh_patches` and `join_patches`.
+/// About linear in the triangles made. Patches that fail are in the result; throws `mesher_error` when one
+/// cannot be evaluated at all.
+/// \param of the coarse skeleton with its remeshed lines
+/// \param mesher meshes regions and interface faces between lines
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param made patches of earlier rounds, by their keys; grows
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <surface_mesher Mesher>
 remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
                                   region_store& made, const progress& on_progress = {}) {
