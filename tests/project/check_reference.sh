@@ -39,9 +39,9 @@ for wanted in 'contraction.hpp:[0-9]*: dovetail::make_csr_graph has' 'csr_graph.
     'sizing/concepts.hpp:[0-9]*: dovetail::sizing_field has' 'parameters.hpp:[0-9]*: dovetail::generate_options::limit_seconds has' \
     'contraction.hpp:[0-9]*: dovetail::weighted_edge::weight has' 'core/ids.hpp: it does not say' \
     'contraction.hpp:[0-9]*: .*undirected' \
-    'dovetail::own_subdomains is called in documents, and has no .param part_of_triangle' \
-    'dovetail::own_subdomains is called in documents, and does not say what it throws' \
-    'dovetail::own_subdomains is called in documents, and does not say its complexity' \
+    'dovetail::own_subdomains is to be called, and has no .param part_of_triangle' \
+    'dovetail::own_subdomains is to be called, and does not say what it throws' \
+    'dovetail::own_subdomains is to be called, and does not say its complexity' \
     'hilbert_curve.hpp:[0-9]*: dovetail::hilbert_place does not say what cell is' \
     'the table of dovetail::hilbert_place has not name, type and meaning of cell' 'hilbert_curve.md: an empty cell: .*`cell`' \
     "shapes.hpp:[0-9]*: .*'no_rounding' of command @param is not found"; do

@@ -24,6 +24,12 @@ namespace dovetail {
 using triangle_subdomains = std::vector<std::array<local_id, 2>>;
 
 /// The interface faces of a volume decomposition: sides inside one material between two subdomains.
+/// About linear. Throws `mesh_error` when `require_valid` refuses the volume, `usage_error` when there is not
+/// one subdomain per element.
+/// \param mesh the background mesh: surface and volume
+/// \param sides `build_sides` of the volume
+/// \param subdomain_of_element per element of the volume its subdomain, from 0
+/// \param mesh_is `mesh_state::valid` skips the checks of a mesh known to be valid
 std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
                                            const std::vector<local_id>& subdomain_of_element,
                                            mesh_state mesh_is = mesh_state::unknown);

@@ -376,6 +376,11 @@ private:
 /// The field that JSON text describes; `file` names it in messages, paths in it are relative to `folder`.
 /// Throws `input_error` when the text is not JSON and `sizing_error` for a wrong key or value, naming file,
 /// line and key.
+/// Linear in the text, and what the fields take that it describes.
+/// \param text JSON
+/// \param file what messages call it
+/// \param options what the field may refer to, such as a model
+/// \param folder where files that it names are
 inline erased_sizing parse_sizing(const std::string& text, const std::string& file,
                                   const json_options& options = {},
                                   const std::filesystem::path& folder = {}) {
@@ -384,6 +389,8 @@ inline erased_sizing parse_sizing(const std::string& text, const std::string& fi
 }
 
 /// What is in a JSON file; throws `input_error` when it cannot be read.
+/// Linear.
+/// \param file a file of any size
 inline std::string read_sizing_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file))

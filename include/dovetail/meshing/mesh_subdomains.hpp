@@ -79,6 +79,10 @@ using meshing_result = meshed_pieces<3>; ///< that of tetrahedra
 
 /// Throws `usage_error` when no mesher was chosen, or a policy may not run in the executor's threads: what is
 /// known before anything is meshed.
+/// Constant time.
+/// \param mesh_it a mesher of pieces
+/// \param improve an improver, or nothing
+/// \param run_tasks the executor that they would run in
 template <class Mesher, class Improver>
 void require_policies(const Mesher& mesh_it, const Improver& improve, const any_executor& run_tasks) {
   const std::string why = " must not run in several threads of one process; use worker processes";

@@ -114,6 +114,10 @@ struct background_result {
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
 /// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
 /// cannot be used, and what the surface mesher throws.
+/// About linear in the triangles of that mesh, and the cells of the prediction.
+/// \param model the solids (D = 3) or faces (D = 2) to mesh
+/// \param size the final edge lengths, in the units of the model
+/// \param given policies and options
 template <int D = 3, bound_parameters<D> Parameters>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given);
 template <int D = 3, class Parameters>

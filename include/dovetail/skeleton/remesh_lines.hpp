@@ -19,6 +19,11 @@
 namespace dovetail {
 
 /// Points of one line. `coarse_points` are the points of the background mesh.
+/// About linear in the points made. Throws what the model and the field throw.
+/// \param model the model that the line is of
+/// \param line of the coarse skeleton
+/// \param coarse_points those that the line refers to
+/// \param size edge lengths wanted, in the units of the model
 fine_line remesh_line(const any_geometry& model, const skeleton_line& line,
                       std::span<const vec3> coarse_points, const any_sizing& size);
 

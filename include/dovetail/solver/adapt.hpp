@@ -85,6 +85,10 @@ erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double
 /// Meshes the model of a boundary: what `adapt` does when it has made it. Throws what `generate` throws, and
 /// `mesh_error` when the mesh is not one of a model that was given, or has ids or materials on parts of its
 /// faces or solids.
+/// Complexity: that of `generate`.
+/// \param boundary the boundary and its model
+/// \param size a sizing field
+/// \param given policies and options
 template <int D, bound_parameters<D> Parameters>
 adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const Parameters& given);
 
