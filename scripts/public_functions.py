@@ -123,7 +123,8 @@ def labelled(text):
             labels[-1][1] += f" {sentence}"
         else:
             rest.append(sentence)
-    return " ".join(rest), labels
+    order = [label for label, _ in LABELS]
+    return " ".join(rest), sorted(labels, key=lambda found: order.index(found[0]))
 
 
 # Which examples use a name
