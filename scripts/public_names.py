@@ -27,6 +27,7 @@ GENERATE_XML = YES
 XML_PROGRAMLISTING = NO
 QUIET = YES
 WARN_IF_UNDOCUMENTED = NO
+WARN_IF_INCOMPLETE_DOC = NO
 WARN_AS_ERROR = FAIL_ON_WARNINGS
 """
 TYPE_KINDS = ("struct", "class", "union")
@@ -130,6 +131,10 @@ class Library:
                 self.names[scope].members[qualified] = name
                 del self.names[qualified]
 
+    def find_owner(self, member):
+        """The type that a member is declared in."""
+        return next(name for name in self.of_id.values() if member in name.members.values())
+
     def find(self, words):
         """The public name that is meant by a word in a comment, or None."""
         found = [name for name in self.by_short.get(words.split("::")[-1], []) if f"::{name.qualified}".endswith(f"::{words}")]
@@ -213,7 +218,8 @@ def faults_of(name):
         yield f"{name.place()}: {name.qualified} has no description"
     for member in name.members.values():
         owner = name.short
-        is_special = member.short in (owner, f"~{owner}", "operator=", "operator==") or member.short in OF_CONTAINERS
+        is_special = member.short in (owner, f"~{owner}", "operator=", "operator==") or \
+            member.kind == "function" and member.short in OF_CONTAINERS
         if member.kind in TYPE_KINDS:
             yield from faults_of(member)
         elif not is_special and not member.blocks() and not member.inherited:

@@ -134,6 +134,8 @@ using weighted_adjacency_list =
 
 /// A copy of a graph for Boost's algorithms, with the numbers of its nodes and, if it has any, the weights of
 /// its edges. Linear.
+/// Throws nothing of its own.
+/// \param graph any graph, with node positions or without
 template <graph G>
 weighted_adjacency_list to_boost(const G& graph) {
   weighted_adjacency_list copy(static_cast<std::size_t>(graph.node_count()));

@@ -21,6 +21,8 @@ double integral_of_inverse_cube(const any_sizing& size, const box3& whole);
 /// `factor` times the number of elements predicted for the boundary's box (an overestimate of the piece),
 /// plus a share for boundaries finer than the field. Deterministic; at most a few million evaluations, a few
 /// hundred for a uniform field. Throws `sizing_error` when the field gives an unusable size.
+/// \param elements_per_inverse_cubed_size elements that the mesher makes per cube of the size; 0: of regular
+///   elements
 std::size_t sizing_call_budget(const simplicial_mesh<2>& boundary, const any_sizing& size,
                                double elements_per_inverse_cubed_size, double factor);
 

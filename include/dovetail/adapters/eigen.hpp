@@ -15,6 +15,8 @@
 namespace dovetail {
 
 /// Points as the rows of an n x 3 matrix, in place: valid as long as the vector is neither resized nor gone.
+/// Constant time. Throws nothing.
+/// \param points of a mesh, such as `mesh.points`
 inline auto as_matrix(const std::vector<vec3>& points) {
   static_assert(sizeof(vec3) == 3 * sizeof(double));
   using matrix = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -23,6 +25,7 @@ inline auto as_matrix(const std::vector<vec3>& points) {
 }
 
 /// Elements or sides as the rows of an n x (number of vertices) matrix, in place, as above.
+/// \param simplices such as `mesh.elements`
 template <std::size_t Vertices>
 auto as_matrix(const std::vector<std::array<local_id, Vertices>>& simplices) {
   using matrix = Eigen::Matrix<local_id, Eigen::Dynamic, static_cast<int>(Vertices), Eigen::RowMajor>;
@@ -33,6 +36,8 @@ auto as_matrix(const std::vector<std::array<local_id, Vertices>>& simplices) {
 
 /// The matrix that linear elements assemble, compressed, of zeros: a row and a column per point, an entry per
 /// pair of points of an element, so that `coeffRef(i, j) += x` allocates nothing. O(elements).
+/// Throws nothing but for a lack of memory.
+/// \param mesh triangles or tetrahedra
 template <int D>
 Eigen::SparseMatrix<double, Eigen::RowMajor> zero_matrix(const simplicial_mesh<D>& mesh) {
   const auto rows = point_neighbours(mesh);

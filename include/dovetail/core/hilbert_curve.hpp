@@ -70,6 +70,7 @@ inline constexpr hilbert_automaton<Axes> hilbert_steps;
 
 /// The place along the Hilbert curve of a cell in a grid of 2^bits cells per axis; `bits` times the number of
 /// axes is at most 64. O(bits).
+/// \param cell the cell's number along each axis, from 0
 template <std::size_t Axes>
   requires(Axes == 2 || Axes == 3)
 constexpr std::uint64_t hilbert_place(const std::array<std::uint32_t, Axes>& cell, int bits) {

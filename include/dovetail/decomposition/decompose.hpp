@@ -116,6 +116,17 @@ std::vector<local_id> partition_components(const graph_to_partition& whole, cons
 /// mesh is empty or the partitioner fails, `mesh_error` when `require_valid` refuses the mesh, unless it is
 /// known to be valid, `usage_error` when super-elements and materials are not one per element, and
 /// `cancelled` when `on_progress` asks to stop; a partitioner is not interrupted.
+/// Complexity: that of the partitioner; the rest is about linear in the mesh.
+/// \param mesh D = 2: triangles; D = 3: tetrahedra
+/// \param sides `build_sides(mesh)`
+/// \param super_of_element per element its super-element, from 0
+/// \param super_graph a node per super-element; `simplify` makes both
+/// \param material per element a number, or empty; no part has two materials
+/// \param partitioner divides the graph of each material's component
+/// \param parts how many subdomains are wanted, at least 1
+/// \param imbalance largest weight of a part over the average, > 1
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
+/// \param mesh_is `mesh_state::valid` skips the checks of a mesh known to be valid
 template <int D, graph_partitioner Partitioner>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,

@@ -24,6 +24,12 @@ namespace dovetail {
 using triangle_subdomains = std::vector<std::array<local_id, 2>>;
 
 /// The interface faces of a volume decomposition: sides inside one material between two subdomains.
+/// About linear. Throws `mesh_error` when `require_valid` refuses the volume, `usage_error` when there is not
+/// one subdomain per element.
+/// \param mesh the background mesh: surface and volume
+/// \param sides `build_sides` of the volume
+/// \param subdomain_of_element per element of the volume its subdomain, from 0
+/// \param mesh_is `mesh_state::valid` skips the checks of a mesh known to be valid
 std::vector<skeleton_face> interface_faces(const background_mesh& mesh, const side_table<3>& sides,
                                            const std::vector<local_id>& subdomain_of_element,
                                            mesh_state mesh_is = mesh_state::unknown);
@@ -40,16 +46,25 @@ triangle_subdomains induced_subdomains(const elements_at_triangles& beside,
                                        const std::vector<local_id>& subdomain_of_element);
 
 /// The pieces of a surface that is itself decomposed (D = 2): the part of each triangle, nothing in front.
+/// Linear. Throws nothing.
+/// \param part_of_triangle per triangle its part, from 0
 triangle_subdomains own_subdomains(const std::vector<local_id>& part_of_triangle);
 
 /// The skeleton of a surface cut into pieces; `faces` are the interface faces that end on it (none for D =
 /// 2). O(n log n). Throws `mesh_error` when the surface mesh contradicts itself.
+/// \param surface the coarse surface with its CAD faces and curves
+/// \param pieces per triangle the subdomains behind it and in front of it, or `no_id`
+/// \param faces interface faces, from `interface_faces`
+/// \param mesh_is `mesh_state::valid` skips the checks of a mesh known to be valid
 coarse_skeleton extract_skeleton(const surface_mesh& surface, const triangle_subdomains& pieces,
                                  std::vector<skeleton_face> faces = {},
                                  mesh_state mesh_is = mesh_state::unknown);
 
 /// The skeleton of a volume decomposition: interface faces first, then the surface step with the induced
 /// pieces.
+/// \param mesh the background mesh: surface and volume
+/// \param sides `build_sides` of the volume
+/// \param subdomain_of_element per element of the volume its subdomain, from 0
 coarse_skeleton extract_skeleton(const background_mesh& mesh, const side_table<3>& sides,
                                  const std::vector<local_id>& subdomain_of_element,
                                  mesh_state mesh_is = mesh_state::unknown);

@@ -104,6 +104,8 @@ struct interface_angles {
 ///
 ///     auto angles = measure_interface_angles<2>({mesh, sides, simplified.side_states, part_of_element},
 ///                                               wanted_angles_of<2>(rule));
+/// \param given the mesh, its sides and their states, and per element its part
+/// \param wanted the angles below which one is a violation, in degrees
 template <int D>
 interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const wanted_angles& wanted);
 
@@ -114,6 +116,11 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// About linear. Throws `mesh_error` for points that do not exist or are not finite, for a triangle that is
 /// flat or there twice, and where the subdomains around an edge contradict each other since a triangle is
 /// turned over; not looked for in a skeleton that is `valid`.
+/// \param fine the remeshed skeleton
+/// \param wanted the angles below which one is a violation, in degrees
+/// \param refused one per triangle, or empty
+/// \param half_edges those to measure, or empty
+/// \param skeleton_is `mesh_state::valid` skips the checks of a skeleton known to be valid
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
                                          std::span<const std::uint32_t> half_edges = {},

@@ -44,6 +44,12 @@ struct improving_options {
 /// Throws `mesh_error` that names the piece when the improver fails or changes what it may not, `usage_error`
 /// for a mesh of second order or an improver that may not run in the executor's threads, `io_error` and
 /// `sizing_error`, and `cancelled`.
+/// Complexity: that of the improver, once per piece.
+/// \param mesh what `generate` makes, or a redistribution
+/// \param improve improves a piece inside its boundary
+/// \param size edge lengths wanted, in the units of the model
+/// \param run_tasks carries out independent tasks; the result does not depend on it
+/// \param options store, progress, and which pieces
 improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
                                const any_sizing& size, const any_executor& run_tasks,
                                const improving_options& options = {});

@@ -85,6 +85,9 @@ inline report describe_redistribution(const csr_graph& pieces, const std::vector
 }
 
 /// Throws `partition_error` unless each of the ranks can have a piece.
+/// Constant time.
+/// \param pieces how many there are
+/// \param ranks how many there are
 inline void require_pieces_for(std::size_t pieces, int ranks) {
   if (ranks < 1 || static_cast<std::size_t>(ranks) > pieces)
     throw partition_error("cannot give " + std::to_string(pieces) + " subdomains to " +

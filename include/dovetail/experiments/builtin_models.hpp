@@ -12,8 +12,8 @@ namespace dovetail {
 
 /// A model with the sizing that shows it: an ambient size and grid sources (possibly none), in its units.
 struct builtin_model_result {
-  occt_model model; ///< the model itself
-  double size;
+  occt_model model;                 ///< the model itself
+  double size;                      ///< the ambient edge length
   std::vector<grid_source> sources; ///< what shows it, beside the ambient size
   dovetail::report report;          ///< what its making noted
 };

@@ -117,6 +117,10 @@ private:
 std::uint64_t move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes all files one after the other, here.
+/// Linear in the mesh. Throws what the writer throws, `io_error` most often.
+/// \param mesh what `generate` makes, or a reader
+/// \param writer a model of `piecewise_mesh_writer`
+/// \param folder is made where it is missing
 template <int D>
 report write_piecewise(const distributed_simplicial_mesh<D>& mesh, const any_piecewise_writer<D>& writer,
                        const std::filesystem::path& folder);

@@ -25,6 +25,9 @@ std::filesystem::path find_mesh_file(const std::filesystem::path& path);
 /// result). `expand` is for compressed arrays, see `vtu_reader`. Throws `input_error` naming the file and
 /// what is wrong with it; so it is with a VTU file that a PVTU file beside it names as one of several, which
 /// `vtu_reader` reads by itself.
+/// Linear in the files.
+/// \param path a file, or a folder with one
+/// \param expand expands compressed arrays, or none
 loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr);
 
 /// The files that `read_mesh` reads: of a PVTU file its pieces too, of an MSH file of one part those of all

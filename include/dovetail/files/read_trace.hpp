@@ -87,6 +87,8 @@ private:
 } // namespace detail
 
 /// Reads what `write_trace` wrote, times to a nanosecond. Throws `input_error` that names the line.
+/// Linear in the file.
+/// \param path a file that `write_trace` wrote
 inline execution_trace read_trace(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)

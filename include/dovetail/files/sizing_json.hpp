@@ -376,6 +376,11 @@ private:
 /// The field that JSON text describes; `file` names it in messages, paths in it are relative to `folder`.
 /// Throws `input_error` when the text is not JSON and `sizing_error` for a wrong key or value, naming file,
 /// line and key.
+/// Linear in the text, and what the fields take that it describes.
+/// \param text JSON
+/// \param file what messages call it
+/// \param options what the field may refer to, such as a model
+/// \param folder where files that it names are
 inline erased_sizing parse_sizing(const std::string& text, const std::string& file,
                                   const json_options& options = {},
                                   const std::filesystem::path& folder = {}) {
@@ -384,6 +389,8 @@ inline erased_sizing parse_sizing(const std::string& text, const std::string& fi
 }
 
 /// What is in a JSON file; throws `input_error` when it cannot be read.
+/// Linear.
+/// \param file a file of any size
 inline std::string read_sizing_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file))
@@ -394,6 +401,9 @@ inline std::string read_sizing_text(const std::filesystem::path& file) {
 }
 
 /// The field that a JSON file describes. As `parse_sizing` and `read_sizing_text`.
+/// Throws `input_error` for a file that cannot be read, and what `parse_sizing` throws. Linear in the file.
+/// \param file a JSON file; files that it names are looked for beside it
+/// \param options what the field may refer to, such as a model
 inline erased_sizing read_sizing(const std::filesystem::path& file, const json_options& options = {}) {
   return parse_sizing(read_sizing_text(file), file.string(), options, file.parent_path());
 }

@@ -185,6 +185,7 @@ private:
 
 /// The entities of the CAD model that the mesh shows: triangles with a CAD face, edges on CAD curves, points
 /// at CAD vertices. Volumes are materials.
+/// \param materials how many materials there are
 inline skeleton_entities cad_entities(const distributed_mesh& mesh, const point_sharers& sharers,
                                       std::size_t materials) {
   const auto& skeleton = mesh.skeleton;

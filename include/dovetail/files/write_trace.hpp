@@ -72,6 +72,9 @@ private:
 } // namespace detail
 
 /// Writes a trace: the stages on one line, batches on the next, then a line per worker. Throws `io_error`.
+/// Linear in the trace.
+/// \param trace what `parallel::traced` recorded
+/// \param path the file, which is replaced
 inline void write_trace(const execution_trace& trace, const std::filesystem::path& path) {
   using detail::trace_events;
   output_file file(path);

@@ -19,6 +19,11 @@ void write_vtu_document(const mesh_document& mesh, const std::filesystem::path& 
 /// Writes a VTU file with cell data `region` (the tags, where there are any), their names as field data
 /// `region_names`, and the given point arrays, of one value per point. Throws `io_error` naming the path,
 /// `mesh_error` when the tags are not one per element.
+/// Linear.
+/// \param mesh triangles or tetrahedra with tags, or without
+/// \param path the file, which is replaced
+/// \param arrays a name and one value per point each
+/// \param names what tags are called
 template <int D>
 void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path,
                const std::vector<point_array>& arrays = {}, const tag_names& names = {}) {

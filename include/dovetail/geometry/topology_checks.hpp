@@ -8,6 +8,7 @@ namespace dovetail {
 
 /// Throws `geometry_error` naming the first entity that refers to one that is not there, has a parameter
 /// range that is none, or whose loops and coedges differ in number. Linear in the size of the topology.
+/// \param topology of a model
 void check_topology(const geometry_topology& topology);
 
 } // namespace dovetail

@@ -21,6 +21,8 @@ struct weighted_edge {
 
 /// The graph with the given nodes and edges: parallel edges are merged (weights added), self loops dropped,
 /// rows sorted. Throws `usage_error` when an end is not a node. Linear but for sorting the rows.
+/// \param node_weights one per node
+/// \param edges each once, in either direction
 csr_graph make_csr_graph(std::vector<double> node_weights, const std::vector<weighted_edge>& edges);
 
 /// The mean position of the nodes of each label; empty when the graph has no positions.
@@ -29,6 +31,10 @@ std::vector<vec3> mean_positions(std::span<const vec3> positions, std::span<cons
 
 /// The graph whose nodes are the labels [0, labels): node weights and the weights of edges that become
 /// parallel add up, edges inside a label vanish, positions are averaged.
+/// Linear but for sorting the rows. Throws nothing but for a lack of memory; labels are not checked.
+/// \param graph any weighted graph
+/// \param label per node its label
+/// \param labels how many labels there are
 template <weighted_graph G>
 csr_graph contract(const G& graph, std::span<const local_id> label, local_id labels) {
   std::vector<double> weights(static_cast<std::size_t>(labels), 0.0);

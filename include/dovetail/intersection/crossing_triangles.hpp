@@ -30,6 +30,12 @@ struct crossing_parameters {
 /// tested. O(n log n) for triangles of bounded overlap; exact. Tasks go through `run`; the result does not
 /// depend on its workers. Memory beside the triangles: some lists of 4 bytes per triangle. Throws
 /// `time_limit_error` when a task is stopped by the clock, `mesher_error` when one fails otherwise.
+/// \param points coordinates
+/// \param triangles three indices of points each
+/// \param excluded is called in workers, with indices of two triangles
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param parameters when cells are no longer divided
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 std::vector<triangle_pair>
 crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
                    const std::function<bool(local_id, local_id)>& excluded, const any_executor& run,

@@ -18,6 +18,10 @@ namespace dovetail {
 
 /// Merges subdomains of a decomposition in place and numbers them without gaps, in order of their smallest
 /// member. `sizes` holds, per subdomain, how many original ones it is made of, before and after.
+/// About linear. Throws nothing.
+/// \param subdomain_of_element per element its subdomain, which changes
+/// \param sizes per subdomain, changes
+/// \param merges pairs of subdomains, numbered as before
 void merge_subdomains(std::vector<local_id>& subdomain_of_element, std::vector<local_id>& sizes,
                       const std::vector<std::array<local_id, 2>>& merges);
 

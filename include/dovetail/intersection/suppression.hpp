@@ -60,6 +60,14 @@ known_apart known_from_patches(const fine_skeleton& skeleton, std::span<const lo
 /// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing
 /// interface faces the one with the smaller pair of subdomains goes. Where most is known, only what is near
 /// the rest is searched.
+/// Complexity and errors are those of `crossing_triangles`: O(n log n); throws `time_limit_error` and
+/// `mesher_error`.
+/// \param skeleton the remeshed skeleton
+/// \param planar one per triangle
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param known what is known not to cross, from an earlier round
+/// \param parameters when cells are no longer divided
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
                                   const any_executor& run, const known_apart& known = {},
                                   const crossing_parameters& parameters = {},

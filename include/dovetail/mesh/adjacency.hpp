@@ -87,26 +87,41 @@ simplex<D - 1> side_of_element(const simplicial_mesh<D>& mesh, const side_table<
 
 /// Finds the unique sides of `elements`. About linear time. Throws `mesh_error` when an element refers to a
 /// point that does not exist.
+/// \param elements D + 1 indices of points each
+/// \param point_count how many points there are
 template <int D>
 side_table<D> build_sides(std::span<const simplex<D>> elements, std::size_t point_count);
 
+/// The same for all elements of a mesh.
+/// \param mesh triangles (D = 2) or tetrahedra (D = 3)
 template <int D>
 side_table<D> build_sides(const simplicial_mesh<D>& mesh);
 
-/// The element across each local side, or no_id where the side does not have exactly two elements.
+/// The element across each local side, or no_id where the side does not have exactly two elements. Linear.
+/// Throws nothing but for a lack of memory.
+/// \param sides `build_sides` of the elements
 template <int D>
 std::vector<std::array<local_id, D + 1>> element_neighbours(const side_table<D>& sides);
 
 /// Finds the unique ridges of `elements` and orders the dihedrals around each into fans. `sides` must be
 /// `build_sides` of the same elements. About linear time; quadratic in the number of dihedrals of one ridge.
+/// Throws nothing but for a lack of memory.
+/// \param elements D + 1 indices of points each
+/// \param point_count how many points there are
+/// \param sides `build_sides` of the elements
 template <int D>
 ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t point_count,
                             const side_table<D>& sides);
 
+/// The same for all elements of a mesh.
+/// \param mesh triangles (D = 2) or tetrahedra (D = 3)
 template <int D>
 ridge_table<D> build_ridges(const simplicial_mesh<D>& mesh, const side_table<D>& sides);
 
 /// The side with these vertices in any order, or no_id. O(log sides).
+/// Throws nothing.
+/// \param sides `build_sides` of the elements
+/// \param vertices D indices of points
 template <int D>
 local_id find_side(const side_table<D>& sides, const simplex<D - 1>& vertices);
 

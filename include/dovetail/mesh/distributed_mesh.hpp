@@ -96,6 +96,9 @@ using mesh_piece = simplicial_piece<3>; ///< a piece of tetrahedra
 
 /// Adds a piece's own points and its elements, with the piece's tags or else its material, to a mesh that
 /// starts with the points of the skeleton. O(size of the piece).
+/// Throws nothing but for a lack of memory.
+/// \param mesh starts with the points of the skeleton; grows
+/// \param piece as `pieces` of a distributed mesh load it
 template <int D>
 void append_piece(simplicial_mesh<D>& mesh, const simplicial_piece<D>& piece) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());

@@ -112,6 +112,10 @@ void compare_sides(const std::vector<oriented_side<D>>& first, const std::vector
 } // namespace detail
 
 /// Checks one piece by itself and against the skeleton.
+/// About linear. Throws `mesh_error` when the piece cannot be indexed.
+/// \param piece of a distributed mesh
+/// \param skeleton of the same mesh
+/// \param listed numbers of the skeleton's sides on the piece's boundary, as in `sort_by_subdomain`
 template <int D>
 subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
                              std::span<const local_id> listed);
@@ -120,6 +124,7 @@ subdomain_faults check_piece(const simplicial_piece<D>& piece, const simplicial_
 /// duplicates. Against the skeleton: same coordinates, and every skeleton side is a side of exactly the
 /// one or two subdomains that it names, facing outwards of each. Throws `mesh_error` when pieces cannot even
 /// be indexed. About linear.
+/// \param mesh what `generate` makes, or a reader
 template <int D>
 distributed_validity check_distributed(const distributed_simplicial_mesh<D>& mesh);
 

@@ -21,6 +21,8 @@ struct global_numbering {
 };
 
 /// O(pieces).
+/// Throws nothing but for a lack of memory.
+/// \param mesh what `generate` makes, or a reader
 template <int D>
 global_numbering number_globally(const distributed_simplicial_mesh<D>& mesh);
 

@@ -102,6 +102,8 @@ void hash_skeleton(mesh_hasher& hasher, const simplicial_skeleton<D>& skeleton) 
 }
 
 /// The hash of a distributed mesh; one piece in memory at a time.
+/// Linear. Throws `mesh_error` when a piece and the skeleton disagree.
+/// \param mesh a distributed mesh, or triangles or tetrahedra in memory
 template <int D>
 std::uint64_t mesh_hash(const distributed_simplicial_mesh<D>& mesh) {
   const auto numbers = number_globally(mesh);
@@ -129,6 +131,7 @@ std::uint64_t mesh_hash(const simplicial_mesh<D>& mesh) {
 
 /// The hash of a mesh read from a file, by the global numbers of the file: that of the mesh it was written
 /// from. Triangles count where there are no tetrahedra.
+/// \param loaded what `read_mesh` gives
 std::uint64_t mesh_hash(const loaded_mesh& loaded);
 
 } // namespace dovetail::io

@@ -14,6 +14,8 @@ namespace dovetail {
 /// Per point the points that share an element with it, itself included, ascending: the rows of the matrix
 /// that linear elements assemble. A point without elements has an empty row. O(elements), but for sorting
 /// each row.
+/// Throws nothing but for a lack of memory; indices are not checked.
+/// \param mesh triangles or tetrahedra
 template <int D>
 compressed_rows<local_id> point_neighbours(const simplicial_mesh<D>& mesh) {
   const auto elements = sorted_into_rows<local_id>(mesh.points.size(), [&](const auto& put) {

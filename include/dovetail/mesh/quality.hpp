@@ -97,6 +97,8 @@ struct quality_statistics {
 };
 
 /// Angle statistics of a mesh, D = 2 or 3; one pass.
+/// Linear. Throws nothing; indices are not checked.
+/// \param mesh triangles or tetrahedra; angles in the result are in degrees
 template <int D>
 quality_statistics measure_quality(const simplicial_mesh<D>& mesh);
 

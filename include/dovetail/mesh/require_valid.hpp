@@ -57,6 +57,10 @@ void require_elements(const simplicial_mesh<D>& mesh, std::string_view who, cons
 /// same across sides with two elements of one tag, and more elements may meet at a side. `sides` is
 /// `build_sides(mesh)`, which is looked at too. `who` is what the message begins with. Linear; about 0.05 us
 /// per element, and 0.1 us more where the sides have to be found.
+/// \param mesh triangles or tetrahedra
+/// \param sides of this mesh
+/// \param who such as "the background mesh"
+/// \param demands whether orientation is looked at
 template <int D>
 void require_valid(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                    std::string_view who = "the mesh", const mesh_demands& demands = {});

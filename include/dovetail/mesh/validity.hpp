@@ -130,10 +130,14 @@ void check_closed(const simplicial_mesh<3>& mesh, const side_table<3>& sides, fa
 
 /// Checks a mesh, D = 2 or 3. When references are broken only those are reported, since nothing else can be
 /// asked then. About linear, but for one sort of the points.
+/// Throws nothing: faults are the result.
+/// \param mesh triangles or tetrahedra
+/// \param allowed what is no fault, such as open sides
 template <int D>
 validity check_validity(const simplicial_mesh<D>& mesh, const validity_options& allowed = {});
 
 /// The same, where the sides of the mesh are known: `build_sides(mesh)`.
+/// \param sides `build_sides(mesh)`
 template <int D>
 validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         const validity_options& allowed = {});

@@ -79,6 +79,10 @@ using meshing_result = meshed_pieces<3>; ///< that of tetrahedra
 
 /// Throws `usage_error` when no mesher was chosen, or a policy may not run in the executor's threads: what is
 /// known before anything is meshed.
+/// Constant time.
+/// \param mesh_it a mesher of pieces
+/// \param improve an improver, or nothing
+/// \param run_tasks the executor that they would run in
 template <class Mesher, class Improver>
 void require_policies(const Mesher& mesh_it, const Improver& improve, const any_executor& run_tasks) {
   const std::string why = " must not run in several threads of one process; use worker processes";
@@ -126,6 +130,14 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
 ///
 /// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
+/// Complexity: that of the mesher and the improver, once per piece and attempt.
+/// \param count how many subdomains there are
+/// \param source gives the closed boundary of subdomain i, i < count
+/// \param mesh_it keeps the boundary it is given
+/// \param improve improves a piece inside its boundary; may hold nothing
+/// \param size edge lengths wanted, in the units of the model
+/// \param run_tasks carries out independent tasks; the result does not depend on it
+/// \param options attempts, time limits, store and progress
 template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const Mesher& mesh_it, const Improver& improve, const refined_sizing& size,

@@ -32,6 +32,10 @@ std::vector<local_id> points_of_subdomain(std::span<const simplex<D - 1>> sides,
 }
 
 /// Cuts the boundary of a subdomain out of the skeleton. O(n log n) in its sides.
+/// Throws nothing but for a lack of memory.
+/// \param skeleton the fine skeleton
+/// \param sorted `sort_by_subdomain` of it
+/// \param subdomain from 0
 template <int D>
 subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
                                          const sides_of_subdomains& sorted, local_id subdomain) {

@@ -98,6 +98,9 @@ extern template any_geometry::any_geometry(discrete_model);
 /// twice or the wrong way round. Throws `input_error` for a bad file and
 /// `geometry_error` for a surface that is not manifold, one-sided, crosses itself or, unless sheets are
 /// allowed, is open; both name the file.
+/// About n log n in the triangles, per round in which charts are cut or merged.
+/// \param file an STL (ASCII or binary), OBJ, OFF or PLY file
+/// \param options feature angle, merge tolerance, whether sheets may be open
 discrete_model read_discrete_model(const std::filesystem::path& file, const discrete_options& options = {});
 
 } // namespace dovetail

@@ -91,6 +91,9 @@ bool is_occt_file(const std::filesystem::path& path);
 
 /// Reads a STEP, IGES or BREP file. Throws `input_error` for a file that is missing, empty, truncated or
 /// foreign, `geometry_error` for a shape that cannot be meshed.
+/// Complexity: that of OpenCASCADE's readers and repairs.
+/// \param path a STEP, IGES or BREP file, text or binary
+/// \param options unit, solids or faces, who reads the file first
 occt_read_result read_occt_model(const std::filesystem::path& path, occt_read_options options = {});
 
 } // namespace dovetail

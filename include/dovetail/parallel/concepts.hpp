@@ -90,6 +90,7 @@ inline constexpr bool does_once = requires(const Executor& run, const std::funct
 
 /// Whether an executor runs tasks side by side in threads of one process: what a task calls must then be
 /// thread-safe.
+/// \param e an executor
 template <executor E>
 bool runs_in_threads(const E& e) {
   return e.shares_process() && e.workers() > 1;

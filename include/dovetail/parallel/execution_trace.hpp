@@ -11,9 +11,9 @@ namespace dovetail {
 
 /// A task that gave a result. Times are seconds since its batch began.
 struct task_span {
-  std::size_t task = 0; ///< its number in the batch
-  int worker = 0;       ///< of the batch, by when they began
-  double begin = 0;
+  std::size_t task = 0;         ///< its number in the batch
+  int worker = 0;               ///< of the batch, by when they began
+  double begin = 0;             ///< when it began
   double seconds = 0;           ///< how long it took
   std::size_t result_bytes = 0; ///< how large its result was
 
@@ -22,9 +22,9 @@ struct task_span {
 
 /// The tasks that were given to an executor at once. Times are seconds since the trace began.
 struct batch_span {
-  std::string stage; ///< what progress called it
-  double begin = 0;
-  double end = 0;
+  std::string stage;                 ///< what progress called it
+  double begin = 0;                  ///< when it began
+  double end = 0;                    ///< when its last task ended
   std::vector<task_span> tasks = {}; ///< by number
   std::size_t failed = 0;            ///< tasks without result, of which no times are known
   bool once = false;                 ///< not given away: the process that leads works, and tells the others
@@ -35,8 +35,8 @@ struct batch_span {
 /// What progress calls a stage, from one name to the next.
 struct stage_span {
   std::string stage; ///< what progress called it
-  double begin = 0;
-  double end = 0;
+  double begin = 0;  ///< when it began
+  double end = 0;    ///< when the next one began
 
   friend bool operator==(const stage_span&, const stage_span&) = default;
 };

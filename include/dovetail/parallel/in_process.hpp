@@ -40,6 +40,9 @@ static_assert(communicator<in_process>);
 /// Runs `work(communicator)` on so many ranks, each in a thread of its own, and returns when all have ended.
 /// What a rank throws ends the others' waiting; of several errors that of the lowest rank is thrown here,
 /// those that only tell of another rank's last.
+/// Complexity: a thread per rank. Throws `usage_error` for less than one rank, else what a rank throws.
+/// \param ranks how many, at least 1
+/// \param work is called once per rank, in its thread
 void run_ranks(int ranks, const std::function<void(in_process&)>& work);
 
 } // namespace dovetail::parallel

@@ -132,6 +132,10 @@ std::vector<task_result<T>> map_tasks_by(Values values, const any_executor& run,
 /// crashes or takes too long has failed; but where it throws an `io_error`, `sizing_error` or `usage_error`,
 /// which no other attempt would mend, that of the first such task is thrown here. Complexity: the tasks' own;
 /// and where they run in other processes two copies of each value, which must be `encodable`.
+/// \param run any executor
+/// \param count how many tasks there are
+/// \param task is called with the number of a task, perhaps in another process
+/// \param options names, limits and the order of tasks
 template <class Task>
 auto map_tasks(const any_executor& run, std::size_t count, const Task& task,
                const run_options& options = {}) {

@@ -40,6 +40,11 @@ void require_partition(const std::vector<local_id>& part, std::size_t nodes, int
 /// The parts of a graph by a partitioner, which errors call by `name`. Throws `partition_error` for anything
 /// but a part in [0, parts) for every node, none empty where there are nodes enough, for what the partitioner
 /// throws that is no error of ours, and for a graph that is none (`require_valid_graph`).
+/// Complexity: that of the partitioner, and linear in the graph.
+/// \param partitioner any `graph_partitioner`
+/// \param graph the graph to divide
+/// \param parts how many are wanted, at least 1
+/// \param name what messages call the partitioner
 template <graph_partitioner Partitioner>
 std::vector<local_id> checked_partition(const Partitioner& partitioner, const csr_graph& graph, int parts,
                                         const std::string& name) {

@@ -23,6 +23,10 @@ std::vector<double> part_weights(const G& graph, std::span<const local_id> part,
 }
 
 /// Heaviest part over average part; 1 is perfect.
+/// Linear. Throws nothing.
+/// \param graph with weights of nodes
+/// \param part per node its part, from 0
+/// \param parts how many there are
 template <weighted_graph G>
 double imbalance_of(const G& graph, std::span<const local_id> part, int parts) {
   const auto weights = part_weights(graph, part, parts);
@@ -31,6 +35,9 @@ double imbalance_of(const G& graph, std::span<const local_id> part, int parts) {
 }
 
 /// Sum of the weights of edges between different parts.
+/// Linear. Throws nothing.
+/// \param graph with weights of edges
+/// \param part per node its part, from 0
 template <weighted_graph G>
 double edge_cut(const G& graph, std::span<const local_id> part) {
   double cut = 0;

@@ -80,6 +80,8 @@ std::vector<local_id> cut_order(std::span<const local_id> order, std::span<const
 std::vector<local_id> order_by(std::span<const double> keys);
 
 /// Halves 0 and 1 of a graph by growing key, as a `bisection_rule` returns them.
+/// \param left how many parts go left
+/// \param right how many parts go right
 inline std::vector<local_id> bisect_by_key(const csr_graph& graph, std::span<const double> keys, int left,
                                            int right) {
   const std::vector<int> shares{left, right};

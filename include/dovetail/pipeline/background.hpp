@@ -66,6 +66,7 @@ background::coarse_surface_result surface_without_crossings_by(
 
 /// The surface mesh at a size, refined locally until no two of its triangles cross. Throws
 /// `intersection_error` naming the two CAD faces when that does not help.
+/// \param refinement_rounds how often sizes may be refined at crossings
 template <surface_mesher Mesher>
 background::coarse_surface_result
 surface_without_crossings(const any_geometry& model, const any_sizing& size, const any_executor& run,
@@ -113,6 +114,10 @@ struct background_result {
 /// Predicts the size of the mesh and chooses its decomposition. Makes a first surface mesh, as coarse as
 /// sources and curvature allow: enough to see how much there is to fill. Throws `sizing_error` for sizes that
 /// cannot be used, and what the surface mesher throws.
+/// About linear in the triangles of that mesh, and the cells of the prediction.
+/// \param model the solids (D = 3) or faces (D = 2) to mesh
+/// \param size the final edge lengths, in the units of the model
+/// \param given policies and options
 template <int D = 3, bound_parameters<D> Parameters>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given);
 template <int D = 3, class Parameters>
@@ -129,9 +134,15 @@ using background_maker =
 /// Plans the mesh and makes its background mesh, or finds it in the spool of the options. For one subdomain
 /// the library's own steps make no volume: nothing is decomposed, and its mesh would serve nothing. Throws
 /// what its steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
+/// About linear in the elements of the background mesh, beside its mesher.
+/// \param model the solids (D = 3) or faces (D = 2) to mesh
+/// \param size the final edge lengths, in the units of the model; coarse ones are derived
+/// \param given policies and options
 template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
                                      const Parameters& given);
+/// The same by other steps.
+/// \param make makes the mesh in another way
 template <int D, bound_parameters<D> Parameters>
 background_result<D> make_background(const any_geometry& model, const erased_sizing& size,
                                      const Parameters& given, const background_maker<D>& make);

@@ -75,6 +75,7 @@ concept bound_parameters =
 
 /// The same policies as the stages take them. Unless a mesher was chosen it is `mesher::native` in D = 3, the
 /// surface mesher, by regions, in D = 2.
+/// \param given what a caller of `generate` gives
 template <int D, class Given>
   requires(!bound_parameters<Given, D>)
 auto bind_parameters(const Given& given) {

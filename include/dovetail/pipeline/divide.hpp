@@ -36,6 +36,11 @@ struct divided_background {
 
 /// Cuts a background mesh for a field of final sizes into about so many subdomains. Throws `mesh_error` for a
 /// mesh that `require_valid` refuses, and what the rule, the partitioner and `decompose` throw.
+/// Complexity: that of `simplify_coupled` and of the partitioner.
+/// \param coarse the background mesh
+/// \param size the final edge lengths, in the units of the model
+/// \param subdomains how many are wanted
+/// \param given rule, partitioner and options
 template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
                              const Parameters& given);

@@ -105,6 +105,11 @@ filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh
 /// `geometry_error` for a surface that cannot be filled or a mark outside of it, naming places;
 /// `mesher_error` for a region that no attempt could mesh; `sizing_error` also where far too many elements
 /// are predicted; `cancelled`.
+/// \param surface the triangles; indices of points from 0
+/// \param size edge lengths wanted, in the units of the points
+/// \param options growth of sizes, marks of regions, executor, largest prediction
+/// \param mesh_it keeps the boundary it is given
+/// \param improve improves a piece inside its boundary
 template <sizing_field H, boundary_keeping_mesher<3> M = mesher::native, improver<3> I = native_improver>
 filled_surface fill(const simplicial_mesh<2>& surface, const H& size, const fill_options& options = {},
                     const M& mesh_it = {}, const I& improve = {}) {

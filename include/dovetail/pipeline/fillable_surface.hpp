@@ -10,6 +10,7 @@ namespace dovetail {
 /// each at a place of its own, triangles have an area and are there once, every edge has two or more, and no
 /// two triangles touch each other but in common edges and corners. Points of no triangle are not looked at.
 /// O(n log n); most of it is the search for triangles that cross.
+/// \param surface triangles
 void require_fillable(const simplicial_mesh<2>& surface);
 
 } // namespace dovetail

@@ -56,6 +56,10 @@ using generate_result = generated<3>; ///< a mesh of tetrahedra
 /// What `generate` does once the background mesh is there: `background` must be what `make_background` makes
 /// for the same model, field, mesher and options. For runs that differ in the simplification, the partitioner
 /// or the improver alone.
+/// Throws what the stages throw. Complexity: as `generate`, without the background mesh.
+/// \param model the model that the background is of
+/// \param background the coarse mesh with its plan
+/// \param given policies and options
 template <int D, bound_parameters<D> Parameters>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
                                       const Parameters& given);
@@ -77,6 +81,11 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// model knows its `volume()` of a volume that differs by more than lies between; and of half as many
 /// elements again as were predicted. Where too many subdomains would have to be merged, half as many are
 /// made, which a warning tells.
+/// Complexity: that of the mesher and the improver over all pieces; the decomposition costs about n log n in
+/// the elements of the background mesh.
+/// \param given_model a model of `geometry_model`; for D = 2 also a `plane_domain`
+/// \param given_size a sizing field: edge lengths wanted, in the units of the model
+/// \param policies policies and options
 template <int D, class G, class H, class Parameters>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {

@@ -22,6 +22,7 @@ double volume_inside(const simplicial_skeleton<3>& skeleton);
 /// twice the gap, which is measured at the centres of triangles, and a millionth of the volume, which is
 /// rounding and the tolerances that CAD faces meet with. Nothing is done where the model does not know its
 /// volume.
+/// \param of_model the model's own volume, where it knows it
 void compare_volume(const simplicial_skeleton<3>& skeleton, const std::optional<double>& of_model,
                     report& summary);
 

@@ -45,6 +45,15 @@ struct skeleton_store {
 /// that its subdomains induce on the surface what D = 2 does with its own, and adds interface faces. `made`
 /// carries lines and patches from one call to the next. Patches that fail are in the result; throws
 /// `mesher_error` when a line or patch cannot be evaluated at all.
+/// About linear in the triangles of the skeleton.
+/// \param model the model that the mesh is of
+/// \param mesh the background mesh
+/// \param divided how it was divided
+/// \param subdomain_of_element per element its subdomain, after merges
+/// \param subdomains how many there are after merges
+/// \param size edge lengths wanted, in the units of the model
+/// \param made lines and patches of earlier rounds; grows
+/// \param given policies and options
 template <int D, bound_parameters<D> Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,

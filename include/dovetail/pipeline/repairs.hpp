@@ -47,6 +47,7 @@ void apply(const repair& wanted, decomposition_state& state);
 
 /// What is to be done about crossings. Throws `intersection_error` when two CAD faces cross, and
 /// `mesher_error` when lines are at fault that no merge removes.
+/// \param refinement_rounds how often sizes may be refined at crossings
 std::optional<repair> repair_of_crossings(const suppression_plan& plan, const decomposition_state& state,
                                           const geometry_topology& topology, int refinement_rounds);
 

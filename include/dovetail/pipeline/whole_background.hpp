@@ -14,6 +14,11 @@ namespace dovetail {
 ///
 /// The mesher's triangles become the coarse surface. Throws `geometry_error` for models of several solids,
 /// whose common faces it would not keep, and what its steps throw.
+/// Complexity: that of the mesher, and about linear in the elements of the background mesh.
+/// \param mesh_whole meshes a domain along the given lines
+/// \param model one solid
+/// \param size the final edge lengths, in the units of the model
+/// \param given policies and options
 template <bound_parameters<3> Parameters>
 background_result<3> make_background_by(const any_line_keeping_mesher& mesh_whole, const any_geometry& model,
                                         const erased_sizing& size, const Parameters& given);

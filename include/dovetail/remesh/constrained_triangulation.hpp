@@ -31,6 +31,9 @@ struct loop_triangulation {
 /// the result; a segment passed once in each direction (a slit) has the domain on both sides. Crossing,
 /// touching or overlapping segments and wrongly oriented loops are reported, never triangulated wrongly.
 /// Complexity: about n log n.
+/// Throws nothing but for a lack of memory: faults are data.
+/// \param points coordinates in the plane
+/// \param segments pairs of indices of points
 loop_triangulation triangulate_loops(std::span<const vec2> points,
                                      std::span<const std::array<local_id, 2>> segments);
 

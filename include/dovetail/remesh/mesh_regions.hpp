@@ -208,6 +208,14 @@ meshed_regions make_regions(const any_geometry& model, region_set& set, const re
 /// of the model and the mesher; these two and the plain sizes must be the same for all calls with a store. A
 /// region that fails keeps none of the others from being made. Throws `usage_error` when the mesher may not
 /// run in the threads of `run`.
+/// Complexity: that of the surface mesher, once per region and attempt.
+/// \param model what the regions are on
+/// \param set the regions, and edges forbidden in them
+/// \param mesher meshes a region in its parameter plane
+/// \param size edge lengths wanted, in the units of the model
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param store meshes of earlier calls; grows
+/// \param options attempts and progress
 template <surface_mesher Mesher>
 meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Mesher& mesher,
                             const refined_sizing& size, const any_executor& run, region_store& store,

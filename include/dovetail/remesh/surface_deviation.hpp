@@ -46,6 +46,11 @@ void warn_of_deviations(report& to, const report& deviation);
 
 /// Measures the mesh of a region, which must have its parameters; one evaluation of the surface per point and
 /// triangle.
+/// Linear. Throws what the surface throws.
+/// \param surface the surface that the region is on
+/// \param boundary of the region
+/// \param made its mesh
+/// \param size edge lengths, which distances are compared with
 surface_deviation measure_deviation(const any_surface& surface, const patch_boundary& boundary,
                                     const patch_mesh& made, const any_sizing& size);
 

@@ -23,6 +23,8 @@ inline constexpr bool says_what_it_wants = requires(const Rule& rule) {
 /// What the rule says by `wants(D)`. A rule without that function wants of dihedrals what its judgement says,
 /// which for this is asked about a mesh without elements. An angle that a rule has no opinion about (0) is
 /// the one of the paper.
+/// Constant time. Throws what the rule throws.
+/// \param rule such as `simplifier::paper`
 template <int D, simplification_rule<D> Rule>
 wanted_angles wanted_angles_of(const Rule& rule) {
   wanted_angles wanted;

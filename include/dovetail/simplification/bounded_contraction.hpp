@@ -328,6 +328,13 @@ private:
 /// Complexity: n log n in the number of small dihedrals. Throws `usage_error` for weights and angles of the
 /// graphs that are no numbers, for a wrong number of qualities, and for what a rule or a side's weight says
 /// that is not a number or negative, `cancelled` when `on_progress` asks to stop.
+/// \param elements the element-dual graph
+/// \param sides the side-dual graph
+/// \param judged qualities of sides, and what is wanted
+/// \param rule which of two sides goes, and penalties
+/// \param bound how heavy a super-element may become
+/// \param coupled sides decided one dimension below
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <element_dual_graph Elements, side_dual_graph Sides, contraction_rule Rule>
 simplification contract_bounded(const Elements& elements, const Sides& sides, side_judgement judged,
                                 const Rule& rule, const contraction_bound& bound = {},

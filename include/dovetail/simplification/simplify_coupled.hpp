@@ -54,6 +54,13 @@ void require_surface_points(std::span<const local_id> volume_point, const simpli
 /// is done: the paper's removes all interior faces at a removed edge and penalises those at a refused one.
 /// The surface consists of the boundary and the material faces of the volume; `volume_point` gives the
 /// volume's number of each of its points, empty when they are the same. Throws what `simplify` throws.
+/// Complexity: that of `simplify`, twice.
+/// \param surface the surface mesh with its fixed edges
+/// \param volume the volume mesh, its sides and weights
+/// \param rule which sides are to go, in either dimension
+/// \param bound how heavy a super-element may become
+/// \param volume_point one per point of the surface, or empty
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <class Rule>
   requires simplification_rule<Rule, 2> && simplification_rule<Rule, 3>
       coupled_simplification simplify_coupled(const mesh_duals<2>& surface, const mesh_duals<3>& volume,

@@ -22,6 +22,9 @@ struct automatic_options {
 
 /// The smallest of what curvature and proximity ask for, as one field of limited growth, precomputed in the
 /// model's box. Throws `sizing_error` for options out of range.
+/// Complexity: that of `curvature_size` and `proximity_size`, and linear in the cells of the table.
+/// \param model the model whose faces are sampled
+/// \param options elements per circle and per gap, and the range of sizes
 template <geometry_model G>
 tabulated_size automatic_size(const G& model, const automatic_options& options = {}) {
   const model_size_range range = sizing::range_for(model.bounds(), options.range);

@@ -36,6 +36,9 @@ concept bounded_below_sizing_field = sizing_field<H> && requires(const H& h, con
 };
 
 /// A lower bound of `h` over the box; 0, "unknown", when the field offers none.
+/// Constant time, or what the field takes. Throws nothing of its own.
+/// \param h a sizing field
+/// \param box corners in the units of the model
 template <sizing_field H>
 double smallest_size_in(const H& h, const box3& box) {
   if constexpr (bounded_below_sizing_field<H>)
@@ -64,6 +67,9 @@ concept feature_aware_sizing_field = sizing_field<H> && requires(const H& h, vec
 
 /// The length beyond which a mesh would step over a feature of `h` near p; infinite when there is none or the
 /// field does not know.
+/// Constant time, or what the field takes. Throws nothing of its own.
+/// \param h a sizing field
+/// \param p a point in the units of the model
 template <sizing_field H>
 double feature_size(const H& h, vec3 p) {
   if constexpr (feature_aware_sizing_field<H>)

@@ -31,6 +31,7 @@ namespace sizing {
 model_size_range range_for(const box3& bounds, model_size_range range);
 
 /// Sizes of 2 pi / (elements x curvature) on the faces of a model, where that is below the largest.
+/// \param elements_per_circle edges around a circle of curvature
 template <geometry_model G>
 std::vector<sized_point> curvature_points(const G& model, double elements_per_circle,
                                           const model_size_range& range) {
@@ -53,6 +54,9 @@ std::vector<sized_point> curvature_points(const G& model, double elements_per_ci
 
 /// The field that puts `elements_per_circle` edges around every circle of curvature of a face. Some thousand
 /// curvature queries per curved face. Throws `sizing_error` for options out of range.
+/// About n log n in the samples.
+/// \param model the model whose faces are sampled
+/// \param options elements per circle, and the range of sizes
 template <geometry_model G>
 point_sizes curvature_size(const G& model, const curvature_options& options = {}) {
   const model_size_range range = sizing::range_for(model.bounds(), options.range);

@@ -102,6 +102,8 @@ inline any_sizing faster_in(const any_sizing& h, const box3& box) {
 }
 
 /// Wraps a field into `any_sizing` so that its lower bounds survive. An empty `any_sizing` stays empty.
+/// Constant time. Throws nothing but for a lack of memory.
+/// \param field a sizing field, which is moved
 template <sizing_field H>
 any_sizing keep_bounds(H field) {
   if constexpr (std::same_as<H, any_sizing>)

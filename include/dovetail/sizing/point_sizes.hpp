@@ -17,8 +17,8 @@ namespace dovetail {
 
 /// A place and the size wanted there.
 struct sized_point {
-  vec3 point; ///< where the size is wanted
-  double size = 0;
+  vec3 point;      ///< where the size is wanted
+  double size = 0; ///< the edge length wanted
 };
 
 /// h(x) = min(largest, min over points p of size(p) + growth |x - p|). Its growth is limited by

@@ -91,6 +91,11 @@ inline constexpr double suspicious_ratio = 0.5;
 
 /// The error to assume for a cell: that of its quadrature, or all that its lower bound allows when that is
 /// suspicious.
+/// \param quadrature_error what two quadratures differ by
+/// \param integral the value found
+/// \param measure area or volume of the cell
+/// \param sampled_least the smallest size among the samples
+/// \param bound a lower bound of the size, or 0
 template <int D>
 double assumed_error(double quadrature_error, double integral, double measure, double sampled_least,
                      double bound) {
@@ -100,6 +105,7 @@ double assumed_error(double quadrature_error, double integral, double measure, d
 }
 
 /// Two rules of degree 2 that share no point; their difference is the error estimate.
+/// \param most_unsampled a length: larger cells are split, where the field offers no bounds
 template <int D, sizing_field H>
 void integrate(integration_cell<D>& cell, const H& h, double most_unsampled) {
   constexpr double inner = D == 3 ? 0.58541019662496845 : 2.0 / 3;
@@ -173,6 +179,7 @@ void append_children(const integration_cell<D>& parent, std::vector<integration_
 
 /// Marks the cells with the largest errors, so many that the errors of the others add up to at most
 /// `allowed`. Returns the sum of all errors. Ties by index.
+/// \param cells the cells with their errors
 template <class Cell>
 double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::vector<char>& marked) {
   std::vector<std::size_t> order(cells.size());
@@ -199,6 +206,8 @@ struct integral_estimate {
 
 /// The elements first, first + 1, ... last - 1 of a mesh, before any is split: what `predict_elements` begins
 /// with, so that several can share the work. O(n * cost of h).
+/// \param first the first element
+/// \param last one behind the last element
 template <int D, sizing_field H>
 std::vector<integral_estimate> integrate_elements(const simplicial_mesh<D>& mesh, const H& h,
                                                   std::size_t first, std::size_t last) {
@@ -221,6 +230,10 @@ std::vector<integral_estimate> integrate_elements(const simplicial_mesh<D>& mesh
 /// `smallest_size_in`, or, where the field has none, only if it shows up in samples about 1/48 of the domain
 /// apart. O(cells * cost of h). Deterministic. Throws `sizing_error` that names the place of a size that is
 /// no length.
+/// \param mesh what is to be filled: triangles (D = 2) or tetrahedra (D = 3)
+/// \param h edge lengths, in the units of the mesh
+/// \param options the error asked for, and limits
+/// \param known one per element, or empty
 template <int D, sizing_field H>
 element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
                                     const prediction_options& options = {},

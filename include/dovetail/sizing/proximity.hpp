@@ -119,6 +119,9 @@ std::vector<sized_point> proximity_points(const G& model, const proximity_option
 /// Faces are sampled `range.largest` apart; distances are then taken to the face itself. Where two faces meet
 /// at a sharp angle the gap vanishes, and `range.smallest` is the size along the edge. Throws `sizing_error`
 /// for options out of range.
+/// About n log n in the samples.
+/// \param model the model whose faces are sampled
+/// \param options elements per gap, and the range of sizes
 template <geometry_model G>
 point_sizes proximity_size(const G& model, const proximity_options& options = {}) {
   const model_size_range range = sizing::range_for(model.bounds(), options.range);

@@ -156,6 +156,7 @@ private:
 };
 
 /// All samples of a model. Throws what the model's queries throw.
+/// \param spacing the distance of samples at a place
 template <geometry_model G, class Spacing>
 std::vector<surface_sample> sample_surface(const G& model, const Spacing& spacing,
                                            const sampling_limits& limits = {}) {

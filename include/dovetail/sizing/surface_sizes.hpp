@@ -10,6 +10,8 @@ namespace dovetail {
 /// h(x) = min over the surface's points p of (mean length of the edges at p) + growth |x - p|: sizes for the
 /// inside of a surface that is kept. O(n log n), then about log n steps per evaluation. Throws `sizing_error`
 /// for a growth that is not positive and finite, or a surface without extent.
+/// \param surface triangles
+/// \param growth how much sizes grow per length, > 0
 point_sizes surface_sizes(const simplicial_mesh<2>& surface, double growth);
 
 /// A field made smaller near those points of a surface whose edges are much shorter than it says, so that it

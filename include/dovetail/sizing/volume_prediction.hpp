@@ -47,6 +47,7 @@ private:
 
 /// Integrates h^-3 over the part of a cell that is inside: one sample per octant, at random in it for a cut
 /// cell.
+/// \param largest_unsampled a length: larger cells are split, where the field offers no bounds
 template <sizing_field H>
 void integrate(volume_cell& cell, const inside_surface& inside, const H& h, sample_sequence& random,
                double largest_unsampled) {
@@ -92,6 +93,7 @@ void integrate(volume_cell& cell, const inside_surface& inside, const H& h, samp
 }
 
 /// The octants of a cell that are not outside; a part that no triangle meets is inside or outside as a whole.
+/// \param largest_unsampled a length: larger cells are split, where the field offers no bounds
 template <sizing_field H>
 void append_children(const volume_cell& parent, const inside_surface& inside, const H& h,
                      sample_sequence& random, double largest_unsampled, std::vector<volume_cell>& to) {
@@ -109,10 +111,12 @@ void append_children(const volume_cell& parent, const inside_surface& inside, co
 
 /// Of two kinds of errors, adding up linearly and as independent samples, marks the cells to split. Returns
 /// the total error.
+/// \param allowed the error allowed in all
 double mark_volume_cells(const std::vector<volume_cell>& cells, double allowed, std::vector<char>& marked);
 
 /// The sum over all cells, the cut ones scaled so that the volume inside comes out as the surface encloses it
 /// (unless its orientation is wrong, which shows in a factor far from one).
+/// \param enclosed_volume the volume inside of the surface
 double total_integral(const std::vector<volume_cell>& cells, double enclosed_volume);
 
 } // namespace sizing
@@ -121,6 +125,10 @@ double total_integral(const std::vector<volume_cell>& cells, double enclosed_vol
 /// of its inside, with cut cells sampled, refined until the estimated error is below the one asked for.
 /// Sources are treated as in `predict_elements`; `per_element` stays empty. Throws `geometry_error` when the
 /// surface is open. Deterministic.
+/// O(cells * cost of h).
+/// \param closed_surface oriented triangles without open edges
+/// \param h edge lengths, in the units of the surface
+/// \param options the error asked for, and limits
 template <sizing_field H>
 element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surface, const H& h,
                                            const prediction_options& options = {}) {

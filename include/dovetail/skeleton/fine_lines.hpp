@@ -42,6 +42,11 @@ struct numbered_lines {
 
 /// Numbers the points of remeshed lines. `coarse_hosts` may be shorter than `coarse_points`: the others lie
 /// inside.
+/// Linear. Throws nothing but for a lack of memory.
+/// \param skeleton the coarse skeleton
+/// \param lines one per line of the skeleton
+/// \param coarse_points of the background mesh
+/// \param coarse_hosts the CAD entity of each coarse point
 numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
                             std::span<const vec3> coarse_points, std::span<const host> coarse_hosts);
 

@@ -17,6 +17,11 @@ namespace dovetail {
 
 /// The fine skeleton of a decomposed surface from its lines. `sides` is `build_sides(surface.mesh)`. Linear
 /// in the edges made.
+/// Throws nothing but for a lack of memory.
+/// \param surface the coarse surface
+/// \param sides `build_sides(surface.mesh)`
+/// \param subdomain_of_triangle per triangle its subdomain, from 0
+/// \param lines the remeshed lines
 simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side_table<2>& sides,
                                          const std::vector<local_id>& subdomain_of_triangle,
                                          const numbered_lines& lines);

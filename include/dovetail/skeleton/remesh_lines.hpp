@@ -19,6 +19,11 @@
 namespace dovetail {
 
 /// Points of one line. `coarse_points` are the points of the background mesh.
+/// About linear in the points made. Throws what the model and the field throw.
+/// \param model the model that the line is of
+/// \param line of the coarse skeleton
+/// \param coarse_points those that the line refers to
+/// \param size edge lengths wanted, in the units of the model
 fine_line remesh_line(const any_geometry& model, const skeleton_line& line,
                       std::span<const vec3> coarse_points, const any_sizing& size);
 
@@ -31,6 +36,14 @@ content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_point
 
 /// Points of all lines; those that are not in `made` are made through `run`.
 /// Throws `mesher_error` naming what could not be evaluated.
+/// About linear in the points made.
+/// \param model the model that the lines are of
+/// \param lines lines of the coarse skeleton
+/// \param coarse_points points of the background mesh, that lines refer to
+/// \param size edge lengths wanted, in the units of the model
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param made lines of earlier rounds, by their keys; grows
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
                                     std::span<const vec3> coarse_points, const refined_sizing& size,
                                     const any_executor& run, batched_entities<fine_line>& made,

@@ -46,12 +46,12 @@ struct remeshed_skeleton {
 /// What is remeshed: a skeleton of a coarse surface and what lies inside it, with its lines. All of it
 /// outlives the calls that it is given to.
 struct skeleton_to_remesh {
-  const any_geometry& model;           ///< what the surface is of
-  const surface_mesh& surface;         ///< the coarse surface
-  std::span<const vec3> coarse_points; ///< of the coarse mesh
-  const coarse_skeleton& skeleton;     ///< its lines, regions and interface faces
-  const numbered_lines& lines;         ///< its lines, remeshed
-  const refined_sizing& size;
+  const any_geometry& model;                       ///< what the surface is of
+  const surface_mesh& surface;                     ///< the coarse surface
+  std::span<const vec3> coarse_points;             ///< of the coarse mesh
+  const coarse_skeleton& skeleton;                 ///< its lines, regions and interface faces
+  const numbered_lines& lines;                     ///< its lines, remeshed
+  const refined_sizing& size;                      ///< edge lengths wanted
   std::span<const local_id> material_of_subdomain; ///< by subdomain
 };
 
@@ -75,6 +75,11 @@ mesh_patches_by(const skeleton_to_remesh& of,
 /// Remeshes what lies between remeshed lines to the sizing field. `made` carries patches from one call to the
 /// next as long as the model, the plain field and the mesher are the same. About linear in the triangles
 /// made. Faults come back as `failures`; throws `mesher_error` when a patch cannot be evaluated at all.
+/// \param of the coarse skeleton with its remeshed lines
+/// \param mesher meshes regions and interface faces between lines
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param made patches of earlier rounds, by their keys; grows
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <surface_mesher Mesher>
 skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
                               region_store& made, const progress& on_progress = {}) {
@@ -91,11 +96,24 @@ std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
 
 /// Puts patches together. The result is on all ranks, in memory that they share where they have one spool.
 /// Linear.
+/// Throws nothing but for a lack of memory.
+/// \param of the coarse skeleton with its remeshed lines
+/// \param patches from `mesh_patches`
+/// \param run tells all ranks
+/// \param made the store that patches lie in
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
                                const any_executor& run, const region_store& made,
                                const progress& on_progress = {});
 
 /// `mesh_patches` and `join_patches`.
+/// About linear in the triangles made. Patches that fail are in the result; throws `mesher_error` when one
+/// cannot be evaluated at all.
+/// \param of the coarse skeleton with its remeshed lines
+/// \param mesher meshes regions and interface faces between lines
+/// \param run carries out independent tasks; the result does not depend on it
+/// \param made patches of earlier rounds, by their keys; grows
+/// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <surface_mesher Mesher>
 remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
                                   region_store& made, const progress& on_progress = {}) {

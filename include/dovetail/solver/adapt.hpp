@@ -85,6 +85,10 @@ erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double
 /// Meshes the model of a boundary: what `adapt` does when it has made it. Throws what `generate` throws, and
 /// `mesh_error` when the mesh is not one of a model that was given, or has ids or materials on parts of its
 /// faces or solids.
+/// Complexity: that of `generate`.
+/// \param boundary the boundary and its model
+/// \param size a sizing field
+/// \param given policies and options
 template <int D, bound_parameters<D> Parameters>
 adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const Parameters& given);
 
@@ -110,6 +114,11 @@ erased_sizing sizes_to_adapt_to(const adaptable_mesh<D>& old, const Sizes& sizes
 ///
 /// Where a boundary is coarse for its curvature it loses volume bit by bit, finer sizes or not, and a warning
 /// tells; on a model it does not. Throws what `model_of_boundary`, `sizes_at_points` and `generate` throw.
+/// Complexity: that of `generate`.
+/// \param old elements with materials, and sides with ids
+/// \param sizes one edge length per point of `old`, or a sizing field
+/// \param policies policies and options, as for `generate`
+/// \param options feature angle and growth of sizes
 template <int D, class Sizes, class Parameters>
   requires(sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>)
 adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
@@ -129,6 +138,7 @@ adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Paramet
 ///
 /// Where there is no model, that of the first adaptation, `adapted::model`, serves all the others. Throws
 /// what the first form throws, and what `mesh_again` does.
+/// \param model the model that `old` is a mesh of; without it one is made of its boundary
 template <int D, geometry_model G, class Sizes, class Parameters>
   requires(sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>)
 adapted<D> adapt(const G& model, const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
@@ -142,6 +152,8 @@ adapted<D> adapt(const G& model, const adaptable_mesh<D>& old, const Sizes& size
 
 /// An adapted mesh in one piece, with the old numbers of materials and ids: to be solved on, and adapted
 /// again. Throws what `io::gather` throws.
+/// Linear.
+/// \param made what `adapt` gives
 template <int D>
 adaptable_mesh<D> whole_mesh(const adapted<D>& made);
 

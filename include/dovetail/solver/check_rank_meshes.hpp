@@ -291,6 +291,8 @@ private:
 /// what they copy, neighbours list all that they share in the same order, ghosts are one layer, edges of
 /// second-order elements have one middle each. All are in memory, with 100 bytes more per vertex, and of
 /// second order with 200 per edge. About n log n, and linear in the pairs of neighbours.
+/// Throws nothing but for a lack of memory.
+/// \param ranks from `make_rank_mesh`, by rank
 template <int D>
 std::vector<std::string> check_rank_meshes(std::span<const rank_mesh<D>> ranks) {
   return detail::rank_mesh_check<D>(ranks).run();

@@ -43,6 +43,7 @@ struct gathered_mesh {
 /// for a search per side of an element at the skeleton. Memory: the result, and 20 bytes per point and
 /// element. Throws `mesh_error` when pieces and skeleton disagree, or when the mesh has more elements or
 /// points than local ids can number.
+/// \param mesh what `generate` makes, or a reader
 template <int D>
 gathered_mesh<D> gather(const distributed_simplicial_mesh<D>& mesh) {
   const global_numbering numbers = number_globally(mesh);

@@ -19,6 +19,10 @@ namespace dovetail::io {
 ///
 /// Throws `mesh_error` when pieces and skeleton disagree, when a point of the rank is in none of its
 /// elements, or when it has more of them than local ids can number.
+/// \param mesh the mesh that `numbers` are of
+/// \param numbers from `number_by_ranks`
+/// \param rank from 0
+/// \param ghosts whether elements of other ranks that touch this one's are there too
 template <int D>
 rank_mesh<D> make_rank_mesh(const distributed_simplicial_mesh<D>& mesh, const rank_numbering& numbers,
                             local_id rank, bool ghosts = false);

@@ -76,6 +76,9 @@ compressed_rows<local_id> ranks_at_points(const distributed_simplicial_mesh<D>& 
 /// elements, the middles of the skeleton's edges that it owns, growing, and those of the inner edges of its
 /// pieces. About linear in the skeleton. Throws `usage_error` when a piece has no rank, `mesh_error` when the
 /// skeleton refers to what is not there.
+/// \param mesh what `generate` or a redistribution makes
+/// \param rank_of_piece one per piece, from 0; a redistribution gives it
+/// \param ranks how many there are
 template <int D>
 rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
                                std::vector<local_id> rank_of_piece, local_id ranks) {

@@ -39,6 +39,11 @@ struct second_order_options {
 /// model has no point near, so that they are straight), "moved_back" and "straightened" (moved back all the
 /// way), and "rounds"; and warnings where middles are not on the model. Memory: 36 bytes per edge of the
 /// skeleton.
+/// Complexity: linear, and a few evaluations of the model per edge on it.
+/// \param mesh gets `mid_nodes`
+/// \param model what the mesh is of
+/// \param run_tasks carries out independent tasks; the result does not depend on it
+/// \param options the least Jacobian, where nodes are kept, time limit
 template <int D>
 report add_mid_nodes(distributed_simplicial_mesh<D>& mesh, const any_geometry& model,
                      const any_executor& run_tasks = parallel::serial{},
@@ -54,6 +59,9 @@ struct second_order_mesh {
 };
 
 /// About linear, and a few evaluations of the model per edge on it. Throws `mesh_error` as above.
+/// \param mesh what `gather` gives
+/// \param model what the mesh is of
+/// \param options the least Jacobian, where nodes are kept, time limit
 template <int D>
 second_order_mesh<D> second_order(const gathered_mesh<D>& mesh, const any_geometry& model,
                                   const second_order_options& options = {});

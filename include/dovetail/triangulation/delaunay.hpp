@@ -59,6 +59,7 @@ void rename_vertices(triangulation<D>& t, const std::vector<local_id>& names) {
 ///
 /// O(n log n) expected for points that are not evil, 32 bytes per element. Throws `geometry_error` when a
 /// coordinate is not finite, or all points are on one line (D = 2) or in one plane (D = 3).
+/// \param points two (D = 2) or three coordinates each
 template <int D>
 point_triangulation_result<D> triangulate_points(std::span<const point_of<D>> points) {
   detail::require_finite<D>(points);
@@ -127,6 +128,9 @@ delaunay_elements<D> elements_of(const triangulation<D>& t) {
 }
 
 /// The Delaunay triangulation of points: `triangulate_points` without the ghosts. Cost and errors are those.
+/// O(n log n) expected. Throws `geometry_error` when a coordinate is not finite, or all points are on one
+/// line (D = 2) or in one plane (D = 3).
+/// \param points two (D = 2) or three coordinates each
 template <int D>
 delaunay_elements<D> delaunay(std::span<const point_of<D>> points) {
   auto made = triangulate_points<D>(points);

@@ -21,6 +21,12 @@ namespace dovetail::baselines {
 /// The result has no plan of a decomposition and no coarse angles. Children of its summary: "background" (a
 /// coarse surface, which says how large the mesh will be), "skeleton" (the fine surface), "intersection",
 /// "recursive bisection" (with the measuring of its interfaces' angles), "meshing".
+/// Complexity: that of `generate` without a decomposition, and a pass over a boundary per plane that is
+/// tried.
+/// \param model the solids to mesh
+/// \param size edge lengths wanted, in the units of the model
+/// \param given mesher, improver, executor and options, as for `generate`
+/// \param bisect when to stop cutting, and how
 generated<3> generate_bisected(const any_geometry& model, const erased_sizing& size,
                                const any_parameters<3>& given, const recursive_bisection& bisect = {});
 

@@ -22,6 +22,11 @@ namespace dovetail::baselines {
 /// Children of the summary: what `generate` has of one subdomain, "fine partition" (what
 /// `redistribution_by::elements` says), "improvement". Memory: a worker has the mesh of the largest solid,
 /// and each process the graph of all elements.
+/// Complexity: as the mesher, the partitioner and the improver on all elements.
+/// \param model the solids to mesh
+/// \param size edge lengths wanted, in the units of the model
+/// \param given mesher, improver, partitioner, executor and options, as for `generate`
+/// \param elements_per_part elements of a part, where the options do not give a number of subdomains
 generated<3> generate_by_fine_partition(const any_geometry& model, const erased_sizing& size,
                                         const any_parameters<3>& given, double elements_per_part = 20000);
 

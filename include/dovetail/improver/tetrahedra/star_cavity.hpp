@@ -41,6 +41,7 @@ inline bool may_lose_inside(const tet_complex& mesh, const star_cavity& cavity, 
 /// Fewer of the fresh elements are bad than of the old ones or, if as many, they together lack less. Without
 /// this a cavity between fixed surfaces that lie too close is filled with ever more elements, each a little
 /// better than the worst one before.
+/// \param bad the quality below which an element is bad
 bool pays(const tet_complex& mesh, const local_change& change, float bad);
 
 /// Joins the outline to `apex`, whose place is set, if all values beat `bar`, the elements together lack less

@@ -354,6 +354,8 @@ private:
 /// attempts and some more for each triangle.
 ///
 /// Linear in the elements, and where something was missing about 20 us for each edge or triangle.
+/// \param mesh a tetrahedrization with its ghosts, which changes
+/// \param triangles three indices of its vertices each
 inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles) {
   const auto lacking = detail::missing_triangles(mesh, detail::kept_entities(triangles));
   if (lacking.empty())

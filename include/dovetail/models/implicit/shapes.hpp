@@ -92,6 +92,7 @@ auto intersection(A a, B b, double rounding) {
 }
 
 /// Where any of the bodies is, rounded.
+/// \param rounding how far from their seam shapes are blended, > 0
 template <std::invocable<vec3> A, std::invocable<vec3> B>
 auto united(A a, B b, double rounding) {
   const auto outside = [](auto f) { return [f](vec3 p) { return -f(p); }; };
@@ -99,6 +100,7 @@ auto united(A a, B b, double rounding) {
 }
 
 /// The first without the second, rounded.
+/// \param rounding how far from their seam shapes are blended, > 0
 template <std::invocable<vec3> A, std::invocable<vec3> B>
 auto difference(A a, B b, double rounding) {
   return intersection(

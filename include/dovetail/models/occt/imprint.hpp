@@ -58,6 +58,7 @@ inline std::vector<std::array<std::size_t, 2>> close_pairs(const brep& data,
 /// The general fuse of bodies at a fuzzy tolerance: every body keeps its extent, contacts become shared
 /// faces, overlaps of solids become solids of their own. Empty when OCCT fails; else its faults tell whether
 /// it is sound.
+/// \param fuzzy the tolerance within which shapes touch, in the units of the model
 inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Shape>& bodies,
                                         double fuzzy) {
   BOPAlgo_Builder fuse;
@@ -81,6 +82,7 @@ inline std::optional<brep> general_fuse(attributed_shape& input, const std::vect
 }
 
 /// The first pair of bodies that cannot be fused even without the others.
+/// \param pairs indices of two bodies each
 inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input,
                                                   const std::vector<TopoDS_Shape>& bodies,
                                                   const std::vector<std::array<std::size_t, 2>>& pairs) {

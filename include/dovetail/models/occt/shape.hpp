@@ -53,6 +53,7 @@ inline std::string to_text(vec3 p) {
 }
 
 /// A length with six digits.
+/// \param value a number
 inline std::string to_text(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g", value);

@@ -38,6 +38,8 @@ double signed_area(const std::vector<vec2>& polygon);
 
 /// Throws `geometry_error` that names the path and its points when a drawing bounds no proper domain: too few
 /// or repeated points, a polygon without area, paths that cross or overlap.
+/// Complexity: each segment is compared with those near it.
+/// \param drawing polygons and lines
 void check_drawing(const plane_drawing& drawing);
 
 } // namespace dovetail

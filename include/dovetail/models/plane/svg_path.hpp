@@ -21,6 +21,9 @@ struct svg_path_options {
 /// The subpaths of a path as polygons (and lines). Coordinates are those of the data; SVG's y axis points
 /// down, so pictures look mirrored. Throws `input_error` for data that are no path, `geometry_error` for an
 /// open one.
+/// Linear in the segments made.
+/// \param data the attribute `d` of a path
+/// \param options how far chords may be from curves, and what open paths are
 plane_drawing drawing_from_svg_path(std::string_view data, const svg_path_options& options = {});
 
 } // namespace dovetail
