@@ -170,16 +170,30 @@ DOVETAIL_INLINE void check_closed(const simplicial_mesh<3>& mesh, const side_tab
       });
 }
 
+template <int D>
+void check_each(const simplicial_mesh<D>& mesh, const validity_options& allowed, fault_collector& faults) {
+  check_references(mesh, faults);
+  if (faults.has(mesh_fault::missing_point))
+    return;
+  check_points(mesh, allowed, faults);
+  if (!faults.has(mesh_fault::non_finite_point))
+    check_elements(mesh, faults);
+}
+
+template <int D>
+bool each_is_valid(const simplicial_mesh<D>& mesh, const validity_options& allowed) {
+  fault_collector faults;
+  check_each(mesh, allowed, faults);
+  return faults.result().valid();
+}
+
 /// `sides()` is called when references are known to be right.
 template <int D, class Sides>
 validity check_all(const simplicial_mesh<D>& mesh, const Sides& sides, const validity_options& allowed) {
   fault_collector faults;
-  check_references(mesh, faults);
+  check_each(mesh, allowed, faults);
   if (faults.has(mesh_fault::missing_point))
     return faults.result();
-  check_points(mesh, allowed, faults);
-  if (!faults.has(mesh_fault::non_finite_point))
-    check_elements(mesh, faults);
   if (faults.has(mesh_fault::repeated_vertex)) {
     check_duplicates(mesh, faults);
     return faults.result();
@@ -217,6 +231,7 @@ validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sid
 }
 
 #ifdef DOVETAIL_COMPILED
+template bool detail::each_is_valid<3>(const simplicial_mesh<3>& mesh, const validity_options& allowed);
 template validity check_validity<2>(const simplicial_mesh<2>& mesh, const validity_options& allowed);
 template validity check_validity<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
                                     const validity_options& allowed);
