@@ -50,4 +50,10 @@ read -ra flags < <(pkg-config --cflags --libs dovetail)
 [[ " ${flags[*]} " == *" -ffp-contract=off "* ]] || fail "the exact predicates are not exact with ${flags[*]}"
 "$compiler" "$source_directory/tests/project/small_consumer/main.cpp" "${flags[@]}" -o "$work/consumer"
 "$work/consumer"
+
+# The program that Conan tries its package by; Conan itself is not run.
+"$cmake" -S "$source_directory/packaging/conan/test_package" -B "$work/test_package" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_COMPILER="$compiler" >"$work/log" || fail "$(<"$work/log")"
+"$cmake" --build "$work/test_package"
+"$work/test_package/test_package"
 rm -rf "$work"
