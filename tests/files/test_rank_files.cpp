@@ -154,6 +154,11 @@ TEST_CASE(
   CHECK_FALSE(has("constant/polyMesh"));
   CHECK(has("processor2/constant/polyMesh/points"));
   CHECK(testing::file_content(folder / "system/decomposeParDict").find("Subdomains 3;") != std::string::npos);
+  testing::write_content(folder / "processor0/constant/polyMesh/cellProcAddressing", "of another mesh");
+  testing::write_content(folder / "processor2/constant/polyMesh/cellProcAddressing", "of another mesh");
+  write(2); // the number of folders says for how many processors the case is
+  CHECK_FALSE(has("processor0/constant/polyMesh/cellProcAddressing"));
+  CHECK_FALSE(has("processor2"));
   const auto summary = write(1);
   CHECK(summary.files.size() == 10);
   CHECK_FALSE(has("processor0"));

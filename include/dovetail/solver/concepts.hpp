@@ -28,6 +28,8 @@ namespace dovetail {
 /// and, where there are, for `int n` and `const std::filesystem::path& path`:
 ///
 /// - `f.files_of_rank(q, n)`: the files of a rank of n, where their names depend on n
+/// - `f.outdated_files_of_rank(q, n)`: files that other programs make of that rank's, which a new mesh makes
+/// wrong: they are removed
 /// - `f.may_replace(path)`: bool, whether a file that is there already may be written over (default: each
 /// may); where not, the new one is dropped
 ///

@@ -27,6 +27,8 @@ struct openfoam_format {
              const std::vector<std::filesystem::path>& paths) const;
   void write_all(const rank_source<3>& source, const std::vector<std::filesystem::path>& paths) const;
   bool may_replace(const std::filesystem::path& file) const;
+  /// What reconstructParMesh and topoSet make: numbers of cells, faces and points of the mesh there was.
+  std::vector<std::string> outdated_files_of_rank(local_id rank, int ranks) const;
 };
 static_assert(rank_format<openfoam_format, 3>);
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <numeric>
 #include <set>
 #include <string>
@@ -60,6 +61,15 @@ inline std::vector<std::string> foam_words(const std::vector<std::string>& names
     words.push_back(word);
   }
   return words;
+}
+
+inline std::vector<std::string> foam_mesh_files(local_id rank, int ranks,
+                                                std::initializer_list<const char*> files) {
+  const std::string folder = ranks == 1 ? "" : "processor" + std::to_string(rank) + "/";
+  std::vector<std::string> names;
+  for (const char* file : files)
+    names.push_back(folder + "constant/polyMesh/" + file);
+  return names;
 }
 
 inline foam_patches collect_foam_patches(const distributed_mesh& mesh) {
@@ -216,11 +226,15 @@ inline void write_foam_zones(foam_file& file, const rank_mesh<3>& rank,
 } // namespace detail
 
 DOVETAIL_INLINE std::vector<std::string> openfoam_format::files_of_rank(local_id rank, int ranks) const {
-  const std::string folder = ranks == 1 ? "" : "processor" + std::to_string(rank) + "/";
-  std::vector<std::string> names;
-  for (const char* what : {"points", "faces", "owner", "neighbour", "boundary", "cellZones"})
-    names.push_back(folder + "constant/polyMesh/" + what);
-  return names;
+  return detail::foam_mesh_files(rank, ranks,
+                                 {"points", "faces", "owner", "neighbour", "boundary", "cellZones"});
+}
+
+DOVETAIL_INLINE std::vector<std::string> openfoam_format::outdated_files_of_rank(local_id rank,
+                                                                                 int ranks) const {
+  return detail::foam_mesh_files(rank, ranks,
+                                 {"pointZones", "faceZones", "pointProcAddressing", "faceProcAddressing",
+                                  "cellProcAddressing", "boundaryProcAddressing"});
 }
 
 DOVETAIL_INLINE std::vector<std::string> openfoam_format::files_of_all() const {

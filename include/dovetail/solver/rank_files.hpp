@@ -151,13 +151,26 @@ private:
     return was_there;
   }
 
-  /// Removes what an earlier mesh of another number of ranks has left.
-  static void remove_other_ranks(local_id ranks, const Format& format, const std::filesystem::path& folder) {
+  /// What a new mesh makes wrong: of an earlier one of another number of ranks all, of its own ranks what
+  /// others have made of them.
+  static void remove_outdated(local_id ranks, const Format& format, const std::filesystem::path& folder) {
+    const auto derived = [&](local_id q, local_id of) {
+      std::vector<std::string> names;
+      if constexpr (requires { format.outdated_files_of_rank(q, 1); })
+        names = format.outdated_files_of_rank(q, static_cast<int>(of));
+      return names;
+    };
+    const auto remove_rank = [&](local_id q, local_id of) {
+      const bool was_there = remove(derived(q, of), folder);
+      return remove(names_of_rank(format, q, of), folder) || was_there;
+    };
+    for (local_id q = 0; q < ranks; ++q)
+      remove(derived(q, ranks), folder);
     if (counts_ranks && ranks > 1)
-      remove(names_of_rank(format, 0, 1), folder);
-    for (local_id q = counts_ranks && ranks == 1 ? 0 : ranks;
-         remove(names_of_rank(format, q, q + 2), folder);)
-      ++q;
+      remove_rank(0, 1);
+    local_id other = counts_ranks && ranks == 1 ? 0 : ranks;
+    while (remove_rank(other, other + 2)) // of more than one
+      ++other;
   }
 
   static bool may_replace([[maybe_unused]] const Format& format,
@@ -183,7 +196,7 @@ private:
       summary.files.push_back(name);
     }
     if constexpr (!shared_rank_format<Format, D>)
-      remove_other_ranks(source.numbers.ranks(), format, folder);
+      remove_outdated(source.numbers.ranks(), format, folder);
     sync_to_disk(folder);
     summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
     summary.set("bytes", static_cast<double>(bytes));
