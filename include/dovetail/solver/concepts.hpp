@@ -25,6 +25,14 @@ namespace dovetail {
 /// - `f.write(source, mesh, paths)`: writes the files of the mesh's rank under these names
 /// - `f.write_all(source, paths)`: writes the common ones
 ///
+/// and, where there are, for `int n` and `const std::filesystem::path& path`:
+///
+/// - `f.files_of_rank(q, n)`: the files of a rank of n, where their names depend on n
+/// - `f.outdated_files_of_rank(q, n)`: files that other programs make of that rank's, which a new mesh makes
+/// wrong: they are removed
+/// - `f.may_replace(path)`: bool, whether a file that is there already may be written over (default: each
+/// may); where not, the new one is dropped
+///
 /// Semantics: what is written depends on the arguments alone, and a file on its own names alone, as the names
 /// given are temporary. Each call may be made in another process, in any order. `write` or `write_all` is not
 /// called where there are no names. Meshes of second order are given to a format only if it has a static
