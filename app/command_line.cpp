@@ -62,9 +62,10 @@ void add_model_options(CLI::App& command, model_options& options) {
       .add_option("--unit", options.unit, "Unit of lengths from STEP and IGES files: as in the file, or mm")
       ->check(CLI::IsMember({"file", "mm"}))
       ->capture_default_str();
-  auto* size = command.add_option("-s,--size", options.size,
-                                  "Target edge length, in the model's unit; with the next three the largest "
-                                  "one (default: by curvature and walls, for at most 2 million elements)");
+  auto* size =
+      command.add_option("-s,--size", options.size,
+                         "Target edge length, in the model's unit; with --curvature and --proximity the "
+                         "largest one (default: by these two, for at most 2 million elements)");
   auto* sizing =
       command.add_option("--sizing", options.sizing, "JSON file with a sizing field (docs/sizing.md)")
           ->excludes(size);

@@ -29,7 +29,7 @@ expect_offered "${commands[@]}"
 checked=0
 for command in "" "${commands[@]}"; do
   page=$pages/man1/dovetail${command:+-$command}.1
-  mapfile -t options < <("$driver" $command --help | grep -E '^  -' | grep -oE '^  [^ ]+' | tr -d ' ' | tr ',' '\n')
+  mapfile -t options < <("$driver" $command --help | grep -E '^  -' | grep -oE '^  [^ ]+' | tr -d ' ' | sed 's/{.*//' | tr ',' '\n')
   complete_words dovetail $command -
   expect_offered "${options[@]}"
   what=$page
@@ -57,6 +57,8 @@ expect_offered metis greedy
 complete_words dovetail mesh --improver h
 expect_offered hard
 ((${#COMPREPLY[@]} == 1)) || fault "more than what begins so"
+complete_words dovetail mesh --improve-again = lo
+expect_offered loehner
 complete_words dovetail compare --partitioners metis,gr
 expect_offered metis,greedy
 complete_words dovetail mesh --unit = f

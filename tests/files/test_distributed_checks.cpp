@@ -98,6 +98,15 @@ TEST_CASE("a missing element opens the boundary of its piece") {
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
 
+TEST_CASE("elements that fit together but are turned over or flat are found, and points that nobody has") {
+  const auto turned = cubes.spoilt(3, [](mesh_piece& piece) { piece.mesh.points.back() = {10, 10, 10}; });
+  CHECK(io::check_distributed(turned).subdomains.at(0).inside.count(mesh_fault::inverted_element) > 0);
+  const auto lonely = cubes.spoilt(3, [](mesh_piece& piece) { piece.mesh.points.push_back({10, 10, 10}); });
+  auto counted = lonely;
+  ++counted.counts[3].inner_points;
+  CHECK(io::check_distributed(counted).subdomains.at(0).inside.count(mesh_fault::isolated_point) == 1);
+}
+
 TEST_CASE("pieces that fit by their points but not by their triangles are found") {
   // Flip the diagonal of one skeleton quadrilateral: both its triangles are then no sides of the pieces.
   auto mesh = cubes.distributed();

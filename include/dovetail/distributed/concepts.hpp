@@ -32,15 +32,14 @@ struct redistribution {
 /// `r(mesh, ranks)` -> redistribution<D>, with the rank in [0, ranks) of every piece.
 ///
 /// Semantics: every rank has a piece when there are at least as many pieces as ranks. The result is a pure
-/// function of the mesh, so that every rank may call it by itself. Who makes other pieces loses no element
-/// and changes none.
+/// function of the mesh, so that every rank may call it. Other pieces, if it makes them, have the same
+/// elements.
 ///
-/// Complexity: linear in the skeleton, and that of a graph partitioner in the pieces; who makes other pieces
-/// loads each piece a few times.
+/// Complexity: linear in the skeleton, and that of a graph partitioner in the pieces; to make other pieces it
+/// loads each a few times.
 ///
-/// Failure: throws `partition_error`, also when there are more ranks than pieces. Whoever holds one in an
-/// `any_redistributor` gets that too for ranks out of range, without a piece, or for another number of
-/// pieces.
+/// Failure: throws `partition_error`, also when there are more ranks than pieces. `any_redistributor` throws
+/// it also for ranks out of range, without a piece, or for another number of pieces.
 ///
 /// Models: redistribution_by::pieces, redistribution_by::blocks, redistribution_by::elements.
 template <class R, int D = 3>

@@ -20,9 +20,8 @@ namespace dovetail {
 /// `const std::filesystem::path& folder`: `w(mesh, folder)` -> report.
 ///
 /// Semantics: writes the mesh into the folder (made when missing), with the global numbers of
-/// distributed_mesh.hpp. The mesh is streamed: besides the skeleton, one piece is in memory at a time;
-/// `mesh.load` may be called more than once per piece. Files appear under their final names when all of
-/// them are complete.
+/// distributed_mesh.hpp. Besides the skeleton one piece is in memory at a time; `mesh.load` may be called
+/// more than once per piece. Files get their final names when all are complete.
 ///
 /// Complexity: linear in the size of the mesh. The report has the counters elements, bytes and files.
 ///
@@ -43,10 +42,10 @@ concept mesh_writer = std::copy_constructible<W> &&
 /// Valid expression for `const W& w`, `const distributed_simplicial_mesh<D>& mesh`,
 /// `const std::filesystem::path& unfinished`: `w.begin(mesh, unfinished)` -> io::piecewise_output<D>.
 ///
-/// Semantics: prepares the files, which will be in the folder `unfinished` until all are complete. Nothing is
+/// Semantics: prepares the files, which are in the folder `unfinished` until all are complete. Nothing is
 /// loaded; each piece is given once to the file that takes it (`piecewise_output::open`), in any worker.
-/// These are the files of the mesh, or what `piecewise_output::finish` makes them of. The bytes of a file
-/// depend on the mesh alone. `mesh` outlives the output. `w(mesh, folder)` gives the same files.
+/// `piecewise_output::finish` may make other files of these. The bytes of a file depend on the mesh alone.
+/// `mesh` outlives the output. `w(mesh, folder)` gives the same files.
 ///
 /// Complexity: linear in the skeleton.
 ///
@@ -69,8 +68,8 @@ concept piecewise_mesh_writer = mesh_writer<W, D> &&
 ///
 /// Complexity: linear; the whole mesh is held.
 ///
-/// Failure: throws `input_error` naming the file and what is wrong with it when it is missing, truncated,
-/// malformed, foreign, or has elements other than simplices.
+/// Failure: throws `input_error` naming the file and the fault when it is missing, truncated, malformed,
+/// foreign, or has elements other than simplices.
 ///
 /// Models: io::vtu_reader, io::msh_reader.
 template <class R>

@@ -89,10 +89,10 @@ struct geometry_topology {
 /// - `g.bounds()`: box3 of the model
 /// - `g.thread_safe()`: whether queries may run in several threads at once
 ///
-/// Semantics: a face's parameter plane is one planar domain, bounded by its coedges' parameter curves with
-/// the domain on the left of each coedge (seams and poles cut a periodic face open, so a seam is passed twice
-/// and a pole is a coedge whose curve is degenerate). Queries are const and may run in several processes. A
-/// copy is cheap, and may be queried in another thread even where `thread_safe()` is false.
+/// Semantics: a face's parameter plane is one planar domain on the left of its coedges' parameter curves.
+/// Seams and poles cut a periodic face open: a seam is passed twice, a pole is a coedge whose curve is
+/// degenerate. Queries may run in several processes. A copy is cheap, and may be queried in another thread
+/// whatever `thread_safe()` is.
 ///
 /// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
 ///
@@ -123,8 +123,8 @@ concept geometry_model = std::copy_constructible<G> &&
 /// vectors in it
 ///
 /// Semantics: the frame's cross(du, dv) is along the face's parametric normal. Nothing for a face that is not
-/// a plane or not known to be one; points are then found by the model's queries, which costs more: on a plane
-/// they are computed, and pieces of one plane (D = 2) are not searched for crossings.
+/// known to be a plane. On a plane points are computed without queries, and pieces of one plane (D = 2) are
+/// not searched for crossings.
 ///
 /// Complexity: constant.
 ///

@@ -9,15 +9,15 @@
 
 namespace dovetail {
 
-/// Nodes and who is next to whom: enough for walks and components.
+/// Nodes and their neighbours: enough for walks and components.
 ///
 /// Valid expressions for `const G& g`, `local_id v`, `visit` callable with a `local_id`:
 ///
 /// - `g.node_count()`: an integer
 /// - `g.for_each_neighbour(v, visit)`: calls `visit(w)` for the other end w of every edge at v
 ///
-/// Semantics: an edge is met once from each of its ends, always in the same order. Parallel edges are met
-/// each. There are no self loops.
+/// Semantics: an edge is visited once from each of its ends, always in the same order, also a parallel one.
+/// There are no self loops.
 ///
 /// Complexity: constant, and linear in the edges at v.
 ///
@@ -30,8 +30,8 @@ concept graph = requires(const G& g, local_id v, void (&visit)(local_id)) {
   g.for_each_neighbour(v, visit);
 };
 
-/// A graph with weights: enough to partition it, to contract it and to take parts of it. It converts to a
-/// `csr_graph`, which partitioners work on.
+/// A graph with weights: enough to partition, contract and divide it. It converts to a `csr_graph`, which
+/// partitioners work on.
 ///
 /// Valid expressions, beside those of `graph`, for `const G& g`, `local_id v`, `visit` callable with a
 /// `local_id` and a `double`:

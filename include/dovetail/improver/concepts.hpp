@@ -34,10 +34,9 @@ struct frozen_entities {
 /// - `i(mesh, frozen, h)`: report
 /// - `I::traits`: improver_traits, constexpr static
 ///
-/// Semantics: every frozen side is a side of the result; frozen points keep their index and coordinates bit
-/// for bit (other points may be renumbered, removed or added after them); the mesh stays valid and its
-/// worst element does not get worse; elements keep tags. Deterministic: stops by counts, never by time. The
-/// traits are true.
+/// Semantics: every frozen side is a side of the result; frozen points keep index and coordinates bit for
+/// bit, others may be renumbered, removed or added after them; the mesh stays valid, its worst element does
+/// not get worse, and elements keep tags. Deterministic: stops by counts, never by time. The traits are true.
 ///
 /// Complexity: linear in the elements per pass, and the number of passes is bounded by a parameter.
 ///

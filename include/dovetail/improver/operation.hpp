@@ -36,17 +36,15 @@ enum class turn {
 /// Valid expressions for `O& o`, `complex_of<D>& mesh`, `local_id e`, `const operation_limits<D>& limits`,
 /// `const recorded_tries& tries`:
 ///
-/// - `O::names`: the names of its kinds of tries in reports, a constexpr static `std::array` of texts; mostly
-/// one
+/// - `O::names`: the names of its attempts in reports, a constexpr static `std::array` of texts
 /// - `O::when`: the `turn` at which it is tried, constexpr static
 /// - `o.mend(mesh, e, limits, tries)`: whether it changed the mesh
 ///
 /// and it is made from the mesh, `O(mesh)`, or by default.
 ///
 /// Semantics: `mend` makes each of its attempts through `tries`, which counts them and returns what they
-/// return. An attempt leaves the mesh as it was or valid and with no worse an element than the worst of those
-/// it replaced; fixed sides and vertices stay. `e` is alive and poor, and need not be after the first attempt
-/// that succeeded. Deterministic; `o` may keep working memory, but nothing that decides.
+/// return. An attempt leaves the mesh as it was, or valid and with no element worse than the worst that it
+/// replaced; fixed sides and vertices stay. `e` is alive and poor until an attempt succeeds. Deterministic.
 ///
 /// Complexity: that of the elements around `e`.
 ///

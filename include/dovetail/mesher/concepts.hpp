@@ -79,16 +79,15 @@ concept piece_mesher = std::copy_constructible<M> &&
   { M::traits } -> std::convertible_to<mesher_traits>;
 };
 
-/// The role `boundary_keeping_mesher<M, D>`: a mesher that may be used on subdomains, since it does not touch
-/// the boundary it is given.
+/// The role `boundary_keeping_mesher<M, D>`: a mesher for subdomains, which keeps the boundary it is given.
 ///
 /// Valid expressions: those of `piece_mesher<M, D>`; `M::traits.keeps_boundary` is true in a constant
 /// expression.
 ///
 /// Semantics: every boundary side of `in` is a side of exactly one element of the result (two for a side
 /// listed in both directions); points [0, in.boundary.points.size()) of the result are the input's, bit for
-/// bit; elements fill exactly the inside. In D = 2 a piece consists of regions on CAD faces or planes: points
-/// lie exactly on the region's surface, and elements are oriented along the oriented face.
+/// bit; elements fill the inside. In D = 2 points lie on the surface of the region's CAD face or plane, and
+/// elements are oriented along the face.
 ///
 /// Complexity: about linear in the number of elements made.
 ///
@@ -107,11 +106,11 @@ concept boundary_keeping_mesher = piece_mesher<M, D> && M::traits.keeps_boundary
 ///
 /// - `m.with_lines(lines)`: M, the same mesher told the lines
 ///
-/// Semantics: `lines` are chains of points on the boundary that will be given, ends included; those that meet
-/// do so in their ends. The result of `m.with_lines(lines)(in, h)` has its own boundary triangles, near the
-/// given ones; a chain of their edges runs from end to end of each line, with points on the line.
+/// Semantics: `lines` are chains of points on the boundary that will be given; those that meet do so in their
+/// ends. The result of `m.with_lines(lines)(in, h)` has its own boundary triangles, near the given ones; a
+/// chain of their edges runs along each line.
 ///
-/// Complexity: `with_lines` is linear in the points; the mesher's is its own.
+/// Complexity: `with_lines` is linear in the points.
 ///
 /// Failure: as `piece_mesher`.
 ///

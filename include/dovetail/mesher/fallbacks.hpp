@@ -11,8 +11,8 @@ namespace dovetail {
 ///
 /// Valid expression for `const M& m`: `m.fallbacks()` -> std::vector<M>.
 ///
-/// Semantics: what to try, in this order, on a piece on which `m` failed; `m` itself is not in it, and the
-/// fallbacks of fallbacks are not asked for. It may be empty.
+/// Semantics: what to try, in this order, on a piece on which `m` failed; fallbacks of fallbacks are not
+/// asked for.
 ///
 /// Complexity: constant.
 ///

@@ -13,8 +13,8 @@ namespace dovetail {
 ///
 /// - `M::elements_per_inverse_cubed_size`: a positive number, constexpr static
 ///
-/// Semantics: the elements made per integral of h^-3, with its parameters as they are by default. A mesher
-/// that does not say is taken to make regular elements.
+/// Semantics: the elements made per integral of h^-3, with default parameters. Other meshers are taken to
+/// make regular elements.
 ///
 /// Complexity: constant.
 ///
@@ -32,7 +32,7 @@ concept calibrated_mesher = requires {
 ///
 /// - `m.elements_per_subdomain()`: a number
 ///
-/// Semantics: the elements that a subdomain should have when the caller does not say; for others it is
+/// Semantics: the elements that a subdomain should have when the caller does not say; of other meshers
 /// `default_elements_per_subdomain`.
 ///
 /// Complexity: constant.
@@ -51,9 +51,8 @@ concept piece_sizing_mesher = requires(const M& m) {
 ///
 /// - `m.for_background()`: M
 ///
-/// Semantics: a mesher of the same role whose elements have no small angles, though there are more of them: a
-/// mesher's own refinement makes them at a small part of what an improver takes afterwards. Where it fails,
-/// `m` and its fallbacks are tried.
+/// Semantics: a mesher of the same role with more elements and no small angles. Where it fails, `m` and its
+/// fallbacks are tried.
 ///
 /// Complexity: constant.
 ///

@@ -26,22 +26,20 @@ struct rank_message {
 /// Valid expressions for `C& c`:
 ///
 /// - `c.rank()`, `c.size()`: this rank, from 0, and how many there are: int
-/// - `c.send(to, tag, bytes)`: to another rank; returns when the bytes are no longer needed here, whether
-/// they are received or not
+/// - `c.send(to, tag, bytes)`: to another rank; returns when the bytes are no longer needed here
 /// - `c.receive()`: std::optional<rank_message>, the next that has arrived; nothing when there is none
-/// - `c.wait(at_most)`: returns when something may have arrived, or after so long (milliseconds)
+/// - `c.wait(at_most)`: waits until something may have arrived, or so many milliseconds
 /// - `c.descriptor()`: a file descriptor that can be read when something may have arrived, or -1: an int
 /// - `c.shares_process()`: whether the ranks are threads of one process
 /// - `c.abandon(reason)`: this rank goes no further
 ///
-/// Semantics: messages from one rank to another arrive in the order they were sent. Nothing spins: who waits
-/// leaves the processor to others. A message has any size. Each rank uses its own communicator, from one
-/// thread.
+/// Semantics: messages from one rank to another arrive in order. Waiting leaves the processor to others. A
+/// message has any size. Each rank uses its own communicator, from one thread.
 ///
-/// Complexity: `send` and `receive` cost a copy or two of the bytes; neither waits for another rank.
+/// Complexity: `send` and `receive` copy the bytes once or twice; neither waits for another rank.
 ///
-/// Failure: once a rank has abandoned the run or has died, `send`, `receive` and `wait` of the others throw
-/// `communication_error` with the reason, at the latest when they next wait for something that will not come.
+/// Failure: once a rank has abandoned the run or died, `send`, `receive` and `wait` of the others throw
+/// `communication_error`, at the latest when they wait for something that will not come.
 ///
 /// Models: self, in_process, mpi, relayed.
 template <class C>

@@ -51,20 +51,19 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// - `e.workers()`: how many tasks run at a time, an int
 /// - `e.shares_process()`: whether tasks run in this process, and not in children or on other machines
 ///
-/// Semantics: `task(i)` depends on i and on data fixed before the call only; it may run in another thread
-/// or process, so all it gives back is its return value. A task that throws, crashes or exceeds the limit
-/// gives an outcome with `ok == false` and the reason; the others go on. Outcomes are the same for every
-/// model and number of workers. `options.order` lists tasks in the order they are started (largest
-/// predicted cost first). Where tasks share the process, a task that crashes ends it and, with more than one
-/// worker, what tasks call must be thread-safe (`runs_in_threads`).
+/// Semantics: `task(i)` depends only on i and data fixed before the call, and gives back its return value
+/// only: it may run in another thread or process. A task that throws, crashes or exceeds the limit gives an
+/// outcome with `ok == false` and the reason; the others go on. Outcomes are the same for every model and
+/// number of workers. `options.order` lists tasks in the order they are started (largest predicted cost
+/// first). Where tasks share the process, a task that crashes ends it and, with more than one worker, what
+/// tasks call must be thread-safe (`runs_in_threads`).
 ///
 /// Complexity: the tasks' own, plus one copy of each result.
 ///
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
-/// An executor whose tasks are shared by several ranks, which all go through the same program, has besides
-/// `e.network()`: an any_communicator between them; see `ranks`. A wrapper may have `e.once(work)` in place
-/// of the network's.
+/// An executor whose tasks are shared by several ranks of the same program has also `e.network()`, their
+/// any_communicator; see `ranks`. A wrapper may have `e.once(work)` in place of the network's.
 ///
 /// Models: serial, threads, processes, ranks, clock_watch, traced, any_executor.
 template <class E>

@@ -21,9 +21,9 @@ namespace dovetail {
 ///
 /// Complexity: at most n log n in the nodes and edges, times log(parts) by bisection.
 ///
-/// Failure: throws `partition_error`. `checked_partition`, by which stages call it, does so too for a graph
-/// that is none (`require_valid_graph`), and for a result of another length, with parts out of range or with
-/// an empty one.
+/// Failure: throws `partition_error`. So does `checked_partition`, by which stages call it, for an invalid
+/// graph (`require_valid_graph`) and for a result of another length, with parts out of range or with an empty
+/// one.
 ///
 /// Models: metis, scotch, spectral, greedy; recursive_coordinate, inertial, space_filling_curve, which need
 /// the positions of the nodes.

@@ -10,8 +10,8 @@
 
 namespace dovetail {
 
-/// The role `distributed_graph_partitioner`: split a weighted graph, whose rows are spread over the ranks of
-/// a communicator, into balanced parts with a small cut.
+/// The role `distributed_graph_partitioner`: partition a weighted graph whose rows are spread over the ranks
+/// of a communicator.
 ///
 /// Valid expressions for `const P& p`, `any_communicator& network`, `const distributed_csr_graph& g`,
 /// `int parts`:
@@ -19,16 +19,14 @@ namespace dovetail {
 /// - `p(network, g, parts)`: std::vector<local_id>, the part in [0, parts) of each node of this rank
 /// - `p.depends_on_ranks()`: whether another number of ranks may give other parts
 ///
-/// Semantics: collective; all ranks of `network` call it, each with its own rows of one graph, and may have
-/// none. Otherwise as a `graph_partitioner`: every part is non-empty when the graph has at least `parts`
-/// nodes, the heaviest part weighs at most `imbalance` times the average or the heaviest node allows no
-/// better, and the same rows on as many ranks give the same parts.
+/// Semantics: collective; all ranks of `network` call it, each with its own rows, of which it may have none.
+/// Parts are as those of a `graph_partitioner`; the same rows on as many ranks give the same parts.
 ///
 /// Complexity: that of a `graph_partitioner`, shared by the ranks or not.
 ///
 /// Failure: throws `partition_error`, and `usage_error` for a network that it cannot speak over, on all ranks
-/// alike. Whoever holds one in an `any_distributed_partitioner` gets the first also for a result of another
-/// length, with parts out of range or with an empty one.
+/// alike. `any_distributed_partitioner` throws the first also for a result of another length, with parts out
+/// of range or with an empty one.
 ///
 /// Models: gathered, ptscotch, parmetis, any_distributed_partitioner.
 template <class P>

@@ -9,8 +9,8 @@
 
 namespace dovetail {
 
-/// The role `surface_mesher`: fill frozen loops in the parameter plane of a surface with triangles. It meshes
-/// the coarse surface and the regions of D = 3, and by `mesher::by_regions` the pieces of D = 2.
+/// The role `surface_mesher`: fill frozen loops in the parameter plane of a surface with triangles. (By
+/// `mesher::by_regions` also the pieces of D = 2.)
 ///
 /// Valid expression for `const M& m`, `const any_surface& s`, `const patch_boundary& b`,
 /// `const any_sizing& h`:
@@ -22,7 +22,7 @@ namespace dovetail {
 /// lie exactly on the surface at their parameters. Triangles are counter-clockwise in the parameter plane and
 /// cover the domain once. The mean edge length on a uniform field equals the size within 10 % where the
 /// parameters are isometric up to constant factors. The same arguments give the same mesh. Forbidden edges
-/// may be ignored: `mesh_region` splits them, and checks that every segment was kept.
+/// may be ignored: `mesh_region` splits them.
 ///
 /// Complexity: n log n in the triangles made or better.
 ///

@@ -59,8 +59,7 @@ struct ridge_decision {
 /// - `r.penalty(d)`: double: how many times its own weight a refused side weighs in the contracted graph
 ///
 /// Semantics: both are pure functions; `prefer_removal(a, b) != prefer_removal(b, a)` for different sides.
-/// The penalty is positive; a partitioner cuts through a refused side where that costs less than to go around
-/// it.
+/// The penalty is positive.
 ///
 /// Complexity: constant.
 ///
@@ -74,8 +73,8 @@ concept contraction_rule = requires(const R& r, const dihedral_side& a, const di
   { r.penalty(d) } -> std::convertible_to<double>;
 };
 
-/// The role `simplification_rule` (`simplification_rule<R, D>`): which sides of a coarse mesh are to become
-/// no interfaces.
+/// The role `simplification_rule` (`simplification_rule<R, D>`): which sides of a coarse mesh may not become
+/// interfaces.
 ///
 /// Valid expressions, beside those of `contraction_rule`, for `const R& r`, `const simplicial_mesh<D>& mesh`,
 /// `const side_table<D>& sides`, `const side_below& below`:
@@ -83,15 +82,14 @@ concept contraction_rule = requires(const R& r, const dihedral_side& a, const di
 /// - `r(mesh, sides)`: side_judgement: which sides are candidates, and which dihedrals are too small
 /// - `r.propagate(below)`: std::optional<ridge_decision>: what a removed or refused side of the surface means
 ///   for the interior sides of the volume at it; nothing for nothing
-/// - optional: `r.wants(D)`: wanted_angles: the interface angles below which the stages after the
-///   simplification mend, move and count interfaces (`wanted_angles_of`); of dihedrals the same as in the
-///   judgement. A rule without it wants of dihedrals what its judgement of a mesh without elements says
+/// - optional: `r.wants(D)`: wanted_angles: the interface angles below which later stages mend and count
+///   interfaces (`wanted_angles_of`); of dihedrals the same as in the judgement. Without it: what the
+///   judgement of a mesh without elements says
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
 /// sides unused. First the sides at coupled ridges are removed, then candidates, worst first; then, smallest
 /// dihedral first and measured across what was removed, of each dihedral that is too small one side. Where a
-/// removal would make a super-element too heavy the side is refused. All calls are pure functions of the
-/// rule's members and their arguments, so equal rules make equal decompositions.
+/// removal would make a super-element too heavy the side is refused. All calls are pure functions.
 ///
 /// Complexity: linear in the mesh.
 ///

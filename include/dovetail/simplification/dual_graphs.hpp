@@ -26,8 +26,8 @@ using dihedral_id = std::uint32_t;
 /// - `g.elements(side)`: std::array<local_id, 2>, the two ends of the edge; the second is `no_id` where the
 ///   side does not lie between exactly two elements and so is no edge
 /// - `g.is_fixed(side)`: bool: the side may never be removed
-/// - `g.side_weight(side)`: double, positive: what it costs to cut the side; 1 in a mesh. A refused side
-///   weighs so many times the penalty of its rule
+/// - `g.side_weight(side)`: double, positive: the cost of cutting the side; 1 in a mesh. A refused side
+///   weighs that times its rule's penalty
 ///
 /// Semantics: a side that is no edge is fixed. Two elements may share several sides.
 ///
@@ -55,9 +55,9 @@ concept element_dual_graph = requires(const G& g, local_id element, local_id sid
 /// - `g.sides(dihedral)`: std::array<local_id, 2>, the two sides that bound it
 /// - `g.for_each_joint(side, visit)`: calls `visit(v, w)` for every two dihedrals that the side parts
 ///
-/// Semantics: v and w both are bounded by the side and lie on its two sides around the same ridge, so that
-/// removing the side makes one dihedral of them, whose angle is the sum. A dihedral has at most one such
-/// partner across each of its sides. Joints are asked of sides that are not fixed only.
+/// Semantics: v and w are dihedrals at the same ridge, one on each side of the side: removing it makes one
+/// dihedral of them, whose angle is the sum. A dihedral has at most one such partner across each of its
+/// sides. Joints of fixed sides are not asked for.
 ///
 /// Complexity: constant, of a side's joints linear in their number; the angles are read once.
 ///

@@ -21,8 +21,8 @@ namespace dovetail {
 /// Valid expression for `const H& h`, `const box3& box`: `h.smallest_size_in(box)`, a double, and those of
 /// `sizing_field`.
 ///
-/// Semantics: `h(p) >= h.smallest_size_in(box)` for every p in the box. Bounds get sharp as the box shrinks:
-/// for a box that shrinks to a point they tend to the field's value.
+/// Semantics: `h(p) >= h.smallest_size_in(box)` for every p in the box. For a box that shrinks to a point the
+/// bound tends to the field's value.
 ///
 /// Complexity: O(log n) for n sources, as an evaluation.
 ///

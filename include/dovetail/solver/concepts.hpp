@@ -33,10 +33,9 @@ namespace dovetail {
 /// - `f.may_replace(path)`: bool, whether a file that is there already may be written over (default: each
 /// may); where not, the new one is dropped
 ///
-/// Semantics: what is written depends on the arguments alone, and a file on its own names alone, as the names
-/// given are temporary. Each call may be made in another process, in any order. `write` or `write_all` is not
-/// called where there are no names. Meshes of second order are given to a format only if it has a static
-/// constant `second_order` that is true (`has_second_order<F>`).
+/// Semantics: what is written depends on the arguments alone, and a file on its own names alone, as `paths`
+/// are temporary. Each call may be made in another process, in any order; none where there are no names.
+/// Meshes of second order are given to a format only if `F::second_order` is true (`has_second_order<F>`).
 ///
 /// Complexity: linear in the rank; of `write_all` in what the files hold.
 ///
@@ -74,10 +73,10 @@ inline constexpr bool has_second_order = requires {
 /// `counts` has the size of each rank's mesh
 /// - `f.write(source, mesh, paths)`: writes the share of the mesh's rank into them
 ///
-/// Semantics: `lay_out` is called once, and is done before the first `write`. The calls of `write` may be
-/// made in several processes at once, on several machines, in any order: no two write the same bytes. What is
-/// in the files in the end depends on the arguments alone, and not on their names, as the names given are
-/// temporary. Meshes of second order are given to a format only if it says so (`has_second_order<F>`).
+/// Semantics: `lay_out` is called once, before any `write`. `write` may be called in several processes or
+/// machines at once, in any order: no two write the same bytes. The files depend on the arguments alone, and
+/// not on `paths`, which are temporary. Meshes of second order are given to a format only if
+/// `has_second_order<F>`.
 ///
 /// Complexity: of `write` linear in the rank's mesh; of `lay_out` in the skeleton, the pieces and the ranks.
 ///
