@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -192,6 +193,9 @@ TEST_CASE("fields that do not fit a mesh are refused") {
                        doctest::Contains("47 values for 48 elements"), mesh_error);
   CHECK_THROWS_AS(transferred_to_points<3>(mesh, values, mesh.points), mesh_error);
   CHECK_THROWS_AS(transferred_to_points<3>({}, {}, mesh.points), mesh_error);
+  const std::vector<vec3> nowhere{{0, std::numeric_limits<double>::quiet_NaN(), 0}};
+  CHECK_THROWS_AS(transferred_to_points<3>(mesh, std::vector<double>(mesh.points.size()), nowhere),
+                  mesh_error);
   auto flat = mesh;
   flat.points[static_cast<std::size_t>(flat.elements[3][0])] =
       flat.points[static_cast<std::size_t>(flat.elements[3][1])];

@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/solver/transfer.hpp"
 
 #include <algorithm>
@@ -282,6 +283,9 @@ std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::s
   std::vector<double> result(to.size() * count, 0);
   for (std::size_t p = 0; p < to.size(); ++p) {
     const auto at = places.nearest(to[p], [](local_id) { return true; });
+    if (at.element == no_id)
+      throw mesh_error("fields cannot be transferred: point " + std::to_string(p) + " is at " +
+                       place_text(to[p]) + "; give finite coordinates");
     const auto& element = from.elements[static_cast<std::size_t>(at.element)];
     for (std::size_t i = 0; i < element.size(); ++i)
       for (std::size_t c = 0; c < count; ++c)
