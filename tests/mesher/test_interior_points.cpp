@@ -303,14 +303,19 @@ TEST_CASE("Boundaries that enclose nothing are refused") {
   CHECK_THROWS_AS(interior_points(infinite, uniform(0.2)), mesher_error);
 }
 
-TEST_CASE("Pieces of any scale") {
-  for (const double scale : {1e-12, 1e12}) {
+TEST_CASE("Pieces of any scale: powers of two change no bit of the fractions") {
+  const auto points = interior_points(ball_with_void(), size_around_void);
+  CHECK(points.size() > 1000);
+  for (const int power : {-200, -40, 40, 200}) {
+    const double scale = std::ldexp(1.0, power);
     auto boundary = ball_with_void();
     for (vec3& p : boundary.points)
       p = scale * p;
     CHECK(interior_points(boundary, uniform(0.11 * scale)).size() > 500);
-    CHECK(interior_points(boundary, [&](vec3 p) { return scale * size_around_void(p / scale); }).size() >
-          1000);
+    auto scaled = interior_points(boundary, [&](vec3 p) { return scale * size_around_void(p / scale); });
+    for (vec3& p : scaled)
+      p = p / scale;
+    CHECK(scaled == points);
   }
 }
 

@@ -20,8 +20,9 @@ struct gathered_point {
 };
 
 /// Cells are leaves, or where all octants of a node are leaves the node: some sizes wide, so that a ball of a
-/// size meets few of them. A cell's points lie in chunks that are searched in single precision, several at
-/// once; what that finds is looked at in double. A cell's neighbours are looked up once, when first wanted.
+/// size meets few of them. A cell's points lie in chunks that are searched in single precision, in units of
+/// the cell and several at once; what that finds is looked at in double. A cell's neighbours are looked up
+/// once, when first wanted.
 class point_grid {
 public:
   /// For radii of at most `reach` times the size at the place.
@@ -45,7 +46,7 @@ public:
       to.first = static_cast<std::uint32_t>(chunks_.size() - 1);
     }
     chunk& last = chunks_[to.first];
-    const vec3 from_center = place - to.center;
+    const vec3 from_center = to.in_units(place - to.center);
     last.x[last.count] = static_cast<float>(from_center.x);
     last.y[last.count] = static_cast<float>(from_center.y);
     last.z[last.count] = static_cast<float>(from_center.z);
@@ -63,14 +64,15 @@ public:
     if (own.begin == own.end)
       find_neighbours(own);
     const double bound = radius * radius;
-    const vec3 from_own = place - own.center;
+    const vec3 from_own = own.in_units(place - own.center);
+    const double own_radius = radius * own.per_half;
     for (std::uint32_t k = own.begin; k < own.end; ++k) {
       const neighbour& near = neighbours_[k];
-      if (!near.may_hold(from_own, radius))
+      if (!near.may_hold(from_own, own_radius))
         continue;
       const cell& other = cells_[near.number];
-      const vec3 from_center = place - other.center;
-      const float loose = loosened(radius, other.half);
+      const vec3 from_center = other.in_units(place - other.center);
+      const float loose = loosened(radius * other.per_half, 1);
       for (std::uint32_t at = other.first; at != none; at = chunks_[at].next)
         search(chunks_[at], from_center, loose, [&](std::uint32_t id) {
           if (norm_squared(places_[id] - place) < bound)
@@ -83,26 +85,21 @@ private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   struct chunk {
     static constexpr std::size_t room = 8;
-    static constexpr float far = 1e18F; ///< from anything: where there is no point
-    std::array<float, room> x, y, z;    ///< from the cell's centre
-    std::array<std::uint32_t, room> ids;
+    std::array<float, room> x{}, y{}, z{}; ///< from the cell's centre, in halves of its width
+    std::array<std::uint32_t, room> ids{};
     std::uint32_t count = 0;
     std::uint32_t next = none;
-
-    chunk() : ids{} {
-      x.fill(far);
-      y.fill(far);
-      z.fill(far);
-    }
   };
   struct cell {
     vec3 center;
-    double half = 0;                  ///< of its width
+    double per_half = 0;              ///< 1 over half of its width
     std::uint32_t first = none;       ///< of its chunks; only this one may have room
     std::uint32_t begin = 0, end = 0; ///< of its neighbours; none until wanted
     std::uint32_t node = 0;
+
+    vec3 in_units(vec3 v) const { return per_half * v; }
   };
-  /// A cell near another one, as that sees it.
+  /// A cell near another one, in the units of that.
   struct neighbour {
     std::array<float, 3> center; ///< from the centre of the other one
     float half;                  ///< of its width
@@ -141,11 +138,9 @@ private:
     std::uint32_t near = 0;
     for (std::size_t i = 0; i < chunk::room; ++i)
       near += squared[i] <= bound ? 1U : 0U;
-    for (std::size_t i = 0; near != 0; ++i)
-      if (squared[i] <= bound) {
+    for (std::size_t i = 0; near != 0 && i < in.count; ++i)
+      if (squared[i] <= bound)
         found(in.ids[i]);
-        --near;
-      }
   }
 
   /// The node that the cell of a leaf is.
@@ -164,7 +159,7 @@ private:
     const box3 box = piece_.tree().box(node);
     cell& made = cells_.emplace_back();
     made.center = box.center();
-    made.half = 0.5 * (box.upper.x - box.lower.x);
+    made.per_half = 2 / (box.upper.x - box.lower.x);
     made.node = static_cast<std::uint32_t>(node);
   }
 
@@ -181,18 +176,18 @@ private:
     const octree& tree = piece_.tree();
     const box3 box = inflated(tree.box(of.node), reach_ * greatest_size(of.node));
     of.begin = static_cast<std::uint32_t>(neighbours_.size());
-    visit(0, tree.bounds(), box, of.center);
+    visit(0, tree.bounds(), box, of);
     of.end = static_cast<std::uint32_t>(neighbours_.size());
   }
-  /// The cells in a node that meet a box, as seen from a place.
-  void visit(std::size_t node, const box3& bounds, const box3& box, vec3 from) {
+  /// The cells in a node that meet a box, as a cell sees them.
+  void visit(std::size_t node, const box3& bounds, const box3& box, const cell& from) {
     const octree& tree = piece_.tree();
     if (const std::uint32_t number = cell_of_[node]; number != none) {
-      const vec3 center = cells_[number].center - from;
+      const vec3 center = from.in_units(cells_[number].center - from.center);
       if (!tree.is_leaf(node) || !piece_.is_outside(node))
         neighbours_.push_back(
             {{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
-             static_cast<float>(cells_[number].half),
+             static_cast<float>(from.per_half / cells_[number].per_half),
              number});
       return;
     }
