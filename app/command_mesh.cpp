@@ -15,6 +15,7 @@
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/bytes.hpp"
+#include "dovetail/core/number_text.hpp"
 #include "dovetail/distributed/by_elements.hpp"
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/write_trace.hpp"
@@ -407,6 +408,8 @@ private:
                                              {.release = true, .on_progress = parameters_.on_progress});
     figures_.mesh_hash = finished.hash;
     figures_.quality = finished.quality;
+    figures_.poor = finished.poor;
+    warn_of_thin_walls();
     figures_.peak_rss_bytes =
         std::max(figures_.peak_rss_bytes, static_cast<std::uint64_t>(finished.summary.get("peak_rss_bytes")));
     figures_.details.children.push_back(finished.summary);
@@ -417,6 +420,16 @@ private:
     figures_.seconds.output += output.seconds();
     if (!formats_.empty())
       figures_.out = options_.out;
+  }
+
+  void warn_of_thin_walls() {
+    const auto& poor = figures_.poor;
+    if (const auto bad = poor.bad_by(poor_cause::thin_wall); bad > 0)
+      figures_.warnings.push_back(
+          std::to_string(bad) + " tetrahedra under " + std::to_string(bad_dihedral_deg) +
+          " degrees are in walls thinner than the size; the thinnest is " +
+          number_text(poor.thinnest_wall, 3) + " thick at " + place_text(poor.thinnest_place) +
+          ": --proximity with a larger number, or smaller sizes there, put more elements across");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

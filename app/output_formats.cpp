@@ -186,7 +186,9 @@ std::vector<std::string> names_in_folder(const mesh_options& options) {
       {"hdf5", {"mesh_#.vtkhdf", "mesh.xdmf", "skeleton.vtkhdf"}},
       {"pvtu", {"ranks.pvtu", "ranks_#.vtu"}},
       {"msh-ranks", {"ranks_#.msh"}},
-      {"openfoam", {"processor#", "processor#/*"}},
+      {"openfoam",
+       {"processor#", "processor#/*", "constant/polyMesh/*", "system/controlDict", "system/decomposeParDict",
+        "system/fvSchemes", "system/fvSolution"}},
       {"mfem", {"mesh.#"}},
       {"xdmf", {"ranks.h5", "ranks.xdmf"}},
       {"vtkhdf", {"ranks.vtkhdf"}}};

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/poor_elements.hpp"
 #include "dovetail/mesh/quality.hpp"
 
 #include <cstdint>
@@ -73,6 +74,7 @@ struct run_figures {
   double imbalance = 0; ///< largest subdomain over the average, in elements
   stage_seconds seconds;
   quality_statistics quality;
+  poor_elements poor; ///< of tetrahedra
   interface_figures interfaces, coarse_interfaces;
   report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
   std::int64_t merges = 0;
@@ -116,7 +118,7 @@ struct quality_limits {
   int bad, low;
 };
 constexpr quality_limits limits_of(int dimension) {
-  return dimension == 3 ? quality_limits{12, 24} : quality_limits{15, 30};
+  return dimension == 3 ? quality_limits{bad_dihedral_deg, low_dihedral_deg} : quality_limits{15, 30};
 }
 
 /// The number of tetrahedra with a smallest dihedral angle in the ranges of the paper's table of quality; the

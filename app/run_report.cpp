@@ -53,6 +53,20 @@ json quality_json(const quality_statistics& quality, int dimension) {
             {"max_dihedral", quality.max_dihedrals.bins}}}};
 }
 
+/// Counts by cause; each tetrahedron under the low limit is in one of them.
+json poor_elements_json(const poor_elements& poor) {
+  json causes = json::object();
+  for (std::size_t k = 0; k < poor_causes; ++k) {
+    const auto cause = static_cast<poor_cause>(k);
+    causes[std::string(name_of(cause))] = {{"bad", poor.bad_by(cause)}, {"low", poor.low_by(cause)}};
+  }
+  if (poor.bad_by(poor_cause::thin_wall) > 0) {
+    const vec3 p = poor.thinnest_place;
+    causes["thinnest wall"] = {{"thickness", poor.thinnest_wall}, {"at", {p.x, p.y, p.z}}};
+  }
+  return causes;
+}
+
 json small_angles_json(const std::vector<small_angle>& angles) {
   json listed = json::array();
   for (const small_angle& each : angles)
@@ -147,6 +161,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
                    {"imbalance", figures.imbalance},
                    {"seconds", seconds_json(figures.seconds)},
                    {"quality", quality_json(figures.quality, figures.dimension)},
+                   {"poor_elements", poor_elements_json(figures.poor)},
                    {"interfaces", interfaces},
                    {"deviation", deviation_json(figures.deviation)},
                    {"merges", figures.merges},

@@ -2,7 +2,11 @@
 #include "terminal_progress.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -25,6 +29,9 @@ public:
     row(label, buffer);
   }
   void whole(const std::string& label, std::int64_t value) { row(label, grouped(value)); }
+  void whole(const std::string& label, std::int64_t value, std::int64_t of_these) {
+    row(label, grouped(value) + " (" + grouped(of_these) + ")");
+  }
   const std::string& text() const { return text_; }
 
 private:
@@ -148,6 +155,20 @@ void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
 }
 
+/// By their causes, where there are any.
+void add_poor_elements(table& rows, const poor_elements& poor) {
+  const auto all = std::accumulate(poor.low.begin(), poor.low.end(), std::int64_t{0});
+  if (all == 0)
+    return;
+  rows.heading("Low-quality tets by cause (of these bad)");
+  for (std::size_t k = 0; k < poor_causes; ++k)
+    if (const auto cause = static_cast<poor_cause>(k); poor.low_by(cause) > 0) {
+      std::string label(name_of(cause));
+      label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
+      rows.whole(label, poor.low_by(cause), poor.bad_by(cause));
+    }
+}
+
 void add_deviation(table& rows, const report& deviation) {
   rows.heading("Largest distance from the CAD (in units of the local size)");
   rows.row("Of points", "%.2g", deviation.get("points"));
@@ -172,6 +193,7 @@ std::string summary_text(const run_figures& figures) {
   if (!figures.deviation.children.empty())
     add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);
+  add_poor_elements(rows, figures.poor);
   if (!figures.repeatable)
     rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");
   for (const auto& warning : figures.warnings)

@@ -88,9 +88,9 @@ int main(int argc, char** argv) try {
     const any_sizing automatic = automatic_size(model);
     double scale = 1;
     for (int step = 0; step < 3; ++step)
-      scale *= std::cbrt(plan_background<3>(model, keep_bounds(scaled(automatic, scale)), policies)
-                             .predicted_elements /
-                         wanted);
+      scale *= std::cbrt(
+          plan_background<3>(model, keep_bounds(scaled(automatic, scale)), policies).predicted_elements /
+          wanted);
     size = keep_bounds(scaled(automatic, scale));
   }
   const auto given = bind_parameters<3>(policies);
@@ -111,8 +111,9 @@ int main(int argc, char** argv) try {
       mesher.to = &found;
       measured_improver improver;
       improver.to = &found;
-      const auto with_threads = bind_parameters<3>(policies.with_mesher(mesher).with_improver(improver).with_executor(
-          parallel::threads{.worker_count = threads}));
+      const auto with_threads =
+          bind_parameters<3>(policies.with_mesher(mesher).with_improver(improver).with_executor(
+              parallel::threads{.worker_count = threads}));
       const stopwatch clock;
       const auto meshed = mesh_all_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
                                              std::make_shared<entity_store>(), with_threads);

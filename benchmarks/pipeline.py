@@ -281,9 +281,10 @@ def main():
     parser.add_argument("--size", type=float, help="instead of --elements")
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
-    parser.add_argument("--mesher", help="of `dovetail mesh`; hxt: compared with Gmsh's own command with HXT")
-    parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --mesher hxt")
-    parser.add_argument("--repeat", type=int, default=1, help="turns of each command with --mesher hxt")
+    parser.add_argument("--mesher", help="of `dovetail mesh`; hxt: as --against-hxt")
+    parser.add_argument("--against-hxt", action="store_true", help="whole commands, in turns with Gmsh's own with HXT")
+    parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --against-hxt")
+    parser.add_argument("--repeat", type=int, default=1, help="turns of each command with --against-hxt")
     parser.add_argument("--alone", action="store_true", help="leave TetGen and Gmsh out")
     parser.epilog = "After --: more options of `dovetail mesh`."
     words = sys.argv[1:]
@@ -300,7 +301,7 @@ def main():
         sys.stdout.flush()
         if options.alone:
             return
-        if options.mesher == "hxt":
+        if options.against_hxt or options.mesher == "hxt":
             elements = runs[max(runs)]["elements"]
             gmsh = find_gmsh()
             gmsh_size, gmsh_result = gmsh_with_as_many(driver, gmsh, size, elements, options, folder)

@@ -49,3 +49,11 @@ if(TARGET dovetail_driver)
   install(FILES "${help_pages}/dovetail.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
     RENAME dovetail OPTIONAL)
 endif()
+
+# For programs that are built without CMake. It finds the headers from where it is itself, as the package may be moved.
+file(RELATIVE_PATH dovetail_include_from_pc
+  "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+configure_file("${PROJECT_SOURCE_DIR}/cmake/dovetail.pc.in" "${PROJECT_BINARY_DIR}/dovetail.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/dovetail.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+include(dovetail_pack)

@@ -15,12 +15,26 @@ target_compile_options(dovetail INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>")
 target_link_libraries(dovetail INTERFACE Threads::Threads)
 
+# Packages of dovetail have what they say, whatever else is on the machine that makes them.
+set(DOVETAIL_ADAPTERS "found" CACHE STRING
+  "Adapters of libraries: 'found' for each whose library is there, or a list of which none may lack its library")
+
 set(dovetail_components "")
 set(dovetail_missing_components "")
+set(dovetail_unknown_adapters "${DOVETAIL_ADAPTERS}")
+list(REMOVE_ITEM dovetail_unknown_adapters found)
 
-# dovetail_adapter(<component> PACKAGE <found?> LIBRARIES <targets>)
+# dovetail_adapter(<component> FOUND <found?> LIBRARIES <targets>)
 function(dovetail_adapter component)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOUND" "LIBRARIES")
+  list(REMOVE_ITEM dovetail_unknown_adapters ${component})
+  set(dovetail_unknown_adapters "${dovetail_unknown_adapters}" PARENT_SCOPE)
+  if(component IN_LIST DOVETAIL_ADAPTERS AND NOT arg_FOUND)
+    message(FATAL_ERROR "DOVETAIL_ADAPTERS: the library of '${component}' was not found")
+  endif()
+  if(NOT DOVETAIL_ADAPTERS STREQUAL "found" AND NOT component IN_LIST DOVETAIL_ADAPTERS)
+    set(arg_FOUND FALSE)
+  endif()
   if(NOT arg_FOUND)
     set(dovetail_missing_components ${dovetail_missing_components} ${component} PARENT_SCOPE)
     return()
@@ -88,7 +102,11 @@ dovetail_adapter(ptscotch FOUND "${PTScotch_FOUND}" LIBRARIES PTScotch::PTScotch
 find_package(ParMETIS QUIET)
 dovetail_adapter(parmetis FOUND "${ParMETIS_FOUND}" LIBRARIES ParMETIS::ParMETIS)
 
+if(dovetail_unknown_adapters)
+  message(FATAL_ERROR "DOVETAIL_ADAPTERS: there is no '${dovetail_unknown_adapters}'; there are: "
+    "${dovetail_components};${dovetail_missing_components}")
+endif()
 message(STATUS "dovetail adapters: ${dovetail_components}")
 if(dovetail_missing_components)
-  message(STATUS "dovetail adapters without their library: ${dovetail_missing_components}")
+  message(STATUS "dovetail adapters left out: ${dovetail_missing_components}")
 endif()

@@ -44,6 +44,13 @@ bool has_python_module(const std::string& name) {
   return false;
 }
 
+/// The volume that checkMesh finds.
+double volume_in(const std::string& log) {
+  const std::string before = "Total volume = ";
+  const auto at = log.find(before);
+  return at == std::string::npos ? 0 : std::stod(log.substr(at + before.size()));
+}
+
 const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
 
 } // namespace
@@ -118,9 +125,10 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
   auto [status, log] = check("openfoam", folder, 3);
   INFO(log);
   CHECK(status == 0);
+  CHECK(volume_in(log) == doctest::Approx(1));
   for (const char* line :
-       {"cells:            1296", "boundary patches: 3", "Total volume = 1.", "Number of regions: 1",
-        "side_walls          288", "Upper triangular ordering OK", "solid__0_____       432"})
+       {"cells:            1296", "boundary patches: 3", "Number of regions: 1", "side_walls          288",
+        "Upper triangular ordering OK", "solid__0_____       432"})
     CHECK_MESSAGE(log.find(line) != std::string::npos, line);
 
   const auto faces = folder / "processor2/constant/polyMesh/faces"; // its last patch is one of a processor
@@ -131,6 +139,52 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
   testing::write_content(faces, text.substr(0, before) + text.substr(last, end + 1 - last) +
                                     text.substr(before, last - before) + text.substr(end + 1));
   CHECK(check("openfoam", folder, 3).first != 0);
+}
+
+TEST_CASE(
+    "OpenFOAM: one rank has a case that is not decomposed, and no other number of ranks leaves a trace") {
+  const testing::scratch_folder folder("ranks_openfoam_whole");
+  const auto has = [&](const char* name) { return std::filesystem::exists(folder / name); };
+  const auto write = [&](int ranks) {
+    return io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes.distributed(), folder);
+  };
+  write(1);
+  CHECK(has("constant/polyMesh/points"));
+  write(3);
+  CHECK_FALSE(has("constant/polyMesh"));
+  CHECK(has("processor2/constant/polyMesh/points"));
+  CHECK(testing::file_content(folder / "system/decomposeParDict").find("Subdomains 3;") != std::string::npos);
+  testing::write_content(folder / "processor0/constant/polyMesh/cellProcAddressing", "of another mesh");
+  testing::write_content(folder / "processor2/constant/polyMesh/cellProcAddressing", "of another mesh");
+  write(2); // the number of folders says for how many processors the case is
+  CHECK_FALSE(has("processor0/constant/polyMesh/cellProcAddressing"));
+  CHECK_FALSE(has("processor2"));
+  const auto summary = write(1);
+  CHECK(summary.files.size() == 10);
+  CHECK_FALSE(has("processor0"));
+  CHECK(testing::file_content(folder / "system/decomposeParDict").find("Subdomains 1;") != std::string::npos);
+  if (std::system("command -v checkMesh > /dev/null 2>&1") != 0) {
+    MESSAGE("skipped: OpenFOAM is not installed");
+    return;
+  }
+  const auto [status, log] = check("openfoam", folder, 1);
+  INFO(log);
+  CHECK(status == 0);
+  CHECK(volume_in(log) == doctest::Approx(1));
+  for (const char* line : {"cells:            1296", "boundary patches: 3", "solid__0_____       432"})
+    CHECK_MESSAGE(log.find(line) != std::string::npos, line);
+}
+
+TEST_CASE("OpenFOAM: dictionaries of others are kept, with those of dovetail beside them") {
+  const testing::scratch_folder folder("ranks_openfoam_kept");
+  std::filesystem::create_directories(folder / "system");
+  testing::write_content(folder / "system/controlDict", "application simpleFoam;\n");
+  const auto summary = io::rank_writer<io::openfoam_format>{.ranks = 2}(cubes.distributed(), folder);
+  CHECK(testing::file_content(folder / "system/controlDict") == "application simpleFoam;\n");
+  CHECK(std::filesystem::exists(folder / "system/fvSchemes"));
+  CHECK(testing::file_count(folder / "system") == 4);
+  CHECK(summary.files.size() == 15);
+  CHECK(summary.get("files") == 15);
 }
 
 TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are there once") {

@@ -3,7 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 using namespace dovetail;
 
@@ -120,4 +123,34 @@ TEST_CASE("duplicates, isolated, coincident and broken points are each named") {
   mesh.tags = {1, 2};
   CHECK(only_fault(mesh).kind == mesh_fault::tags_mismatch);
   CHECK(check_validity(mesh).text() == "1 x tags mismatch");
+}
+
+TEST_CASE("all coincident points are found, also among many of the same x") {
+  simplicial_mesh<3> mesh; // of points alone
+  for (int i = 0; i < 40; ++i)
+    mesh.points.push_back(
+        {i % 2 == 0 ? 0.0 : -0.0, static_cast<double>(i * 7 % 13), static_cast<double>(i % 3)});
+  std::vector<local_id> expected;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    if (std::find(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(i),
+                  mesh.points[i]) != mesh.points.begin() + static_cast<std::ptrdiff_t>(i))
+      expected.push_back(static_cast<local_id>(i));
+  REQUIRE(expected.size() == 1); // 13 x 3 places
+  mesh.points.push_back(mesh.points[5]);
+  mesh.points.push_back(mesh.points[5]);
+  expected.push_back(40);
+  expected.push_back(41);
+  const fault_count found = only_fault(mesh, {.isolated_points = true});
+  CHECK(found.kind == mesh_fault::coincident_point);
+  CHECK(found.examples == expected);
+}
+
+TEST_CASE("a lone tetrahedron listed twice, or once as its mirror image, is a duplicate") {
+  simplicial_mesh<3> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.elements = {{0, 1, 2, 3}, {1, 2, 0, 3}};
+  CHECK(check_validity(mesh).count(mesh_fault::duplicate_element) == 1);
+  mesh.elements[1] = {1, 0, 2, 3};
+  CHECK(check_validity(mesh).count(mesh_fault::duplicate_element) == 1);
+  CHECK(check_validity(mesh).count(mesh_fault::inverted_element) == 1);
 }

@@ -54,6 +54,9 @@ fi
 
 if [[ -n $compiled_build ]]; then
   install_moved "$compiled_build" "$work/compiled"
+  if [[ -x $work/compiled/bin/dovetail ]]; then
+    "$work/compiled/bin/dovetail" --version || { echo "the driver does not start where it is installed"; exit 1; }
+  fi
   check_consumer "$work/compiled" "$work/compiled_consumer" -DEXTRA_COMPONENT=compiled_occt
   check_small compiled -DCMAKE_PREFIX_PATH="$work/compiled" -DCOMPONENT=compiled
   if nm -C "$work/compiled_consumer/CMakeFiles/consumer.dir/main.cpp.o" | grep " W dovetail::occt_shape_from"; then

@@ -7,6 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/files/piecewise_output.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/poor_elements.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 
@@ -29,6 +30,7 @@ struct finishing_options {
 struct finished_mesh {
   std::uint64_t hash = 0;     ///< as `mesh_hash`
   quality_statistics quality; ///< `worst_element` is a global number
+  poor_elements poor;         ///< in D = 3, by their causes
   report summary;             ///< "tasks", "taken_over", "peak_rss_bytes"; a child per writer
 };
 

@@ -31,8 +31,9 @@ namespace detail {
 struct finished_pieces {
   mesh_hasher hash;
   quality_statistics quality;
+  poor_elements poor;
 
-  using fields = field_list<&finished_pieces::hash, &finished_pieces::quality>;
+  using fields = field_list<&finished_pieces::hash, &finished_pieces::quality, &finished_pieces::poor>;
 };
 
 /// What a task gives back; that the mesh is none is an error of its own, which the parent throws.
@@ -120,6 +121,7 @@ public:
     for (const auto& pieces : found) {
       hash.merge(pieces.hash);
       result.quality.merge(pieces.quality, 0);
+      result.poor.merge(pieces.poor);
     }
     result.hash = hash.value();
     return result;
@@ -284,8 +286,11 @@ private:
       if (!faults.valid())
         throw mesh_error("the mesh does not conform: " + faults.text());
       const auto at = static_cast<std::size_t>(p);
-      done.quality.merge(at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh),
-                         numbers_.first_element[at]);
+      const auto quality = at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh);
+      done.quality.merge(quality, numbers_.first_element[at]);
+      if constexpr (D == 3)
+        if (quality.min_dihedrals.below(low_dihedral_deg) > 0)
+          done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto& output = outputs_[k];

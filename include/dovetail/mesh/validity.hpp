@@ -123,6 +123,10 @@ void check_sides(const simplicial_mesh<D>& mesh, const side_table<D>& sides, con
   }
 }
 
+/// Whether points and elements are without fault, each by itself: all but what is between elements.
+template <int D>
+bool each_is_valid(const simplicial_mesh<D>& mesh, const validity_options& allowed);
+
 /// The boundary sides of a mesh of tetrahedra must meet in pairs at every edge.
 void check_closed(const simplicial_mesh<3>& mesh, const side_table<3>& sides, fault_collector& faults);
 
@@ -143,6 +147,8 @@ validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sid
                         const validity_options& allowed = {});
 
 #ifdef DOVETAIL_COMPILED
+extern template bool detail::each_is_valid<3>(const simplicial_mesh<3>& mesh,
+                                              const validity_options& allowed);
 extern template validity check_validity<2>(const simplicial_mesh<2>& mesh, const validity_options& allowed);
 extern template validity check_validity<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
                                            const validity_options& allowed);

@@ -13,10 +13,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -70,6 +70,33 @@ void check_references(const simplicial_mesh<D>& mesh, fault_collector& faults) {
     faults.add(mesh_fault::tags_mismatch);
 }
 
+/// The points at a place where one of a lower number is, growing.
+DOVETAIL_INLINE std::vector<local_id> repeated_points(std::span<const vec3> points) {
+  // By x first, without looking at the points; few have the same.
+  std::vector<std::pair<double, local_id>> order(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v)
+    order[v] = {points[v].x, static_cast<local_id>(v)};
+  sort_all(order);
+  const auto rest_of = [&](const auto& one) {
+    const vec3& p = points[static_cast<std::size_t>(one.second)];
+    return std::pair(p.y, p.z);
+  };
+  std::vector<local_id> repeated;
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    while (last < order.size() && order[last].first == order[first].first)
+      ++last;
+    const auto same_x = std::span(order).subspan(first, last - first);
+    if (same_x.size() > 1)
+      std::stable_sort(same_x.begin(), same_x.end(),
+                       [&](const auto& a, const auto& b) { return rest_of(a) < rest_of(b); });
+    for (std::size_t k = 1; k < same_x.size(); ++k)
+      if (rest_of(same_x[k]) == rest_of(same_x[k - 1]))
+        repeated.push_back(same_x[k].second);
+  }
+  sort_all(repeated);
+  return repeated;
+}
+
 template <int D>
 void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowed, fault_collector& faults) {
   const auto& points = mesh.points;
@@ -85,23 +112,7 @@ void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowe
   }
   if (faults.has(mesh_fault::non_finite_point))
     return;
-  std::vector<local_id> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto coordinates = [&](local_id v) {
-    const vec3& p = points[static_cast<std::size_t>(v)];
-    return std::array{p.x, p.y, p.z};
-  };
-  sort_all(order, [&](local_id a, local_id b) {
-    const auto pa = coordinates(a);
-    const auto pb = coordinates(b);
-    return pa != pb ? pa < pb : a < b;
-  });
-  std::vector<local_id> repeated;
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (coordinates(order[k]) == coordinates(order[k - 1]))
-      repeated.push_back(order[k]);
-  sort_all(repeated);
-  for (const local_id v : repeated)
+  for (const local_id v : repeated_points(points))
     faults.add(mesh_fault::coincident_point, v);
 }
 
@@ -159,21 +170,39 @@ DOVETAIL_INLINE void check_closed(const simplicial_mesh<3>& mesh, const side_tab
       });
 }
 
+template <int D>
+void check_each(const simplicial_mesh<D>& mesh, const validity_options& allowed, fault_collector& faults) {
+  check_references(mesh, faults);
+  if (faults.has(mesh_fault::missing_point))
+    return;
+  check_points(mesh, allowed, faults);
+  if (!faults.has(mesh_fault::non_finite_point))
+    check_elements(mesh, faults);
+}
+
+template <int D>
+bool each_is_valid(const simplicial_mesh<D>& mesh, const validity_options& allowed) {
+  fault_collector faults;
+  check_each(mesh, allowed, faults);
+  return faults.result().valid();
+}
+
 /// `sides()` is called when references are known to be right.
 template <int D, class Sides>
 validity check_all(const simplicial_mesh<D>& mesh, const Sides& sides, const validity_options& allowed) {
   fault_collector faults;
-  check_references(mesh, faults);
+  check_each(mesh, allowed, faults);
   if (faults.has(mesh_fault::missing_point))
     return faults.result();
-  check_points(mesh, allowed, faults);
-  if (!faults.has(mesh_fault::non_finite_point))
-    check_elements(mesh, faults);
-  check_duplicates(mesh, faults);
-  if (faults.has(mesh_fault::repeated_vertex))
+  if (faults.has(mesh_fault::repeated_vertex)) {
+    check_duplicates(mesh, faults);
     return faults.result();
+  }
   const side_table<D>& table = sides();
   check_sides(mesh, table, allowed, faults);
+  // A tetrahedron that is listed twice is inverted once, or at fault at each of its sides.
+  if (D == 2 || !faults.result().valid())
+    check_duplicates(mesh, faults);
   if constexpr (D == 3)
     if (allowed.closed_boundary)
       check_closed(mesh, table, faults);
@@ -202,6 +231,7 @@ validity check_validity(const simplicial_mesh<D>& mesh, const side_table<D>& sid
 }
 
 #ifdef DOVETAIL_COMPILED
+template bool detail::each_is_valid<3>(const simplicial_mesh<3>& mesh, const validity_options& allowed);
 template validity check_validity<2>(const simplicial_mesh<2>& mesh, const validity_options& allowed);
 template validity check_validity<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
                                     const validity_options& allowed);

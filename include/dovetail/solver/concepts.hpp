@@ -25,6 +25,13 @@ namespace dovetail {
 /// - `f.write(source, mesh, paths)`: writes the files of the mesh's rank under these names
 /// - `f.write_all(source, paths)`: writes the common ones
 ///
+/// and, where there are, for `int n` and `const std::filesystem::path& path`:
+///
+/// - `f.files_of_rank(q, n)`: the files of a rank of n, where their names depend on n
+/// - `f.outdated_files_of_rank(q, n)`: files that other programs made of these, which a new mesh removes
+/// - `f.may_replace(path)`: bool, whether an existing file may be written over (by default yes); if not, the
+/// new one is dropped
+///
 /// Semantics: what is written depends on the arguments alone, and not on `paths`, which are temporary. Each
 /// call may be made in another process, in any order; none where there are no names. Meshes of second order
 /// are given to a format only if `F::second_order` is true (`has_second_order<F>`).

@@ -2,6 +2,7 @@
 /// What `openfoam_format.hpp` declares.
 #pragma once
 
+#include "dovetail/core/input_file.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/files/face_groups.hpp"
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
+#include <initializer_list>
 #include <numeric>
 #include <set>
 #include <string>
@@ -58,6 +61,15 @@ inline std::vector<std::string> foam_words(const std::vector<std::string>& names
     words.push_back(word);
   }
   return words;
+}
+
+inline std::vector<std::string> foam_mesh_files(local_id rank, int ranks,
+                                                std::initializer_list<const char*> files) {
+  const std::string folder = ranks == 1 ? "" : "processor" + std::to_string(rank) + "/";
+  std::vector<std::string> names;
+  for (const char* file : files)
+    names.push_back(folder + "constant/polyMesh/" + file);
+  return names;
 }
 
 inline foam_patches collect_foam_patches(const distributed_mesh& mesh) {
@@ -137,15 +149,19 @@ inline foam_faces number_foam_faces(const rank_mesh<3>& rank, const foam_patches
   return faces;
 }
 
-/// A file of OpenFOAM with a list in it.
+/// By this a dictionary is known to be no other's.
+inline constexpr const char* foam_dictionary_note =
+    "of dovetail, which replaces this file with the mesh: without this line it is kept";
+
+/// A file of OpenFOAM, with a list in it or a dictionary.
 class foam_file {
 public:
   foam_file(const std::filesystem::path& path, const std::string& kind, const std::string& object,
-            const std::string& note = {})
+            const std::string& note = {}, const std::string& location = "constant/polyMesh")
       : file_(path) {
     file_.text("FoamFile\n{\n    version 2.0;\n    format ascii;\n    class " + kind + ";\n" +
-               (note.empty() ? "" : "    note \"" + note + "\";\n") +
-               "    location \"constant/polyMesh\";\n    object " + object + ";\n}\n");
+               (note.empty() ? "" : "    note \"" + note + "\";\n") + "    location \"" + location +
+               "\";\n    object " + object + ";\n}\n");
   }
   /// `write(i)` writes entry i, which ends a line.
   template <class Function>
@@ -209,11 +225,49 @@ inline void write_foam_zones(foam_file& file, const rank_mesh<3>& rank,
 
 } // namespace detail
 
-DOVETAIL_INLINE std::vector<std::string> openfoam_format::files_of_rank(local_id rank) const {
-  std::vector<std::string> names;
-  for (const char* what : {"points", "faces", "owner", "neighbour", "boundary", "cellZones"})
-    names.push_back("processor" + std::to_string(rank) + "/constant/polyMesh/" + what);
-  return names;
+DOVETAIL_INLINE std::vector<std::string> openfoam_format::files_of_rank(local_id rank, int ranks) const {
+  return detail::foam_mesh_files(rank, ranks,
+                                 {"points", "faces", "owner", "neighbour", "boundary", "cellZones"});
+}
+
+DOVETAIL_INLINE std::vector<std::string> openfoam_format::outdated_files_of_rank(local_id rank,
+                                                                                 int ranks) const {
+  return detail::foam_mesh_files(rank, ranks,
+                                 {"pointZones", "faceZones", "pointProcAddressing", "faceProcAddressing",
+                                  "cellProcAddressing", "boundaryProcAddressing"});
+}
+
+DOVETAIL_INLINE std::vector<std::string> openfoam_format::files_of_all() const {
+  return {"system/controlDict", "system/decomposeParDict", "system/fvSchemes", "system/fvSolution"};
+}
+
+DOVETAIL_INLINE bool openfoam_format::may_replace(const std::filesystem::path& file) const {
+  return file.parent_path().filename() != "system" ||
+         read_file(file).find(detail::foam_dictionary_note) != std::string::npos;
+}
+
+DOVETAIL_INLINE void openfoam_format::write_all(const rank_source<3>& source,
+                                                const std::vector<std::filesystem::path>& paths) const {
+  // With fewer digits reconstructParMesh, which reads them again, does not find the points of processors
+  // equal.
+  const std::string control = "application checkMesh;\nstartFrom startTime;\nstartTime 0;\nstopAt endTime;\n"
+                              "endTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\n"
+                              "writeFormat ascii;\nwritePrecision 16;\n";
+  const std::string parts =
+      "numberOfSubdomains " + std::to_string(source.numbers.ranks()) + ";\nmethod scotch;\n";
+  const std::string schemes = "ddtSchemes { default steadyState; }\ngradSchemes { default Gauss linear; }\n"
+                              "divSchemes { default none; }\n"
+                              "laplacianSchemes { default Gauss linear corrected; }\n"
+                              "interpolationSchemes { default linear; }\n"
+                              "snGradSchemes { default corrected; }\n";
+  const std::string solution = "solvers {}\n";
+  const std::array contents{&control, &parts, &schemes, &solution}; // as in `files_of_all`
+  for (std::size_t k = 0; k < contents.size(); ++k) {
+    const auto object = std::filesystem::path(files_of_all()[k]).filename().string();
+    detail::foam_file file(paths[k], "dictionary", object, detail::foam_dictionary_note, "system");
+    file.out().text(*contents[k]);
+    file.out().commit();
+  }
 }
 
 DOVETAIL_INLINE void openfoam_format::write(const rank_source<3>& source, const rank_mesh<3>& rank,

@@ -90,7 +90,7 @@ struct rank_writer {
       }
     } else {
       for (local_id q = 0; q < of_ranks; ++q) {
-        const std::vector<std::string> of_rank = format.files_of_rank(q);
+        const std::vector<std::string> of_rank = names_of_rank(format, q, of_ranks);
         if (auto paths = add(of_rank); !paths.empty())
           output.others.push_back({text_of(of_rank) + " of rank " + std::to_string(q),
                                    [source, q, format = format, paths = std::move(paths)] {
@@ -127,19 +127,58 @@ private:
     return files.front() + (files.size() == 1 ? "" : " and " + std::to_string(files.size() - 1) + " more");
   }
 
-  /// Removes what an earlier mesh of more ranks has left, from rank q on, and folders that are empty then:
-  /// the number of OpenFOAM's says how many processors there are.
-  static void remove_ranks_from(local_id q, const Format& format, const std::filesystem::path& folder) {
+  /// Whether names depend on the number of ranks.
+  static constexpr bool counts_ranks = requires(const Format& f) { f.files_of_rank(local_id{0}, 1); };
+  static std::vector<std::string> names_of_rank(const Format& format, local_id q,
+                                                [[maybe_unused]] local_id of) {
+    if constexpr (counts_ranks)
+      return format.files_of_rank(q, static_cast<int>(of));
+    else
+      return format.files_of_rank(q);
+  }
+
+  /// Whether one of the files was there. Folders that are empty then go with them: the number of OpenFOAM's
+  /// says how many processors there are.
+  static bool remove(const std::vector<std::string>& names, const std::filesystem::path& folder) {
     std::error_code ignored;
-    for (bool left = true; left; ++q) {
-      left = false;
-      for (const auto& name : format.files_of_rank(q)) {
-        left = std::filesystem::remove(folder / name, ignored) || left;
-        for (auto at = (folder / name).parent_path();
-             at != folder && std::filesystem::remove(at, ignored);) // not when something is in it
-          at = at.parent_path();
-      }
+    bool was_there = false;
+    for (const auto& name : names) {
+      was_there = std::filesystem::remove(folder / name, ignored) || was_there;
+      for (auto at = (folder / name).parent_path();
+           at != folder && std::filesystem::remove(at, ignored);) // not when something is in it
+        at = at.parent_path();
     }
+    return was_there;
+  }
+
+  /// What a new mesh makes wrong: of an earlier one of another number of ranks all, of its own ranks what
+  /// others have made of them.
+  static void remove_outdated(local_id ranks, const Format& format, const std::filesystem::path& folder) {
+    const auto derived = [&](local_id q, local_id of) {
+      std::vector<std::string> names;
+      if constexpr (requires { format.outdated_files_of_rank(q, 1); })
+        names = format.outdated_files_of_rank(q, static_cast<int>(of));
+      return names;
+    };
+    const auto remove_rank = [&](local_id q, local_id of) {
+      const bool was_there = remove(derived(q, of), folder);
+      return remove(names_of_rank(format, q, of), folder) || was_there;
+    };
+    for (local_id q = 0; q < ranks; ++q)
+      remove(derived(q, ranks), folder);
+    if (counts_ranks && ranks > 1)
+      remove_rank(0, 1);
+    local_id other = counts_ranks && ranks == 1 ? 0 : ranks;
+    while (remove_rank(other, other + 2)) // of more than one
+      ++other;
+  }
+
+  static bool may_replace([[maybe_unused]] const Format& format,
+                          [[maybe_unused]] const std::filesystem::path& path) {
+    if constexpr (requires { format.may_replace(path); })
+      return !std::filesystem::exists(path) || format.may_replace(path);
+    else
+      return true;
   }
 
   template <int D>
@@ -149,15 +188,19 @@ private:
     std::uint64_t bytes = 0;
     for (const auto& [from, name] : files) {
       make_folder((folder / name).parent_path());
+      if (!may_replace(format, folder / name)) {
+        std::filesystem::remove(from);
+        continue;
+      }
       bytes += move_file(from, folder / name);
       summary.files.push_back(name);
     }
     if constexpr (!shared_rank_format<Format, D>)
-      remove_ranks_from(source.numbers.ranks(), format, folder);
+      remove_outdated(source.numbers.ranks(), format, folder);
     sync_to_disk(folder);
     summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
     summary.set("bytes", static_cast<double>(bytes));
-    summary.set("files", static_cast<double>(files.size()));
+    summary.set("files", static_cast<double>(summary.files.size()));
     return summary;
   }
 };

@@ -190,9 +190,10 @@ private:
     if (const std::uint32_t number = cell_of_[node]; number != none) {
       const vec3 center = cells_[number].center - from;
       if (!tree.is_leaf(node) || !piece_.is_outside(node))
-        neighbours_.push_back({{static_cast<float>(center.x), static_cast<float>(center.y),
-                                static_cast<float>(center.z)},
-                               static_cast<float>(cells_[number].half), number});
+        neighbours_.push_back(
+            {{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
+             static_cast<float>(cells_[number].half),
+             number});
       return;
     }
     const vec3 center = bounds.center();

@@ -1,0 +1,221 @@
+/// @file
+/// What `poor_elements.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/mesh/poor_elements.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace dovetail {
+
+DOVETAIL_INLINE std::string_view name_of(poor_cause cause) {
+  constexpr std::array<std::string_view, poor_causes> names{
+      "angle of the model", "interface angle", "boundary triangle", "thin wall", "thin piece", "inside"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+DOVETAIL_INLINE void poor_elements::merge(const poor_elements& other) {
+  for (std::size_t k = 0; k < poor_causes; ++k) {
+    bad[k] += other.bad[k];
+    low[k] += other.low[k];
+  }
+  const auto rank = [](const poor_elements& one) {
+    const vec3 p = one.thinnest_place;
+    return std::tuple(one.thinnest_wall, p.x, p.y, p.z);
+  };
+  if (rank(other) < rank(*this)) {
+    thinnest_wall = other.thinnest_wall;
+    thinnest_place = other.thinnest_place;
+  }
+}
+
+namespace detail {
+
+/// The boundary triangles of a piece at its edges, for questions about single elements.
+class boundary_at_edges {
+public:
+  boundary_at_edges(const mesh_piece& piece, const fine_skeleton& skeleton,
+                    std::span<const local_id> listed) {
+    std::vector<std::pair<local_id, local_id>> numbers; // in the skeleton and in the piece
+    for (std::size_t v = 0; v < piece.skeleton_points.size(); ++v)
+      numbers.push_back({piece.skeleton_points[v], static_cast<local_id>(v)});
+    sort_all(numbers);
+    const auto in_piece = [&](local_id v) {
+      return std::lower_bound(numbers.begin(), numbers.end(), std::pair(v, local_id{0}))->second;
+    };
+    for (const local_id s : listed) {
+      const auto side = static_cast<std::size_t>(s);
+      const bool on_surface = skeleton.side_hosts[side] != no_id;
+      const auto& t = skeleton.sides[side];
+      const double angle = smallest_corner_angle(corners(std::span<const vec3>(skeleton.points), t));
+      simplex<2> own;
+      for (std::size_t k = 0; k < 3; ++k)
+        own[k] = in_piece(t[k]);
+      triangles_.push_back({sorted_vertices(own), angle});
+      for (std::size_t k = 0; k < 3; ++k)
+        flaps_.push_back({sorted_vertices(simplex<1>{own[(k + 1) % 3], own[(k + 2) % 3]}),
+                          skeleton.points[static_cast<std::size_t>(t[k])], on_surface});
+    }
+    sort_all(triangles_, [](const triangle& a, const triangle& b) { return a.vertices < b.vertices; });
+    stable_sort_all(flaps_, [](const flap& a, const flap& b) { return a.edge < b.edge; });
+  }
+
+  /// The smallest angle between boundary triangles at the edge from p to q that has the place `within` in it,
+  /// in degrees, and whether both are on the surface. 360 where there is none.
+  struct sector {
+    double degrees = 360;
+    bool on_surface = false;
+  };
+  sector sector_at(const simplex<1>& edge, vec3 p, vec3 q, vec3 within) const {
+    const auto [first, last] =
+        std::equal_range(flaps_.begin(), flaps_.end(), flap{sorted_vertices(edge), {}, false},
+                         [](const flap& a, const flap& b) { return a.edge < b.edge; });
+    const vec3 axis = q - p;
+    const auto across = [&](vec3 place) {
+      const vec3 d = place - p;
+      return d - dot(d, axis) / norm_squared(axis) * axis;
+    };
+    const auto angle = [](vec3 a, vec3 b) {
+      return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
+    };
+    const vec3 middle = across(within);
+    sector found;
+    for (auto a = first; a != last; ++a)
+      for (auto b = a + 1; b != last; ++b) {
+        const double between = angle(across(a->tip), across(b->tip));
+        const double by_way = angle(across(a->tip), middle) + angle(middle, across(b->tip));
+        if (between < found.degrees && by_way < between + rounding_deg)
+          found = {between, a->on_surface && b->on_surface};
+      }
+    return found;
+  }
+
+  /// The smallest angle of the boundary triangle with these vertices, in degrees; 180 where there is none.
+  double smallest_angle(const simplex<2>& side) const {
+    const auto found =
+        std::lower_bound(triangles_.begin(), triangles_.end(), sorted_vertices(side),
+                         [](const triangle& a, const simplex<2>& wanted) { return a.vertices < wanted; });
+    return found != triangles_.end() && found->vertices == sorted_vertices(side) ? found->angle_deg : 180;
+  }
+
+private:
+  static constexpr double rounding_deg = 1e-6;
+  struct triangle {
+    simplex<2> vertices; ///< sorted, of the piece
+    double angle_deg;
+  };
+  /// A triangle as seen from one of its edges.
+  struct flap {
+    simplex<1> edge; ///< sorted, of the piece
+    vec3 tip;        ///< the vertex opposite to it
+    bool on_surface;
+  };
+  std::vector<triangle> triangles_;
+  std::vector<flap> flaps_;
+};
+
+/// The cause for one element, whose smallest angle is at its ridge `worst` and below a limit.
+DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const fine_skeleton& skeleton,
+                                    const boundary_at_edges& boundary, const simplex<3>& element,
+                                    std::size_t worst, double limit_deg) {
+  const auto point = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
+  const auto pick_edge = [&](std::size_t r) {
+    const auto& edge = numbering::ridges<3>[r];
+    return simplex<1>{element[static_cast<std::size_t>(edge[0])], element[static_cast<std::size_t>(edge[1])]};
+  };
+  const simplex<1> edge = pick_edge(worst);
+  vec3 middle{};
+  for (const local_id v : element)
+    middle += 0.25 * point(v);
+  const auto sector = boundary.sector_at(edge, point(edge[0]), point(edge[1]), middle);
+  if (sector.degrees < 2 * limit_deg)
+    return sector.on_surface ? poor_cause::model_angle : poor_cause::interface_angle;
+  for (const auto& local : numbering::sides<3>) {
+    simplex<2> side;
+    for (std::size_t k = 0; k < 3; ++k)
+      side[k] = element[static_cast<std::size_t>(local[k])];
+    if (boundary.smallest_angle(side) < limit_deg)
+      return poor_cause::boundary_triangle;
+  }
+  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
+  const auto on_surface = [&](local_id v) {
+    return v < shared &&
+           skeleton.point_hosts[static_cast<std::size_t>(piece.skeleton_points[static_cast<std::size_t>(v)])]
+                   .dimension < 3;
+  };
+  if (std::all_of(element.begin(), element.end(), on_surface))
+    return poor_cause::thin_wall;
+  return std::all_of(element.begin(), element.end(), [&](local_id v) { return v < shared; })
+             ? poor_cause::thin_piece
+             : poor_cause::inside;
+}
+
+/// The height over the largest side: how thick a wall is where a tetrahedron spans it.
+DOVETAIL_INLINE double least_height(const tetrahedron_parts& parts) {
+  double largest = 0;
+  for (const vec3 normal : parts.normals)
+    largest = std::max(largest, norm(normal));
+  return largest > 0 ? parts.six_volumes / largest : 0;
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE poor_elements find_poor_elements(const mesh_piece& piece, const fine_skeleton& skeleton,
+                                                 std::span<const local_id> listed) {
+  struct poor {
+    std::size_t element, worst;
+    double angle_deg;
+  };
+  std::vector<poor> found;
+  const double least_cotangent = 1 / std::tan(low_dihedral_deg / degrees_per_radian);
+  for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
+    const detail::tetrahedron_parts parts(corners(span_of(piece.mesh.points), piece.mesh.elements[e]));
+    std::size_t worst = 6;
+    double cotangent = least_cotangent;
+    for (std::size_t r = 0; r < 6; ++r)
+      if (const auto [sine, cosine] = parts.dihedral(r); cosine > cotangent * sine) {
+        worst = r;
+        cotangent = sine > 0 ? cosine / sine : std::numeric_limits<double>::infinity();
+      }
+    if (worst < 6)
+      found.push_back({e, worst, degrees_per_radian * std::atan2(1.0, cotangent)});
+  }
+  poor_elements result;
+  if (found.empty())
+    return result;
+  const detail::boundary_at_edges boundary(piece, skeleton, listed);
+  for (const poor& one : found) {
+    const simplex<3>& element = piece.mesh.elements[one.element];
+    const bool is_bad = one.angle_deg < bad_dihedral_deg;
+    const poor_cause cause = detail::cause_of(piece, skeleton, boundary, element, one.worst,
+                                              is_bad ? bad_dihedral_deg : low_dihedral_deg);
+    const auto k = static_cast<std::size_t>(cause);
+    ++result.low[k];
+    if (!is_bad)
+      continue;
+    ++result.bad[k];
+    if (cause != poor_cause::thin_wall)
+      continue;
+    const auto p = corners(span_of(piece.mesh.points), element);
+    poor_elements wall;
+    wall.thinnest_wall = detail::least_height(detail::tetrahedron_parts(p));
+    wall.thinnest_place = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+    result.merge(wall);
+  }
+  return result;
+}
+
+} // namespace dovetail

@@ -1,0 +1,125 @@
+#include "dovetail/core/encoding.hpp"
+#include "dovetail/mesh/poor_elements.hpp"
+#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/skeleton_index.hpp"
+#include "files/distribute.hpp"
+#include "support/jittered_meshes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+const auto on_the_surface = [](const auto&) { return host{2, 0}; };
+
+template <class HostOf>
+poor_elements all_poor(const simplicial_mesh<3>& mesh, const std::vector<local_id>& parts,
+                       const HostOf& host_of) {
+  auto tagged = mesh;
+  tagged.tags.assign(mesh.elements.size(), 0);
+  const auto cut = testing::distribute(tagged, parts, host_of);
+  const io::sides_by_subdomain<3> sides(cut);
+  poor_elements found;
+  for (std::size_t p = 0; p < cut.counts.size(); ++p) {
+    const auto s = static_cast<local_id>(p);
+    found.merge(find_poor_elements(cut.load(s), cut.skeleton, sides[s]));
+  }
+  const auto sum = [](const auto& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  };
+  const auto quality = measure_quality(mesh);
+  CHECK(sum(found.low) == quality.min_dihedrals.below(low_dihedral_deg));
+  CHECK(sum(found.bad) == quality.min_dihedrals.below(bad_dihedral_deg));
+  return found;
+}
+poor_elements all_poor(const simplicial_mesh<3>& mesh) {
+  return all_poor(mesh, std::vector<local_id>(mesh.elements.size(), 0), on_the_surface);
+}
+
+/// A tetrahedron of two right triangles that meet in an angle whose tangent is `height`.
+simplicial_mesh<3> wedge(double height) {
+  simplicial_mesh<3> mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, height}};
+  mesh.elements = {{0, 1, 2, 3}};
+  return mesh;
+}
+
+/// The lowest layer of a cube of 5 x 5 x 5 cells, each of six tetrahedra.
+simplicial_mesh<3> slab(double thickness) {
+  auto mesh = dovetail_test::jittered_cubes(5, 0);
+  std::erase_if(mesh.elements, [&](const simplex<3>& element) {
+    return std::any_of(element.begin(), element.end(),
+                       [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)].z > 0.3; });
+  });
+  for (vec3& p : mesh.points)
+    p.z *= 5 * thickness;
+  return mesh;
+}
+
+} // namespace
+
+TEST_CASE("an element in a small angle of the model is the model's") {
+  const auto found = all_poor(wedge(0.1));
+  CHECK(found.bad_by(poor_cause::model_angle) == 1);
+  CHECK(all_poor(wedge(0.3)).low_by(poor_cause::model_angle) == 1); // 17 degrees
+  CHECK(all_poor(wedge(0.3)).bad_by(poor_cause::model_angle) == 0);
+}
+
+TEST_CASE("an element between an interface and the surface is the interface's") {
+  auto mesh = wedge(0.1);
+  mesh.points.push_back({0.5, -1, 1}); // above the upper side
+  mesh.elements.push_back({0, 1, 3, 4});
+  const auto host_of = [](const auto& vertices) {
+    const bool between = vertices.size() == 3 && std::all_of(vertices.begin(), vertices.end(),
+                                                             [](local_id v) { return v != 2 && v != 4; });
+    return between ? host{3, 0} : host{2, 0};
+  };
+  const auto found = all_poor(mesh, {0, 1}, host_of);
+  CHECK(found.bad_by(poor_cause::interface_angle) == 1);
+  CHECK(found.bad_by(poor_cause::model_angle) == 0);
+}
+
+TEST_CASE("elements across a thin wall are the wall's, and where it is thinnest is told") {
+  const auto found = all_poor(slab(0.01));
+  CHECK(found.bad_by(poor_cause::thin_wall) > 0);
+  CHECK(found.bad_by(poor_cause::boundary_triangle) > 0); // at the rim
+  CHECK(found.bad_by(poor_cause::inside) == 0);
+  CHECK(found.thinnest_wall <= 0.01);
+  CHECK(found.thinnest_wall > 0.005);
+  CHECK(found.thinnest_place.z < 0.01);
+
+  const auto between_interfaces =
+      all_poor(slab(0.01), std::vector<local_id>(slab(0.01).elements.size(), 0), [](const auto& vertices) {
+        return vertices.size() == 1 ? host{3, 0} : host{2, 0};
+      });
+  CHECK(between_interfaces.bad_by(poor_cause::thin_piece) == found.bad_by(poor_cause::thin_wall));
+  CHECK(all_poor(slab(0.2)).bad_by(poor_cause::thin_wall) == 0);
+}
+
+TEST_CASE("an element that nothing explains is the mesher's") {
+  auto mesh = dovetail_test::jittered_cubes(4, 0);
+  mesh.points[(2 * 5 + 2) * 5 + 2].x += 0.21; // of cells a quarter wide
+  const auto found = all_poor(mesh);
+  CHECK(found.bad_by(poor_cause::inside) > 0);
+  CHECK(found.low_by(poor_cause::inside) == measure_quality(mesh).min_dihedrals.below(low_dihedral_deg));
+}
+
+TEST_CASE("counts of pieces add up in any order, and pass between processes") {
+  const auto a = all_poor(slab(0.01)), b = all_poor(slab(0.02)), c = all_poor(wedge(0.1));
+  poor_elements forwards, backwards;
+  for (const auto& one : {a, b, c})
+    forwards.merge(one);
+  for (const auto& one : {c, b, a})
+    backwards.merge(one);
+  CHECK(encoded(forwards) == encoded(backwards));
+  CHECK(forwards.thinnest_wall == a.thinnest_wall);
+  CHECK(encoded(decoded<poor_elements>(encoded(forwards))) == encoded(forwards));
+  CHECK(name_of(poor_cause::thin_wall) == "thin wall");
+}
