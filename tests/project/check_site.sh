@@ -6,7 +6,7 @@ set -euo pipefail
 driver=${3:+$(realpath "$3")}
 cd "$1"
 work=$2
-page=$(scripts/site "$work" $driver)
+page=$(scripts/site "$work" "$driver")
 [[ -s $page ]] || { echo "there is no $page"; exit 1; }
 html=$(dirname "$page")
 for wanted in library building driver simplification not_in_it concepts/improver source/examples/08_thresholds.cpp \
