@@ -7,7 +7,8 @@ const script = id => page.match(new RegExp(`<script id="${id}"[^>]*>([^]*?)</scr
 class stand_in {
   constructor(tag = "", attributes = "") {
     const said = name => (attributes.match(new RegExp(` ${name}="([^"]*)"`)) || [, ""])[1];
-    Object.assign(this, {tag, type: said("type"), value: said("value"), checked: / checked/.test(attributes), style: {}, listeners: {},
+    Object.assign(this, {tag, type: said("type"), value: said("value"), checked: / checked/.test(attributes),
+      open: / open/.test(attributes), style: {}, listeners: {},
       dataset: {from: said("data-from")}, children: [], textContent: "", width: 300, height: 150});
   }
   addEventListener(name, listener) { this.listeners[name] = listener; }
@@ -93,7 +94,10 @@ for (const colours of ["piece", "material", "angle", "group"]) {
 const canvas = document.body.children[0];
 canvas.setPointerCapture = () => {};
 const countMarks = name => { settle(); print(`marks.${name}`, shown.discs.geometry.attributes.position.count); };
-const told = ([x, y]) => { canvas.listeners.pointermove({clientX: x, clientY: y}); return byId.mark.hidden ? "nothing" : byId.mark.textContent; };
+const told = ([x, y]) => {
+  canvas.listeners.pointermove({clientX: x, clientY: y});
+  return byId.mark.hidden ? "nothing" : byId.mark.textContent;
+};
 countMarks("all");
 print("marks.labels", byId.markLabels.children.map(({children}) => `${children[1]} ${children[0].style.background}`).join("; ") || "none");
 print("marks.control", byId.marked.hidden ? "hidden" : "shown");
