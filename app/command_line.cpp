@@ -371,7 +371,8 @@ struct parser {
     auto& command = *app.add_subcommand("view", "Show a mesh file: a page to turn and cut it, or a picture");
     add_examples(command, {"dovetail view wing/mesh.pvtu -o wing.html",
                            "dovetail view wing.msh --png wing.png --cut y --colour piece",
-                           "dovetail view wing.msh --png worst.png --under 20 --view 30,20"});
+                           "dovetail view wing.msh --png worst.png --under 20 --view 30,20",
+                           "dovetail view wing -o wing.html --report wing.json"});
     command.add_option("MESH", view.mesh, "Mesh file (VTU, PVTU, VTP, MSH), or a folder with one")
         ->required();
     auto* out =
@@ -383,10 +384,14 @@ struct parser {
         ->needs(out)
         ->capture_default_str();
     auto* png = command.add_option("--png", view.png, "Picture to write; needs no display");
+    command.add_option(
+        "--report", view.report,
+        "Report of the run that made the mesh: marks small interface angles and the thinnest wall");
     add_picture_options(command, view, png);
     command.callback([this] {
       chosen = [this] { return run_view(view); };
       inputs = inputs_of_mesh("MESH", view.mesh);
+      inputs.push_back({"--report", view.report});
       outputs.files = {{"--out", view.out}, {"--png", view.png}};
     });
   }

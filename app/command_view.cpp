@@ -3,6 +3,7 @@
 #include "mesh_files.hpp"
 #include "output.hpp"
 #include "png.hpp"
+#include "view_marks.hpp"
 #include "view_page.hpp"
 #include "view_picture.hpp"
 #include "view_scene.hpp"
@@ -125,14 +126,15 @@ struct asked_picture {
       : direction(asked_direction(options.view)), size(asked_size(options.size)),
         cut(asked_section(options.cut)) {}
 
-  view_wishes wishes(const view_scene& scene, const view_options& options) const {
+  view_wishes wishes(const view_scene& scene, const view_options& options, const view_marks& marks) const {
     view_wishes wishes{.towards = direction.value_or(direction_to_viewer(scene.box)),
                        .width = size.first,
                        .height = size.second,
                        .colours = asked_colours(options.colour),
                        .under = options.under,
                        .explode = options.explode,
-                       .edges = !options.no_edges};
+                       .edges = !options.no_edges,
+                       .marks = marks};
     if (cut)
       wishes.cut = plane_of(*cut, scene, wishes.towards);
     return wishes;
@@ -145,10 +147,10 @@ std::string megabytes(std::size_t bytes) {
   return text;
 }
 
-void write_page(const view_scene& scene, const view_options& options) {
+void write_page(const view_scene& scene, const view_options& options, const view_marks& marks) {
   const view_part part = part_that_fits(scene, options.most);
   const std::string page =
-      page_of_view(scene, part, std::filesystem::path(options.mesh).lexically_normal().string());
+      page_of_view(scene, part, std::filesystem::path(options.mesh).lexically_normal().string(), marks);
   output_file file(options.out);
   file.text(page);
   file.commit();
@@ -157,8 +159,9 @@ void write_page(const view_scene& scene, const view_options& options) {
               left_out.empty() ? "" : (", " + left_out + "; see --most").c_str());
 }
 
-void write_picture(const view_scene& scene, const asked_picture& asked, const view_options& options) {
-  const auto png = encode_png(picture_of_view(scene, asked.wishes(scene, options)));
+void write_picture(const view_scene& scene, const asked_picture& asked, const view_options& options,
+                   const view_marks& marks) {
+  const auto png = encode_png(picture_of_view(scene, asked.wishes(scene, options, marks)));
   output_file file(options.png);
   file.bytes(png.data(), png.size());
   file.commit();
@@ -171,6 +174,16 @@ void write_picture(const view_scene& scene, const asked_picture& asked, const vi
   if (shown == 0)
     std::fprintf(stderr, "warning: %s: no element has so small an angle; the picture is the outline alone\n",
                  options.png.c_str());
+}
+
+void say_marks(const view_marks& marks, const box3& box) {
+  if (marks.report.empty())
+    return;
+  std::printf("%s: %s\n", marks.report.c_str(), text_of(marks).c_str());
+  if (const std::size_t outside = marks_outside(marks, box); outside > 0)
+    std::fprintf(stderr,
+                 "warning: %s: %zu of %zu marks are outside of the mesh; is this the report of its run?\n",
+                 marks.report.c_str(), outside, marks.all.size());
 }
 
 } // namespace
@@ -186,6 +199,7 @@ int run_view(const view_options& options) {
   for (const std::string& file : {options.out, options.png})
     if (!file.empty())
       check_can_create(file);
+  const view_marks marks = options.report.empty() ? view_marks{} : marks_of_report(options.report);
   const std::filesystem::path mesh = io::find_mesh_file(options.mesh);
   io::loaded_mesh loaded = io::read_mesh(mesh, io::zlib_expand);
   warn_of_part(loaded, mesh);
@@ -193,9 +207,10 @@ int run_view(const view_options& options) {
   if (scene.elements() == 0)
     throw input_error(mesh.string() + ": has no tetrahedra or triangles to show");
   if (!options.out.empty())
-    write_page(scene, options);
+    write_page(scene, options, marks);
   if (!options.png.empty())
-    write_picture(scene, asked, options);
+    write_picture(scene, asked, options, marks);
+  say_marks(marks, scene.box);
   return exit_ok;
 }
 

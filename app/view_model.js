@@ -16,7 +16,7 @@ const half = [0, 1, 2].map(k => (data.upper[k] - data.lower[k]) / 2), middle = [
 const radius = Math.hypot(...half) || 1;
 
 // What the controls say. `cut`: {normal, place}; what is beyond it is not seen. `under`: degrees, or null for all.
-const state = {colours: "group", hidden: new Set(), apart: 0, cut: null, under: null};
+const state = {colours: "group", hidden: new Set(), apart: 0, cut: null, under: null, marks: true};
 
 const rgb = text => [1, 3, 5].map(at => parseInt(text.slice(at, at + 2), 16));
 const colours = {group: data.groups.map(({colour}) => rgb(colour)), piece: data.pieces.map(({colour}) => rgb(colour)),
@@ -134,4 +134,12 @@ function outlinePlaces() {
     all.set(b, 6 * k + 3);
   }
   return all;
+}
+
+// Marks are not hidden by the mesh, since they are inside of it, but are cut with it. They are of no piece, and would be elsewhere
+// than what they mark once pieces are apart.
+function shownMarks() {
+  if (!state.marks || state.apart > 0) return [];
+  const {normal, place} = state.cut || {normal: [0, 0, 0], place: 0};
+  return data.marks.all.filter(({at}) => normal[0] * at[0] + normal[1] * at[1] + normal[2] * at[2] <= place);
 }

@@ -16,7 +16,8 @@ struct view_options {
   std::string mesh;
   std::string out; ///< the page; empty: none
   std::int64_t most = default_most_triangles;
-  std::string png; ///< the picture; empty: none
+  std::string png;    ///< the picture; empty: none
+  std::string report; ///< of the run, for marks; empty: none
   // Of the picture alone:
   std::string view = "default";  ///< a name, or azimuth,elevation in degrees
   std::string size = "1200x900"; ///< pixels

@@ -135,6 +135,20 @@ json arrays_of(const view_scene& scene, const view_part& part) {
   return all;
 }
 
+json json_of(const view_marks& marks, vec3 middle) {
+  const auto labels = labels_of(marks);
+  json data{{"report", marks.report}, {"labels", json::array()}, {"all", json::array()}};
+  for (const mark_label& label : labels)
+    data["labels"].push_back({{"name", label.name}, {"colour", text_of_colour(label.colour)}});
+  for (const view_mark& mark : marks.all) {
+    const auto label =
+        std::find_if(labels.begin(), labels.end(), [&](const auto& each) { return each.name == mark.label; });
+    data["all"].push_back(
+        {{"at", json_of(mark.place - middle)}, {"label", label - labels.begin()}, {"text", mark.text}});
+  }
+  return data;
+}
+
 void put_in(std::string& page, const std::string& place, const std::string& text) {
   page.replace(page.find(place), place.size(), text);
 }
@@ -152,7 +166,8 @@ bool has_three_js() {
   return !three_js().empty();
 }
 
-std::string page_of_view(const view_scene& scene, const view_part& part, const std::string& name) {
+std::string page_of_view(const view_scene& scene, const view_part& part, const std::string& name,
+                         const view_marks& marks) {
   json centres = json::array();
   for (const vec3 centre : scene.centres)
     centres.push_back(json_of(centre - scene.box.center()));
@@ -169,6 +184,7 @@ std::string page_of_view(const view_scene& scene, const view_part& part, const s
                   {"materials", json_of(scene.materials)},
                   {"centres", std::move(centres)},
                   {"angleColours", angle_colours()},
+                  {"marks", json_of(marks, scene.box.center())},
                   {"arrays", arrays_of(scene, part)}};
   // Names may be any bytes; a "<" in one must not end the script.
   std::string text = text_of_json(data, -1, true);

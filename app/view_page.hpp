@@ -3,6 +3,7 @@
 /// that show them by three.js.
 #pragma once
 
+#include "view_marks.hpp"
 #include "view_scene.hpp"
 
 #include <string>
@@ -13,6 +14,7 @@ namespace dovetail::app {
 bool has_three_js();
 
 /// The page with a part of a scene. `name`: of the mesh, any bytes.
-std::string page_of_view(const view_scene& scene, const view_part& part, const std::string& name);
+std::string page_of_view(const view_scene& scene, const view_part& part, const std::string& name,
+                         const view_marks& marks = {});
 
 } // namespace dovetail::app

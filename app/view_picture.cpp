@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail::app {
@@ -18,6 +21,8 @@ constexpr rgb outline_colour{45, 50, 60};
 constexpr rgb faint_outline{150, 155, 165};
 constexpr rgb inside{214, 208, 196}; ///< of elements where colours are of groups
 constexpr double shortest_edge = 5;  ///< in pixels
+constexpr double mark_radius = 5;    ///< in pixels, with the rim
+constexpr double mark_rim = 1.5;
 
 using polygon = std::vector<vec3>;
 
@@ -170,6 +175,44 @@ private:
   raster_scene filled_;
 };
 
+/// A disc with a dark rim, smooth at its edge; x and y in pixels.
+void draw_mark(raster_image& image, double x, double y, rgb colour) {
+  const double reach = mark_radius + 1;
+  if (!(x > -reach && x < image.width() + reach && y > -reach && y < image.height() + reach))
+    return; // also where a far place is no number of pixels
+  const auto mixed = [](rgb a, rgb b, double t) {
+    const auto part = [&](std::uint8_t from, std::uint8_t to) {
+      return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+    };
+    return rgb{part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
+  };
+  const auto range = [&](double middle, int size) {
+    return std::pair(std::max(0, static_cast<int>(middle - reach)),
+                     std::min(size - 1, static_cast<int>(middle + reach)));
+  };
+  const auto [left, right] = range(x, image.width());
+  const auto [top, bottom] = range(y, image.height());
+  for (int row = top; row <= bottom; ++row)
+    for (int column = left; column <= right; ++column) {
+      const double away = std::hypot(column + 0.5 - x, row + 0.5 - y);
+      rgb& pixel = image.at(column, row);
+      pixel = mixed(pixel, outline_colour, std::clamp(mark_radius + 0.5 - away, 0.0, 1.0));
+      pixel = mixed(pixel, colour, std::clamp(mark_radius - mark_rim + 0.5 - away, 0.0, 1.0));
+    }
+}
+
+/// The first ones last, since they matter most.
+void draw_marks(raster_image& image, const view_wishes& wishes, const raster_view& view) {
+  const double scale = image.height() / view.height;
+  for (auto mark = wishes.marks.all.rbegin(); mark != wishes.marks.all.rend(); ++mark) {
+    if (wishes.cut && dot(wishes.cut->normal, mark->place) > wishes.cut->place)
+      continue;
+    const vec3 d = mark->place - view.center;
+    draw_mark(image, 0.5 * image.width() + scale * dot(d, view.right),
+              0.5 * image.height() - scale * dot(d, view.up), mark->colour);
+  }
+}
+
 } // namespace
 
 raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes) {
@@ -179,7 +222,10 @@ raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes)
   std::erase_if(filled.lines, [&](const raster_line& line) {
     return line.width < 1 && distance(line.ends[0], line.ends[1]) < least;
   });
-  return render(filled, view, wishes.width, wishes.height, 3);
+  raster_image image = render(filled, view, wishes.width, wishes.height, 3);
+  if (wishes.explode == 0)
+    draw_marks(image, wishes, view);
+  return image;
 }
 
 std::size_t elements_under(const view_scene& scene, double degrees) {

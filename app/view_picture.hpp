@@ -4,6 +4,7 @@
 
 #include "raster_image.hpp"
 #include "raster_scene.hpp"
+#include "view_marks.hpp"
 #include "view_scene.hpp"
 
 #include <optional>
@@ -27,6 +28,7 @@ struct view_wishes {
   std::optional<double> under = {};   ///< degrees: only elements with smaller angles, in the outline
   double explode = 0;                 ///< how far pieces are moved, over their distance from the middle
   bool edges = true;                  ///< of elements; those of the outline are always drawn
+  view_marks marks = {};              ///< drawn over all else; none where pieces are moved away from them
 };
 
 /// Elements seen in part where a section cuts them. Edges of less than five pixels are left out, since they

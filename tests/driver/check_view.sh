@@ -5,7 +5,8 @@ driver=$1
 source "$(dirname "$0")/expectations.sh"
 
 write_cube >"$inputs/cube.off"
-expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --quiet
+expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --report run.json --quiet
+mv "$sandbox/work/run.json" "$inputs/run.json"
 mv "$sandbox/work/out" "$inputs/solid"
 expect_success mesh "$inputs/cube.off" --dimension 2 -s 0.25 --subdomains 2 --quiet
 mv "$sandbox/work/out" "$inputs/shell"
@@ -43,6 +44,33 @@ expect_success view "$inputs/solid" --png picture.png --no-edges --size 640x480
 cp "$sandbox/work/picture.png" "$inputs/plain.png"
 expect_success view "$inputs/solid" --png picture.png --size 640x480
 largest "$sandbox/work/picture.png" "$inputs/plain.png"
+
+# Marks: of the report of a run, or of one that has some.
+expect_success view "$inputs/solid" --png picture.png --size 640x480 --report "$inputs/run.json"
+grep -qE "run.json: (no marks|[0-9]+ marks?:)" "$sandbox/stdout" || fault "it is not said what is marked"
+[[ -s $sandbox/stderr ]] && fault "it warns"
+cat >"$inputs/marks.json" <<'JSON'
+{"poor_elements": {"thinnest wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}},
+ "interfaces": {"below_threshold": [{"angle_deg": 9.5, "of": "face", "cause": "forced", "at": [1, 0, 0.5], "cad": ["<face> 3"]}]}}
+JSON
+expect_success view "$inputs/solid" --png marked.png --size 640x480 --report "$inputs/marks.json"
+grep -q "marks.json: 2 marks: 1 thinnest wall (violet); 1 forced (red)$" "$sandbox/stdout" || fault "the marks are not counted"
+[[ -s $sandbox/stderr ]] && fault "it warns"
+cp "$sandbox/work/marked.png" "$inputs/marked.png"
+expect_success view "$inputs/solid" --png picture.png --size 640x480
+cmp -s "$sandbox/work/picture.png" "$inputs/marked.png" && fault "nothing is marked"
+sed 's/0.5, 0.5, 0.5/0.5, 0.5, 50/' "$inputs/marks.json" >"$inputs/far.json"
+expect_success view "$inputs/solid" --png picture.png --report "$inputs/far.json"
+grep -q "^warning: .*far.json: 1 of 2 marks are outside of the mesh" "$sandbox/stderr" || fault "it does not warn"
+printf '{}\n' >"$inputs/other.json"
+expect_success view "$inputs/solid" --png picture.png --report "$inputs/other.json"
+grep -q "other.json: no marks" "$sandbox/stdout" || fault "it is not said that there are none"
+sed 's/9.5/"9.5"/' "$inputs/marks.json" >"$inputs/text.json"
+expect_error 'text\.json: interfaces/below_threshold/0/angle_deg is no finite number; give' \
+  view "$inputs/solid" --png p.png --report "$inputs/text.json"
+for report in cube.off missing.json solid; do
+  expect_error "$report: it .*; give the JSON file" view "$inputs/solid" --png p.png --report "$inputs/$report"
+done
 
 # What is wrong is said before or instead of a file.
 printf 'no mesh at all\n' >"$inputs/text.vtu"
@@ -91,6 +119,9 @@ grep -qE "only .*of $elements elements inside, half of them the worst; see --mos
   fault "it is not said what is left out"
 grep -q "of $elements elements inside" "$sandbox/work/page.html" || fault "the page does not say what is left out"
 largest "$inputs/all.html" "$sandbox/work/page.html"
+expect_success view "$inputs/solid" -o page.html --report "$inputs/marks.json"
+grep -qF '"text":"9.5\u00b0 of a face, forced; CAD: \u003cface> 3"' "$sandbox/work/page.html" || fault "the page has no marks"
+expect_usage_error '--report' view "$inputs/solid" -o "$inputs/marks.json" --report "$inputs/marks.json"
 expect_error 'text\.vtu' view "$inputs/text.vtu" -o p.html
 expect_error 'nowhere' view "$inputs/solid" -o nowhere/p.html
 expect_usage_error 'MESH' view "$inputs/solid/mesh.msh" -o "$inputs/solid/mesh.msh"

@@ -81,4 +81,16 @@ cmp -s "$sandbox/shot.png" "$sandbox/plain.png" && fault "no piece has moved"
 shot "$page" "$plain&azimuth=0&elevation=90" # and seen along an axis, one side alone
 expect_shade $middle 108 164 216
 [[ $(pixel $middle) == "$(pixel 600,300)" ]] || fault "a plane side has two shades"
+
+# A mark in the middle of the mesh is over all that is before it.
+cat >"$inputs/run.json" <<'JSON'
+{"poor_elements": {"thinnest wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}}}
+JSON
+expect_success view "$inputs/cube" -o page.html --report "$inputs/run.json"
+cp "$sandbox/work/page.html" "$page"
+shot "$page" "$plain"
+expect_pixel $middle "150 50 200"
+expect_shade 650,350 108 164 216
+shot "$page" "$plain&marks=0"
+expect_shade $middle 108 164 216
 finish

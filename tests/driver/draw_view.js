@@ -7,7 +7,8 @@ const script = id => page.match(new RegExp(`<script id="${id}"[^>]*>([^]*?)</scr
 class stand_in {
   constructor(tag = "", attributes = "") {
     const said = name => (attributes.match(new RegExp(` ${name}="([^"]*)"`)) || [, ""])[1];
-    Object.assign(this, {tag, type: said("type"), value: said("value"), checked: / checked/.test(attributes), style: {}, listeners: {},
+    Object.assign(this, {tag, type: said("type"), value: said("value"), checked: / checked/.test(attributes),
+      open: / open/.test(attributes), style: {}, listeners: {},
       dataset: {from: said("data-from")}, children: [], textContent: "", width: 300, height: 150});
   }
   addEventListener(name, listener) { this.listeners[name] = listener; }
@@ -35,7 +36,7 @@ THREE.WebGLRenderer = class {
   render(scene, camera) { rendered.push({scene, camera}); }
 };
 const run = new Function("document", "location", "addEventListener", "requestAnimationFrame", "innerWidth", "innerHeight", "devicePixelRatio",
-  script("model") + script("show") + "return {layers, lines, state, eye, uniforms};");
+  script("model") + script("show") + "return {layers, lines, discs, state, eye, uniforms, onScreen};");
 const shown = run(document, {hash: "#edges=0"}, () => {}, frame => frames.push(frame), 800, 600, 1);
 
 const areaOf = ({geometry}) => {
@@ -92,6 +93,35 @@ for (const colours of ["piece", "material", "angle", "group"]) {
 }
 const canvas = document.body.children[0];
 canvas.setPointerCapture = () => {};
+const countMarks = name => { settle(); print(`marks.${name}`, shown.discs.geometry.attributes.position.count); };
+const told = ([x, y]) => {
+  canvas.listeners.pointermove({clientX: x, clientY: y});
+  return byId.mark.hidden ? "nothing" : byId.mark.textContent;
+};
+countMarks("all");
+print("marks.labels", byId.markLabels.children.map(({children}) => `${children[1]} ${children[0].style.background}`).join("; ") || "none");
+print("marks.control", byId.marked.hidden ? "hidden" : "shown");
+const [first] = JSON.parse(script("data")).marks.all;
+if (first) {
+  print("marks.last", Array.from(shown.discs.geometry.attributes.position.array.slice(-3)).join(","));
+  const [x, y] = shown.onScreen(first.at);
+  const {camera} = rendered[rendered.length - 1]; // which has to see the mark where it is looked for
+  camera.updateMatrixWorld();
+  const seen = new THREE.Vector3(...first.at).project(camera);
+  print("marks.offset", Math.hypot((seen.x + 1) * 400 - x, (1 - seen.y) * 300 - y));
+  print("marks.told", told([x + 3, y - 3]));
+  print("marks.beside", told([x + 9, y + 9]));
+}
+byId.cut.set({value: "x"});
+countMarks("cut");
+byId.cut.set({value: ""});
+byId.apart.set({value: 1});
+countMarks("apart");
+byId.apart.set({value: 0});
+byId.marks.set({checked: false});
+countMarks("none");
+byId.marks.set({checked: true});
+settle();
 const event = (x, y, more = {}) => ({pointerId: 1, clientX: x, clientY: y, buttons: 1, preventDefault() {}, ...more});
 const before = {...shown.eye};
 canvas.listeners.pointerdown(event(0, 0));

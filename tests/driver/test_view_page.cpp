@@ -17,9 +17,10 @@ using dovetail::testing::file_content;
 using dovetail::testing::scratch_folder;
 using dovetail::testing::write_content;
 
-std::string page_of(io::loaded_mesh mesh, std::int64_t most = 1000, const std::string& name = "a mesh") {
+std::string page_of(io::loaded_mesh mesh, std::int64_t most = 1000, const std::string& name = "a mesh",
+                    const view_marks& marks = {}) {
   const view_scene scene = scene_of(std::move(mesh));
-  return page_of_view(scene, part_that_fits(scene, most), name);
+  return page_of_view(scene, part_that_fits(scene, most), name, marks);
 }
 
 /// What draw_view.js says of a page, by key; empty without node or three.js.
@@ -103,6 +104,39 @@ TEST_CASE("triangles have groups as pieces, and no sections") {
   CHECK(values["under46.surface"] == "4");
   CHECK(values["without.surface"] == "2");
   CHECK(values["colour.group"] != values["colour.angle"]);
+}
+
+TEST_CASE("marks are discs where the report has them, and say what they are") {
+  view_marks marks{"run.json", {}};
+  marks.all.push_back({{0.5, 0.25, 1}, "forced", {220, 40, 40}, "3° of a </script>"});
+  marks.all.push_back({{1.75, 0.5, 0.5}, "remeshing", {30, 100, 225}, "9° of a face"});
+  marks.all.push_back({{2, 0.5, 0.5}, "forced", {220, 40, 40}, "20° of a face"});
+  auto values = drawn(page_of(testing::cubes_in_pieces(2), 1000, "a mesh", marks));
+  if (values.empty())
+    return;
+  CHECK(values["figures"].ends_with("2 pieces · 3 marks"));
+  CHECK(values["marks.all"] == "3");
+  CHECK(values["marks.labels"] == "forced #dc2828; remeshing #1e64e1");
+  CHECK(values["marks.control"] == "shown");
+  CHECK(values["marks.last"] == "-0.5,-0.25,0.5"); // drawn over the others, relative to the middle
+  CHECK(values["marks.offset"] == "0");
+  CHECK(values["marks.told"] == "3° of a </script>");
+  CHECK(values["marks.beside"] == "nothing");
+  CHECK(values["marks.cut"] == "1"); // what is nearer to the viewer, where x is larger, is taken away
+  CHECK(values["marks.apart"] == "0");
+  CHECK(values["marks.none"] == "0");
+}
+
+TEST_CASE("without marks there is no control for them; of a report without any the page says so") {
+  auto without = drawn(page_of(testing::cubes_in_pieces(2)));
+  auto empty = drawn(page_of(testing::cubes_in_pieces(2), 1000, "a mesh", {"run.json", {}}));
+  if (without.empty() || empty.empty())
+    return;
+  CHECK(without["marks.all"] == "0");
+  CHECK(without["marks.labels"] == "none");
+  CHECK(without["marks.control"] == "hidden");
+  CHECK(without["figures"].ends_with("2 pieces"));
+  CHECK(empty["figures"].ends_with("2 pieces · no marks in run.json"));
 }
 
 TEST_CASE("what was left out is said on the page") {

@@ -119,5 +119,53 @@ TEST_CASE("edges are dark where they are long enough to be seen") {
   CHECK(darkest() < 0.85 * without);
 }
 
+TEST_CASE("marks are discs with a dark rim, drawn over the mesh") {
+  const view_scene scene = scene_of(testing::row_of_cubes(2));
+  view_wishes wishes = from_front(view_colours::piece);
+  const raster_image without = picture_of_view(scene, wishes);
+  constexpr rgb red{220, 40, 40}, blue{30, 100, 225};
+  wishes.marks.all = {{{1, 0.75, 0.5}, "", red, ""}, {{1, 0.25, 0.5}, "", blue, ""}}; // one behind the other
+  const raster_image with = picture_of_view(scene, wishes);
+  for (const int x : {59, 60})
+    for (const int y : {29, 30})
+      CHECK(with.at(x, y) == red); // the first one is over the other
+  CHECK(with.at(64, 30).red < 90); // the rim
+  CHECK(with.at(70, 30) == without.at(70, 30));
+  const auto changed = [&](const raster_image& image) {
+    int count = 0;
+    for (int k = 0; k < 120 * 60; ++k)
+      count += image.data()[k] != without.data()[k];
+    return count;
+  };
+  CHECK(changed(with) > 70); // of 5 pixels radius
+  CHECK(changed(with) < 110);
+
+  wishes.marks.all = {{{0, 0, 1}, "", red, ""}}; // at a corner of the mesh, a part of the disc beside it
+  CHECK(changed(picture_of_view(scene, wishes)) > 60);
+  wishes.marks.all = {
+      {{1e308, 0, 0}, "", red, ""}, {{-1e308, 1e308, 1e308}, "", red, ""}, {{9, 9, 9}, "", red, ""}};
+  CHECK(changed(picture_of_view(scene, wishes)) == 0);
+}
+
+TEST_CASE("marks are cut with the mesh, and not drawn where its pieces are moved away from them") {
+  const view_scene scene = scene_of(testing::cubes_in_pieces(2));
+  view_wishes wishes = from_front(view_colours::piece);
+  constexpr rgb red{220, 40, 40};
+  const auto is_marked = [&] {
+    const raster_image image = picture_of_view(scene, wishes);
+    return std::find(image.data(), image.data() + image.width() * image.height(), red) !=
+           image.data() + image.width() * image.height();
+  };
+  wishes.marks.all = {{{1, 0.25, 0.5}, "", red, ""}};
+  CHECK(is_marked());
+  wishes.cut = view_plane{{0, -1, 0}, -0.5};
+  CHECK_FALSE(is_marked());
+  wishes.cut = view_plane{{0, -1, 0}, -0.125};
+  CHECK(is_marked());
+  wishes.cut.reset();
+  wishes.explode = 1;
+  CHECK_FALSE(is_marked());
+}
+
 } // namespace
 } // namespace dovetail::app
