@@ -87,9 +87,9 @@ concept contraction_rule = requires(const R& r, const dihedral_side& a, const di
 ///   judgement of a mesh without elements says
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
-/// sides unused. First the sides at coupled ridges are removed, then candidates, worst first; then, smallest
-/// dihedral first and measured across what was removed, of each dihedral that is too small one side. Where a
-/// removal would make a super-element too heavy the side is refused. All calls are pure functions.
+/// sides unused. Removed are first the sides at coupled ridges, then candidates, worst first, then one of the
+/// two sides of each dihedral that is too small, smallest first; dihedrals are measured across removed sides. A
+/// removal that would make a super-element too heavy is refused. All calls are pure functions.
 ///
 /// Complexity: linear in the mesh.
 ///

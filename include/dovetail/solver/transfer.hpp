@@ -23,16 +23,16 @@ std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::s
 
 /// A field that is constant in each element of `from`, as means over the elements of `to`. What each element
 /// had, its value times its volume (D = 2: area), is divided among those that it overlaps, by volume: the
-/// integral over the whole is kept to rounding, where a positive value stays positive, and, for the same
-/// domain, a constant constant. Where the boundary has moved, what is not covered counts as covered by the
-/// nearest element: values there are off by as much as the volume changed.
+/// integral over the whole is kept to rounding; a positive value stays positive, and, for the same
+/// domain, a constant field constant. Where the boundary has moved, what is not covered counts as covered by
+/// the nearest element: values there are off by as much as the volume changed.
 ///
 /// With tags in both meshes only elements of the same tag share, and what a tag had stays in it, as long as
 /// both meshes have the tag. For D = 2 on a curved surface overlaps are those of triangles projected to the
 /// new one's plane.
 ///
-/// `values` has `components` numbers for each element, one after the other, and so has the result. O(n log n
-/// + overlaps). Throws as `transferred_to_points`, and for an element of `to` without volume.
+/// `values` has `components` numbers for each element, one after the other, and so has the result. O(n log n)
+/// and linear in the overlaps. Throws as `transferred_to_points`, and for an element of `to` without volume.
 template <int D>
 std::vector<double> transferred_to_elements(const simplicial_mesh<D>& from, std::span<const double> values,
                                             const simplicial_mesh<D>& to, int components = 1);
