@@ -88,8 +88,8 @@ concept contraction_rule = requires(const R& r, const dihedral_side& a, const di
 ///
 /// Semantics: `sides` is `build_sides(mesh)`, and the judgement has one quality per side, those of fixed
 /// sides unused. Removed are first the sides at coupled ridges, then candidates, worst first, then one of the
-/// two sides of each dihedral that is too small, smallest first; dihedrals are measured across removed sides. A
-/// removal that would make a super-element too heavy is refused. All calls are pure functions.
+/// two sides of each dihedral that is too small, smallest first; dihedrals are measured across removed sides.
+/// A removal that would make a super-element too heavy is refused. All calls are pure functions.
 ///
 /// Complexity: linear in the mesh.
 ///
