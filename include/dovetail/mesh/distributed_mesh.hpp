@@ -177,7 +177,9 @@ using distributed_mesh = distributed_simplicial_mesh<3>; ///< a mesh of tetrahed
 /// is listed twice in a row.
 using sides_of_subdomains = compressed_rows<local_id>;
 
-/// Sorts the skeleton's sides by subdomain; linear. The skeleton names no others than `subdomains`.
+/// Sorts the skeleton's sides by subdomain. Linear. Throws nothing but for a lack of memory.
+/// \param skeleton names no other subdomains than these
+/// \param subdomains how many there are
 template <int D>
 sides_of_subdomains sort_by_subdomain(const simplicial_skeleton<D>& skeleton, std::size_t subdomains) {
   return sorted_into_rows<local_id>(subdomains, [&](const auto& put) {

@@ -17,6 +17,10 @@ namespace dovetail {
 ///
 ///     const auto next = whole_mesh(adapt<3>(model, mesh, sizes, policies));
 ///     u = transferred_to_points<3>(mesh.mesh, u, next.mesh.points);
+/// \param from the mesh that the field is on
+/// \param values `components` per point of `from`
+/// \param to the places where the field is wanted
+/// \param components numbers per point, 1 for a scalar
 template <int D>
 std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::span<const double> values,
                                           std::span<const vec3> to, int components = 1);
@@ -33,6 +37,10 @@ std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::s
 ///
 /// `values` has `components` numbers for each element, one after the other, and so has the result. O(n log n)
 /// and linear in the overlaps. Throws as `transferred_to_points`, and for an element of `to` without volume.
+/// \param from the mesh that the field is on
+/// \param values `components` per element of `from`
+/// \param to the mesh that the field is wanted on
+/// \param components numbers per element, 1 for a scalar
 template <int D>
 std::vector<double> transferred_to_elements(const simplicial_mesh<D>& from, std::span<const double> values,
                                             const simplicial_mesh<D>& to, int components = 1);
