@@ -53,18 +53,19 @@ json quality_json(const quality_statistics& quality, int dimension) {
             {"max_dihedral", quality.max_dihedrals.bins}}}};
 }
 
-/// Counts by cause; each tetrahedron under the low limit is in one of them.
+/// By cause; each tetrahedron under the low limit is counted once.
 json poor_elements_json(const poor_elements& poor) {
-  json causes = json::object();
+  json causes = json::array();
   for (std::size_t k = 0; k < poor_causes; ++k) {
     const auto cause = static_cast<poor_cause>(k);
-    causes[std::string(name_of(cause))] = {{"bad", poor.bad_by(cause)}, {"low", poor.low_by(cause)}};
+    causes.push_back({{"cause", name_of(cause)}, {"bad", poor.bad_by(cause)}, {"low", poor.low_by(cause)}});
   }
+  json thinnest;
   if (poor.bad_by(poor_cause::thin_wall) > 0) {
     const vec3 p = poor.thinnest_place;
-    causes["thinnest wall"] = {{"thickness", poor.thinnest_wall}, {"at", {p.x, p.y, p.z}}};
+    thinnest = {{"thickness", poor.thinnest_wall}, {"at", {p.x, p.y, p.z}}};
   }
-  return causes;
+  return {{"causes", causes}, {"thinnest_wall", thinnest}};
 }
 
 json small_angles_json(const std::vector<small_angle>& angles) {

@@ -1,15 +1,14 @@
 #include "view_marks.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/input_file.hpp"
+#include "dovetail/core/number_text.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <exception>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -29,6 +28,7 @@ constexpr named_colour colours[] = {{"forced", "red", {220, 40, 40}},
                                     {"remeshing", "blue", {30, 100, 225}},
                                     {"thinnest wall", "violet", {150, 50, 200}}};
 constexpr named_colour other_colour{"", "grey", {120, 120, 120}};
+constexpr const char* remedy = "; give the JSON file that 'dovetail mesh --report' has written";
 constexpr std::string_view of_coarse = ", coarse"; ///< ends the labels of what is no interface of the mesh
 
 const named_colour& colour_of(std::string_view what) {
@@ -42,12 +42,6 @@ rgb paler(rgb colour) {
   return {half(colour.red), half(colour.green), half(colour.blue)};
 }
 
-std::string short_text(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", number);
-  return text;
-}
-
 /// Takes a report apart; each step knows how it is reached, for messages.
 class mark_reader {
 public:
@@ -57,8 +51,8 @@ public:
     if (!document.is_object())
       fail("it is no JSON object");
     if (const json* poor = object_at(document, "", "poor_elements"))
-      if (const json* wall = object_at(*poor, "poor_elements", "thinnest wall"))
-        add_wall(*wall, "poor_elements/thinnest wall");
+      if (!poor->value("thinnest_wall", json()).is_null()) // as where no wall is thin
+        add_wall(*object_at(*poor, "poor_elements", "thinnest_wall"), "poor_elements/thinnest_wall");
     if (const json* interfaces = object_at(document, "", "interfaces")) {
       add_angles(*interfaces, "interfaces", false);
       if (const json* coarse = object_at(*interfaces, "interfaces", "coarse"))
@@ -67,9 +61,7 @@ public:
     return {file_, std::move(marks_)};
   }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw input_error(file_ + ": " + what + "; give the JSON file that 'dovetail mesh --report' has written");
-  }
+  [[noreturn]] void fail(const std::string& what) const { throw input_error(file_ + ": " + what + remedy); }
 
 private:
   /// Null where there is none, since other reports lack them.
@@ -107,8 +99,8 @@ private:
   void add_wall(const json& wall, const std::string& path) {
     const auto& [label, name, colour] = colour_of("thinnest wall");
     const double thickness = number(member(wall, path, "thickness"), path + "/thickness");
-    marks_.push_back(
-        {place(wall, path), std::string(label), colour, "thinnest wall, thickness " + short_text(thickness)});
+    marks_.push_back({place(wall, path), std::string(label), colour,
+                      "thinnest wall, thickness " + number_text(thickness, 4)});
   }
   void add_angles(const json& interfaces, const std::string& path, bool coarse) {
     const auto listed = interfaces.find("below_threshold");
@@ -125,7 +117,7 @@ private:
       fail(path + " is no object");
     const std::string& cause = text(member(angle, path, "cause"), path + "/cause");
     const double degrees = number(member(angle, path, "angle_deg"), path + "/angle_deg");
-    std::string said = short_text(degrees) + "° of a " + text(member(angle, path, "of"), path + "/of") +
+    std::string said = number_text(degrees, 4) + "° of a " + text(member(angle, path, "of"), path + "/of") +
                        ", " + cause + (coarse ? std::string(of_coarse) : "");
     const json& cad = member(angle, path, "cad");
     if (!cad.is_array())
@@ -154,11 +146,9 @@ view_marks marks_of_report(const std::filesystem::path& report) {
   mark_reader reader(report.string());
   std::string text;
   try {
-    std::ifstream file(report, std::ios::binary);
-    file.exceptions(std::ios::failbit | std::ios::badbit);
-    text.assign(std::istreambuf_iterator<char>(file), {});
-  } catch (const std::ios_base::failure&) {
-    reader.fail("it cannot be read");
+    text = read_file(report);
+  } catch (const input_error& problem) {
+    throw input_error(std::string(problem.what()) + remedy);
   }
   json document;
   try {

@@ -5,8 +5,8 @@ At a size that gives the wanted number of elements it runs `dovetail mesh` with 
 the boundary of the resulting mesh at the same size; and Gmsh's command line on the same model and size. It prints a
 table of each and the ratios, as markdown. All programs run one after the other; the machine should be idle.
 
-With --mesher hxt the pieces are meshed by HXT, nothing is written, and the whole command is compared with Gmsh's own
-with HXT and two threads, at the size that gives it the same number of elements within 5 %. Gmsh writes its mesh, but
+With --against-hxt nothing is written, and the whole command, by whatever --mesher, is compared with Gmsh's own with HXT
+and two threads, at the size that gives it the same number of elements within 5 %. Gmsh writes its mesh, but
 the time between its messages that it begins and that it has done so is taken off. Its quality is that of the file,
 measured by `dovetail stats`; dovetail's is that of its own report. With --repeat N the two commands take turns N
 times, and the medians of their wall and processor seconds are compared: what a machine does besides hits both.
@@ -102,7 +102,7 @@ def run_dovetail(driver, model, size, workers, out, options):
 
 def driver_options(options):
     return (["--mesher", options.mesher] if options.mesher else []) + \
-        (["--format", "none"] if options.mesher == "hxt" else []) + options.driver_options
+        (["--format", "none"] if options.against_hxt else []) + options.driver_options
 
 
 def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
@@ -281,7 +281,7 @@ def main():
     parser.add_argument("--size", type=float, help="instead of --elements")
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
-    parser.add_argument("--mesher", help="of `dovetail mesh`; hxt: as --against-hxt")
+    parser.add_argument("--mesher", help="of `dovetail mesh`; hxt implies --against-hxt")
     parser.add_argument("--against-hxt", action="store_true", help="whole commands, in turns with Gmsh's own with HXT")
     parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --against-hxt")
     parser.add_argument("--repeat", type=int, default=1, help="turns of each command with --against-hxt")
@@ -291,6 +291,7 @@ def main():
     end = words.index("--") if "--" in words else len(words)
     options = parser.parse_args(words[:end])
     options.driver_options = words[end + 1:]
+    options.against_hxt |= options.mesher == "hxt"
     driver = os.path.join(options.build, "app", "dovetail")
     with tempfile.TemporaryDirectory(prefix="dovetail_pipeline_") as folder:
         size = options.size or find_size(driver, options.model, options.elements, folder, options.limit)
@@ -301,7 +302,7 @@ def main():
         sys.stdout.flush()
         if options.alone:
             return
-        if options.against_hxt or options.mesher == "hxt":
+        if options.against_hxt:
             elements = runs[max(runs)]["elements"]
             gmsh = find_gmsh()
             gmsh_size, gmsh_result = gmsh_with_as_many(driver, gmsh, size, elements, options, folder)

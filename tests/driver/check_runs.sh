@@ -86,6 +86,21 @@ tr -d ' \n' <"$sandbox/work/report.json" | sed 's/"coarse":.*//' >"$sandbox/list
 grep -qE '"cause":"forced","at":\[[^]]*\],"cad":\["curve[^]]*"face[^]]*"face' "$sandbox/listing" ||
   fault "no forced angle is listed with its curve and faces"
 [[ $(figure repeatable) == true ]] || fault "not repeatable"
+low_by() { tr -d ' \n' <"$sandbox/work/report.json" | sed "s/.*\"cause\":\"$1\",\"bad\":[0-9]*,\"low\":\([0-9]*\).*/\1/"; }
+(($(low_by angleofthemodel) > 0)) || fault "no element is in the sharp angle"
+
+# A wall far thinner than the size: elements across it are bad, which is said once, with the place; a cube has none.
+write_cube | sed 's/^\([01] [01]\) 1$/\1 0.02/' >"$inputs/plate.off"
+expect_success mesh "$inputs/plate.off" --size 0.12 --format none --report report.json
+(($(low_by thinwall) > 0)) || fault "no element is in the thin wall"
+grep -qE '^warning: [0-9]+ tetrahedra under 12 degrees .* thick at \(' "$sandbox/stdout" ||
+  fault "no word on the thin wall"
+grep -qE '^  Thin wall +[0-9,]+ \([1-9][0-9,]*\)$' "$sandbox/stdout" || fault "the summary has no elements of the wall"
+tr -d ' \n' <"$sandbox/work/report.json" | grep -qE '"thinnest_wall":\{"thickness":0\.0[12][0-9]*,"at":\[0\.[^]]*\]\}' ||
+  fault "how thin it is is not told"
+mesh --size 0.3 --format none
+grep -q "by cause\|thinner" "$sandbox/stdout" && fault "a cube has elements of low quality"
+[[ $(figure thinnest_wall) == null ]] || fault "a cube has a thin wall"
 
 # Every policy that has a name works.
 mesh --size 0.15 --subdomains 3 --partitioner greedy --improver none --files 1 --quiet

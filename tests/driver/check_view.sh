@@ -50,7 +50,7 @@ expect_success view "$inputs/solid" --png picture.png --size 640x480 --report "$
 grep -qE "run.json: (no marks|[0-9]+ marks?:)" "$sandbox/stdout" || fault "it is not said what is marked"
 [[ -s $sandbox/stderr ]] && fault "it warns"
 cat >"$inputs/marks.json" <<'JSON'
-{"poor_elements": {"thinnest wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}},
+{"poor_elements": {"thinnest_wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}},
  "interfaces": {"below_threshold": [{"angle_deg": 9.5, "of": "face", "cause": "forced", "at": [1, 0, 0.5], "cad": ["<face> 3"]}]}}
 JSON
 expect_success view "$inputs/solid" --png marked.png --size 640x480 --report "$inputs/marks.json"
@@ -68,8 +68,8 @@ grep -q "other.json: no marks" "$sandbox/stdout" || fault "it is not said that t
 sed 's/9.5/"9.5"/' "$inputs/marks.json" >"$inputs/text.json"
 expect_error 'text\.json: interfaces/below_threshold/0/angle_deg is no finite number; give' \
   view "$inputs/solid" --png p.png --report "$inputs/text.json"
-for report in cube.off missing.json solid; do
-  expect_error "$report: it .*; give the JSON file" view "$inputs/solid" --png p.png --report "$inputs/$report"
+for wrong in "cube.off: it is not valid JSON.*" "missing.json: there is no such file" "solid: this is not a file"; do
+  expect_error "$wrong; give the JSON file" view "$inputs/solid" --png p.png --report "$inputs/${wrong%%:*}"
 done
 
 # What is wrong is said before or instead of a file.

@@ -84,7 +84,7 @@ expect_shade $middle 108 164 216
 
 # A mark in the middle of the mesh is over all that is before it.
 cat >"$inputs/run.json" <<'JSON'
-{"poor_elements": {"thinnest wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}}}
+{"poor_elements": {"thinnest_wall": {"thickness": 0.1, "at": [0.5, 0.5, 0.5]}}}
 JSON
 expect_success view "$inputs/cube" -o page.html --report "$inputs/run.json"
 cp "$sandbox/work/page.html" "$page"

@@ -36,7 +36,7 @@ std::string with_angles(const std::string& list) {
 
 const std::string whole = R"({
   "model": "wing",
-  "poor_elements": {"thin wall": {"bad": 3, "low": 9}, "thinnest wall": {"thickness": 0.0125, "at": [7, 8, 9]}},
+  "poor_elements": {"causes": [{"cause": "thin wall", "bad": 3, "low": 9}], "thinnest_wall": {"thickness": 0.0125, "at": [7, 8, 9]}},
   "interfaces": {
     "min_face_angle_deg": null,
     "below_threshold": [
@@ -75,9 +75,10 @@ TEST_CASE("marks of one label have one colour, and other labels another one") {
 }
 
 TEST_CASE("a report that lists no places has no marks") {
-  for (const char* text : {"{}", R"({"quality": {"worst_element": 7}, "elements": 12})",
-                           R"({"interfaces": {}})", R"({"poor_elements": {"inside": {"bad": 0, "low": 0}}})",
-                           R"({"interfaces": {"below_threshold": [], "coarse": {"below_threshold": []}}})"}) {
+  for (const char* text :
+       {"{}", R"({"quality": {"worst_element": 7}, "elements": 12})", R"({"interfaces": {}})",
+        R"({"poor_elements": {"causes": [], "thinnest_wall": null}})",
+        R"({"interfaces": {"below_threshold": [], "coarse": {"below_threshold": []}}})"}) {
     CHECK_MESSAGE(read(text).all.empty(), text);
     CHECK(text_of(read(text)).starts_with("no marks"));
   }
@@ -85,7 +86,6 @@ TEST_CASE("a report that lists no places has no marks") {
 
 TEST_CASE("what is no report is refused, by the file's name and what is wrong") {
   const std::pair<std::string, std::string> refused[] = {
-      {"", "it is not valid JSON"},
       {"no report", "it is not valid JSON"},
       {whole.substr(0, whole.size() / 2), "it is not valid JSON"},
       {"{\"model\": \"\xff\"}", "it is not valid JSON"},
@@ -99,11 +99,11 @@ TEST_CASE("what is no report is refused, by the file's name and what is wrong") 
       {R"({"interfaces": {"coarse": {"below_threshold": {}}}})",
        "interfaces/coarse/below_threshold is no list"},
       {R"({"poor_elements": "many"})", "poor_elements is no object"},
-      {R"({"poor_elements": {"thinnest wall": 0.1}})", "poor_elements/thinnest wall is no object"},
-      {R"({"poor_elements": {"thinnest wall": {"at": [1, 2, 3]}}})", "thinnest wall has no \"thickness\""},
-      {R"({"poor_elements": {"thinnest wall": {"thickness": null, "at": [1, 2, 3]}}})",
+      {R"({"poor_elements": {"thinnest_wall": 0.1}})", "poor_elements/thinnest_wall is no object"},
+      {R"({"poor_elements": {"thinnest_wall": {"at": [1, 2, 3]}}})", "thinnest_wall has no \"thickness\""},
+      {R"({"poor_elements": {"thinnest_wall": {"thickness": null, "at": [1, 2, 3]}}})",
        "thickness is no finite number"},
-      {R"({"poor_elements": {"thinnest wall": {"thickness": 1}}})", "thinnest wall has no \"at\""}};
+      {R"({"poor_elements": {"thinnest_wall": {"thickness": 1}}})", "thinnest_wall has no \"at\""}};
   for (const auto& [text, why] : refused) {
     const std::string said = refusal_of(text);
     CHECK_MESSAGE(said.find("run.json: ") != std::string::npos, said);
@@ -150,10 +150,12 @@ TEST_CASE("an angle that is not as reports have it is refused by its number") {
   }
 }
 
-TEST_CASE("a file that is not there, or is a folder, is refused") {
+TEST_CASE("a file that is not there, is empty or a folder, is refused") {
   const scratch_folder folder("view_marks");
   CHECK_THROWS_AS(static_cast<void>(marks_of_report(folder / "missing.json")), input_error);
   CHECK_THROWS_AS(static_cast<void>(marks_of_report(folder / "")), input_error);
+  CHECK(refusal_of("").ends_with(
+      "run.json: the file is empty; give the JSON file that 'dovetail mesh --report' has written"));
 }
 
 TEST_CASE("marks far from the mesh are counted") {

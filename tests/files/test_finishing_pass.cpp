@@ -1,3 +1,4 @@
+#include "dovetail/core/encoding.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/files/concepts.hpp"
 #include "dovetail/files/finishing_pass.hpp"
@@ -12,9 +13,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,6 +33,10 @@ const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter =
 
 io::vtu_writer vtu(int files = 0, const std::string& stem = "mesh") {
   return {.files = files, .stem = stem};
+}
+
+std::int64_t all_low(const poor_elements& poor) {
+  return std::accumulate(poor.low.begin(), poor.low.end(), std::int64_t{0});
 }
 
 /// Writes where there is no folder.
@@ -210,6 +217,42 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   CHECK(pieces.loads == std::vector<local_id>{4, 5});
   CHECK(pieces.gone.size() == 8);
   CHECK(testing::content_of(folder / "out") == testing::content_of(folder / "expected"));
+}
+
+TEST_CASE("elements of low quality are counted by every executor, and where pieces are taken over") {
+  const testing::scratch_folder folder("finish_poor");
+  const auto flattened = [](distributed_mesh mesh) {
+    for (vec3& p : mesh.skeleton.points.own())
+      p.z *= 0.1;
+    mesh.load = [load = mesh.load](local_id piece_number) {
+      auto piece = load(piece_number);
+      for (vec3& p : piece.mesh.points)
+        p.z *= 0.1;
+      return piece;
+    };
+    return mesh;
+  };
+  const auto counted = [&](const distributed_mesh& mesh, const any_executor& run_tasks,
+                           bool release = false) {
+    return io::finish_mesh<3>(mesh, {vtu(4)}, folder / "out", run_tasks, {.release = release});
+  };
+  const auto expected = counted(flattened(cubes.distributed()), parallel::serial{});
+  CHECK(all_low(expected.poor) == expected.quality.min_dihedrals.below(low_dihedral_deg));
+  REQUIRE(all_low(expected.poor) > 0);
+  const auto by_processes = counted(flattened(cubes.distributed()), parallel::processes{.worker_count = 2});
+  CHECK(encoded(by_processes.poor) == encoded(expected.poor));
+
+  store pieces;
+  auto interrupted = flattened(pieces.mesh());
+  interrupted.load = [load = interrupted.load](local_id p) {
+    if (p == 5)
+      throw io_error("a damaged file");
+    return load(p);
+  };
+  CHECK_THROWS_AS(counted(interrupted, parallel::serial{}, true), io_error);
+  const auto resumed = counted(flattened(pieces.mesh()), parallel::serial{}, true);
+  CHECK(resumed.summary.get("taken_over") > 0);
+  CHECK(encoded(resumed.poor) == encoded(expected.poor));
 }
 
 TEST_CASE("an MSH file is put together from the parts of pieces, also by workers and after an interruption") {

@@ -40,12 +40,10 @@ struct poor_elements {
   double thinnest_wall = std::numeric_limits<double>::infinity(); ///< least height of those in thin walls
   vec3 thinnest_place{};                                          ///< where that is
 
-  std::int64_t bad_by(poor_cause cause) const {
-    return bad[static_cast<std::size_t>(cause)];
-  } ///< of one cause
-  std::int64_t low_by(poor_cause cause) const {
-    return low[static_cast<std::size_t>(cause)];
-  } ///< of one cause
+  /// The bad ones of one cause.
+  std::int64_t bad_by(poor_cause cause) const { return bad[static_cast<std::size_t>(cause)]; }
+  /// Those of low quality of one cause, the bad ones too.
+  std::int64_t low_by(poor_cause cause) const { return low[static_cast<std::size_t>(cause)]; }
   /// Adds those of another piece. The result does not depend on the order.
   void merge(const poor_elements& other);
 
