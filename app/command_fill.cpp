@@ -97,12 +97,13 @@ void print_filled(const filling_options& options, const filled_surface& made) {
   for (const filled_region& region : made.regions)
     volume += region.volume;
   std::printf("Filled %s\n", options.input.c_str());
-  row("No. of triangles, each one kept", made.summary.get("triangles"));
-  row("No. of regions", made.summary.get("regions"));
-  row("No. of voids", made.summary.get("voids"));
+  const auto counts = made.summary.as<fill_counts>();
+  row("No. of triangles, each one kept", static_cast<double>(counts.triangles));
+  row("No. of regions", static_cast<double>(counts.regions));
+  row("No. of voids", static_cast<double>(counts.voids));
   row("Volume", volume, "%.6g");
   row("No. of tetrahedra", static_cast<double>(made.quality.elements));
-  row("No. of vertices", made.summary.get("points"));
+  row("No. of vertices", static_cast<double>(counts.points));
   row("Minimum dihedral angle (degrees)", made.quality.min_dihedral_deg, "%.3f");
   row("Maximum dihedral angle (degrees)", made.quality.max_dihedral_deg, "%.3f");
   row("Bad (under 12) per million", made.quality.per_million_under(limits_of(3).bad), "%.1f");

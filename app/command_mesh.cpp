@@ -120,16 +120,15 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
       if (part.name == "deviation")
         figures.deviation = part;
   figures.failed_subdomains = static_cast<std::int64_t>(result.failures.size());
-  const report& intersection = summary.find("intersection");
-  figures.merges =
-      static_cast<std::int64_t>(intersection.get("merges") + intersection.get("merged_after_failure"));
-  figures.largest_merged = static_cast<std::int64_t>(intersection.get("largest_merged", 1));
+  const auto intersection = summary.find("intersection").as<intersection_counts>();
+  figures.merges = intersection.merges + intersection.merged_after_failure;
+  figures.largest_merged = intersection.largest_merged;
   const stage_seconds before = figures.seconds;
   figures.seconds = seconds_of_stages(summary);
   figures.seconds.geometry = before.geometry;
   figures.seconds.scaling = before.scaling;
-  figures.peak_rss_bytes = std::max(
-      figures.peak_rss_bytes, static_cast<std::uint64_t>(summary.find("meshing").get("peak_rss_bytes")));
+  figures.peak_rss_bytes =
+      std::max(figures.peak_rss_bytes, summary.find("meshing").as<meshing_counts>().peak_rss_bytes);
 }
 
 template <int D>
@@ -411,7 +410,7 @@ private:
     figures_.poor = finished.poor;
     warn_of_thin_walls();
     figures_.peak_rss_bytes =
-        std::max(figures_.peak_rss_bytes, static_cast<std::uint64_t>(finished.summary.get("peak_rss_bytes")));
+        std::max(figures_.peak_rss_bytes, finished.summary.as<io::finishing_counts>().peak_rss_bytes);
     figures_.details.children.push_back(finished.summary);
     std::vector<std::string> names;
     for (const report& part : figures_.details.children)

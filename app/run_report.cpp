@@ -4,6 +4,7 @@
 
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/core/version.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -96,9 +97,12 @@ json interfaces_json(const interface_figures& interfaces) {
 
 json deviation_json(const report& deviation) {
   json faces = json::array();
-  for (const report& face : deviation.children)
-    faces.push_back({{"face", face.name}, {"points", face.get("points")}, {"centres", face.get("centres")}});
-  return {{"points", deviation.get("points")}, {"centres", deviation.get("centres")}, {"faces", faces}};
+  for (const report& face : deviation.children) {
+    const surface_deviation found = deviation_in(face);
+    faces.push_back({{"face", face.name}, {"points", found.points}, {"centres", found.centres}});
+  }
+  const surface_deviation largest = deviation_in(deviation);
+  return {{"points", largest.points}, {"centres", largest.centres}, {"faces", faces}};
 }
 
 json details_json(const report& details) {

@@ -171,8 +171,9 @@ void add_poor_elements(table& rows, const poor_elements& poor) {
 
 void add_deviation(table& rows, const report& deviation) {
   rows.heading("Largest distance from the CAD (in units of the local size)");
-  rows.row("Of points", "%.2g", deviation.get("points"));
-  rows.row("Of centres of triangles", "%.2g", deviation.get("centres"));
+  const surface_deviation largest = deviation_in(deviation);
+  rows.row("Of points", "%.2g", largest.points);
+  rows.row("Of centres of triangles", "%.2g", largest.centres);
 }
 
 void add_quality(table& rows, const quality_statistics& quality, int dimension) {

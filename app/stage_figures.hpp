@@ -6,6 +6,7 @@
 #include "run_figures.hpp"
 
 #include "dovetail/core/failure_reasons.hpp"
+#include "dovetail/experiments/baselines/labelled_elements.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 
@@ -27,8 +28,9 @@ inline stage_seconds seconds_of_stages(const report& summary) {
   seconds.intersection = summary.find("intersection").seconds;
   seconds.bisection = summary.find("recursive bisection").seconds;
   const report& meshing = summary.find("meshing");
-  const double improver = meshing.get("improver_seconds");
-  const double both = meshing.get("mesher_seconds") + improver;
+  const auto counts = meshing.as<meshing_counts>();
+  const double improver = counts.improver_seconds;
+  const double both = counts.mesher_seconds + improver;
   seconds.improvement = both > 0 ? meshing.seconds * improver / both : 0;
   seconds.meshing = meshing.seconds - seconds.improvement;
   seconds.fine_partition = summary.find("fine partition").seconds;
@@ -44,8 +46,9 @@ inline void add_passes(const report& improvement, run_figures& figures) {
   for (const char* between : {"collection", "redistribution"}) {
     const report& part = improvement.find(between);
     figures.seconds.between_passes += part.seconds;
-    figures.elements_between_passes += static_cast<std::int64_t>(part.get("elements"));
-    figures.largest_over_mean += part.get("largest_over_mean");
+    const auto moved = part.as<baselines::moved_counts>();
+    figures.elements_between_passes += moved.elements;
+    figures.largest_over_mean += moved.largest_over_mean;
   }
   figures.seconds.second_pass = improvement.find("second pass").seconds;
   figures.seconds.writing_back = improvement.find("writing back").seconds;

@@ -105,12 +105,13 @@ int main(int argc, char** argv) {
               static_cast<long long>(plain.result.quality.elements), plain.result.mesh.counts.size(),
               plain.seconds, plain.processor_seconds);
   const auto compare = [&](const char* what, const timed_run& with) {
-    const report& meshing = with.result.summary.children.back();
+    const auto meshing = with.result.summary.find("meshing").as<meshing_counts>();
+    const auto intersection = with.result.summary.find("intersection").as<intersection_counts>();
     std::printf(
-        "%s: %+.1f %% (processors %+.1f %%); %.0f meshed again, %.0f merged, %.0f of %zu found again\n", what,
+        "%s: %+.1f %% (processors %+.1f %%); %zu meshed again, %d merged, %zu of %zu found again\n", what,
         100 * (with.seconds / plain.seconds - 1),
-        100 * (with.processor_seconds / plain.processor_seconds - 1), meshing.get("retried"),
-        meshing.get("merged_after_failure"), meshing.get("reused"), with.result.mesh.counts.size());
+        100 * (with.processor_seconds / plain.processor_seconds - 1), meshing.retried,
+        intersection.merged_after_failure, meshing.reused, with.result.mesh.counts.size());
   };
   compare("one piece fails once", again);
   compare("one piece always fails", merged);

@@ -214,9 +214,7 @@ inline mesher_result<3> cgal_mesh_3::operator()(const mesher_input<3>& input, co
   check_elements_positive(result.mesh);
   result.summary.name = "cgal_mesh_3";
   result.summary.seconds = clock.seconds();
-  result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  result.summary.set("points", static_cast<double>(result.mesh.points.size()));
-  result.summary.set("sizing_calls", static_cast<double>(calls));
+  result.summary.set(mesher_counts{result.mesh.elements.size(), result.mesh.points.size(), calls});
   return result;
 }
 

@@ -178,9 +178,8 @@ inline mesher_result<3> mesh_with_gmsh(const gmsh_settings& settings, const mesh
   check_mesher_result(input, result.mesh);
   result.summary.name = settings.name;
   result.summary.seconds = clock.seconds();
-  result.summary.set("sizing_calls", static_cast<double>(answer.sizing_calls));
-  result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  result.summary.set("points", static_cast<double>(result.mesh.points.size()));
+  result.summary.set(
+      mesher_counts{result.mesh.elements.size(), result.mesh.points.size(), answer.sizing_calls});
   return result;
 }
 

@@ -246,9 +246,7 @@ inline mesher_result<3> tetgen::operator()(const mesher_input<3>& input, const a
   check_mesher_result(input, result.mesh);
   result.summary.name = "tetgen";
   result.summary.seconds = clock.seconds();
-  result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  result.summary.set("points", static_cast<double>(result.mesh.points.size()));
-  result.summary.set("sizing_calls", static_cast<double>(sizing.calls()));
+  result.summary.set(mesher_counts{result.mesh.elements.size(), result.mesh.points.size(), sizing.calls()});
   return result;
 }
 

@@ -31,6 +31,22 @@ struct coarse_surface_result {
   report summary; ///< what was counted on the way
 };
 
+/// What is counted of a coarse surface.
+struct coarse_surface_counts {
+  std::size_t triangles = 0;
+  std::size_t points = 0;
+  double min_angle_deg = 0;
+  double mean_min_angle_deg = 0; ///< of the smallest angles of triangles
+  int rounds = 0;                ///< of refinement where faces failed
+  std::size_t size_balls = 0;    ///< of `coarse_surface_result::bounds`
+  int refinement_rounds = 0;     ///< by `coarse_surface_parameters::finer_at`
+
+  using fields = field_list<&coarse_surface_counts::triangles, &coarse_surface_counts::points,
+                            &coarse_surface_counts::min_angle_deg, &coarse_surface_counts::mean_min_angle_deg,
+                            &coarse_surface_counts::rounds, &coarse_surface_counts::size_balls,
+                            &coarse_surface_counts::refinement_rounds>;
+};
+
 /// Parameters of `coarse_surface`.
 struct coarse_surface_parameters {
   double turn = 0.785398163397448; ///< largest turn of curve and surface per edge, in radians (45 degrees)

@@ -46,7 +46,9 @@ public:
       const std::vector<size_ball> places =
           parameters_.finer_at ? parameters_.finer_at(result) : std::vector<size_ball>{};
       if (places.empty()) {
-        result.summary.set("refinement_rounds", refinements);
+        auto counts = result.summary.as<coarse_surface_counts>();
+        counts.refinement_rounds = refinements;
+        result.summary.set(counts);
         result.summary.seconds = clock.seconds();
         return result;
       }
@@ -256,13 +258,14 @@ private:
       least = std::min(least, angle);
       angle_sum += angle;
     }
-    const auto triangles = static_cast<double>(result.surface.mesh.elements.size());
-    result.summary.set("triangles", triangles);
-    result.summary.set("points", static_cast<double>(result.surface.mesh.points.size()));
-    result.summary.set("min_angle_deg", least);
-    result.summary.set("mean_min_angle_deg", triangles > 0 ? angle_sum / triangles : 0);
-    result.summary.set("rounds", rounds);
-    result.summary.set("size_balls", static_cast<double>(bounds_.size()));
+    const std::size_t triangles = result.surface.mesh.elements.size();
+    result.summary.set(coarse_surface_counts{
+        .triangles = triangles,
+        .points = result.surface.mesh.points.size(),
+        .min_angle_deg = least,
+        .mean_min_angle_deg = triangles > 0 ? angle_sum / static_cast<double>(triangles) : 0,
+        .rounds = rounds,
+        .size_balls = bounds_.size()});
   }
 
   const any_geometry& model_;

@@ -21,6 +21,17 @@ struct coarse_volume_options {
   progress on_progress = {}; ///< told how solids come along
 };
 
+/// What is counted of a coarse volume mesh.
+struct coarse_volume_counts {
+  std::size_t elements = 0;
+  std::size_t points = 0;
+  double min_dihedral_deg = 0;
+  bool one_by_one = false; ///< solids were filled one after the other
+
+  using fields = field_list<&coarse_volume_counts::elements, &coarse_volume_counts::points,
+                            &coarse_volume_counts::min_dihedral_deg, &coarse_volume_counts::one_by_one>;
+};
+
 /// A coarse volume mesh.
 struct coarse_volume_result {
   simplicial_mesh<3> mesh;    ///< the surface's points first, unchanged; tags are solids

@@ -177,10 +177,10 @@ DOVETAIL_INLINE coarse_volume_result fill_solids(const surface_mesh& surface,
   result.quality = made.quality;
   result.summary.name = "coarse volume";
   result.summary.seconds = clock.seconds();
-  result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  result.summary.set("points", static_cast<double>(result.mesh.points.size()));
-  result.summary.set("min_dihedral_deg", result.quality.min_dihedral_deg);
-  result.summary.set("one_by_one", one_by_one ? 1 : 0);
+  result.summary.set(coarse_volume_counts{.elements = result.mesh.elements.size(),
+                                          .points = result.mesh.points.size(),
+                                          .min_dihedral_deg = result.quality.min_dihedral_deg,
+                                          .one_by_one = one_by_one});
   result.summary.warnings = made.summary.warnings;
   result.summary.children.push_back(std::move(made.summary));
   return result;

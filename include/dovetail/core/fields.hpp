@@ -1,8 +1,10 @@
 /// @file
-/// One description of the fields of a type, from which its bytes follow (`core/encoding.hpp`).
+/// One description of the fields of a type, from which its bytes follow (`core/encoding.hpp`), and the
+/// counters of a report (`core/report.hpp`).
 #pragma once
 
 #include <concepts>
+#include <string_view>
 #include <type_traits>
 
 namespace dovetail {
@@ -21,6 +23,20 @@ struct is_field_list<field_list<Members...>> : std::true_type {};
 template <class T, class Visit, auto... Members>
 constexpr void visit_fields(T& item, const Visit& visit, field_list<Members...>) {
   (visit(item.*Members), ...);
+}
+
+/// The name of a member, which g++ and clang tell of a template's argument: "... Member = &type::name; ...".
+template <auto Member>
+consteval std::string_view field_name() {
+  std::string_view name = __PRETTY_FUNCTION__;
+  name.remove_prefix(name.rfind("Member = ") + 9);
+  name = name.substr(0, name.find_first_of(";]"));
+  return name.substr(name.rfind(':') + 1);
+}
+
+template <class T, class Visit, auto... Members>
+constexpr void visit_named_fields(T& item, const Visit& visit, field_list<Members...>) {
+  (visit(field_name<Members>(), item.*Members), ...);
 }
 
 } // namespace detail
@@ -42,6 +58,13 @@ template <class T, class Visit>
   requires has_fields<std::remove_const_t<T>>
 constexpr void for_each_field(T& item, const Visit& visit) {
   detail::visit_fields(item, visit, typename std::remove_const_t<T>::fields{});
+}
+
+/// Calls `visit(name, field)` for each field of `item`, in the order of their list.
+template <class T, class Visit>
+  requires has_fields<std::remove_const_t<T>>
+constexpr void for_each_named_field(T& item, const Visit& visit) {
+  detail::visit_named_fields(item, visit, typename std::remove_const_t<T>::fields{});
 }
 
 } // namespace dovetail

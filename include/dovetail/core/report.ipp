@@ -2,6 +2,7 @@
 /// What `report.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 
@@ -16,6 +17,17 @@ DOVETAIL_INLINE void report::set(const std::string& key, double value) {
       return;
     }
   counters.push_back({key, value});
+}
+
+DOVETAIL_INLINE double report::get(const std::string& key) const {
+  std::string known;
+  for (const auto& [name_of, value] : counters) {
+    if (name_of == key)
+      return value;
+    known += (known.empty() ? " " : ", ") + name_of;
+  }
+  throw usage_error("the report '" + name + "' has no counter '" + key + "'; it has" +
+                    (known.empty() ? " none" : known));
 }
 
 DOVETAIL_INLINE double report::get(const std::string& key, double otherwise) const {
@@ -37,7 +49,7 @@ DOVETAIL_INLINE const report& report::find(const std::string& part) const {
 }
 
 DOVETAIL_INLINE double stops_by_clock(const report& made) {
-  double stops = made.get("stops_by_clock");
+  double stops = made.as<clock_counts>().stops_by_clock;
   for (const report& part : made.children)
     stops += stops_by_clock(part);
   return stops;

@@ -56,6 +56,27 @@ struct decomposition {
                  &decomposition::non_manifold_edges, &decomposition::summary>;
 };
 
+/// What is counted of a decomposition.
+struct partition_counts {
+  local_id subdomains = 0;
+  local_id components = 0;                 ///< of the graph, within materials
+  double imbalance = 0;                    ///< the heaviest subdomain over the average
+  double cut_of_partitioner = 0;           ///< weight of the sides between parts as the partitioner made them
+  double cut = 0;                          ///< likewise of what became of them
+  std::size_t joined_strays = 0;           ///< parts of subdomains that were not connected with the rest
+  std::size_t repaired_super_elements = 0; ///< moved so that boundaries are manifold
+  std::size_t refined_super_elements = 0;  ///< moved so that the cut is less
+  int non_manifold_edges = 0;
+  std::size_t non_manifold_points = 0;
+
+  using fields =
+      field_list<&partition_counts::subdomains, &partition_counts::components, &partition_counts::imbalance,
+                 &partition_counts::cut_of_partitioner, &partition_counts::cut,
+                 &partition_counts::joined_strays, &partition_counts::repaired_super_elements,
+                 &partition_counts::refined_super_elements, &partition_counts::non_manifold_edges,
+                 &partition_counts::non_manifold_points>;
+};
+
 namespace detail {
 
 /// The super-elements of a mesh as they are partitioned: within materials, each component on its own.

@@ -165,16 +165,16 @@ decomposition decomposition_into(const simplicial_mesh<D>& mesh, const side_tabl
 
   report& summary = result.summary;
   summary.name = "partition";
-  summary.set("subdomains", result.parts);
-  summary.set("components", whole.components.count);
-  summary.set("imbalance", imbalance_of(graph, result.part_of_super, result.parts));
-  summary.set("cut_of_partitioner", cut);
-  summary.set("cut", edge_cut(graph, result.part_of_super));
-  summary.set("joined_strays", static_cast<double>(joined));
-  summary.set("repaired_super_elements", static_cast<double>(repaired));
-  summary.set("refined_super_elements", static_cast<double>(refined));
-  summary.set("non_manifold_edges", result.non_manifold_edges);
-  summary.set("non_manifold_points", static_cast<double>(result.defective_points.size()));
+  summary.set(partition_counts{.subdomains = result.parts,
+                               .components = whole.components.count,
+                               .imbalance = imbalance_of(graph, result.part_of_super, result.parts),
+                               .cut_of_partitioner = cut,
+                               .cut = edge_cut(graph, result.part_of_super),
+                               .joined_strays = joined,
+                               .repaired_super_elements = repaired,
+                               .refined_super_elements = refined,
+                               .non_manifold_edges = result.non_manifold_edges,
+                               .non_manifold_points = result.defective_points.size()});
   if (!result.defective_points.empty())
     summary.warnings.push_back("subdomain boundaries are not manifold at " +
                                std::to_string(result.defective_points.size()) +

@@ -37,6 +37,31 @@ namespace dovetail {
 
 namespace detail {
 
+/// What is counted of elements that changed their ranks, beside `redistribution_counts`.
+struct migration_counts {
+  local_id super_elements = 0;
+  std::size_t seams_before = 0;    ///< sides between pieces, inside solids
+  std::size_t seams_after = 0;     ///< of these, those that still are
+  std::size_t interface_sides = 0; ///< sides between pieces now
+  std::size_t cut_pieces = 0;      ///< whose elements went to several ranks
+  bool depends_on_ranks = false;   ///< another number of ranks gives other parts
+
+  using fields = field_list<&migration_counts::super_elements, &migration_counts::seams_before,
+                            &migration_counts::seams_after, &migration_counts::interface_sides,
+                            &migration_counts::cut_pieces, &migration_counts::depends_on_ranks>;
+};
+
+/// The angles of the new interfaces.
+struct seam_angle_counts {
+  double min_face_angle_deg = 0;
+  double min_dihedral_deg = 0;
+  std::size_t small_angles = 0;
+  std::size_t avoidable_angles = 0;
+
+  using fields = field_list<&seam_angle_counts::min_face_angle_deg, &seam_angle_counts::min_dihedral_deg,
+                            &seam_angle_counts::small_angles, &seam_angle_counts::avoidable_angles>;
+};
+
 /// Joins what is stray within a component of the graph; a part may have a share of several components.
 inline void join_strays_within(const csr_graph& graph, const labelled_components& components,
                                std::vector<local_id>& part) {
@@ -128,7 +153,7 @@ private:
     tasks_.exchange(keys_);
     joined_ = join_supers<D>(mesh_.skeleton, pieces, given_.seam_weight);
     report done{"simplification", clock.seconds(), {}, {}, {}};
-    done.set("super_elements", joined_.graph.node_count());
+    done.set(simplification_counts{.super_elements = joined_.graph.node_count()});
     summary_.children.push_back(std::move(done));
   }
 
@@ -214,32 +239,32 @@ private:
     std::vector<std::set<std::array<local_id, 2>>> shares(static_cast<std::size_t>(ranks_));
     for (std::size_t s = 0; s < rank_of_super_.size(); ++s)
       shares[index(rank_of_super_[s])].insert({of_all.of_node[s], of_ranks.of_node[s]});
-    described.set("disconnected_ranks",
-                  static_cast<double>(std::count_if(shares.begin(), shares.end(), [](const auto& of_rank) {
-                    return std::adjacent_find(of_rank.begin(), of_rank.end(),
-                                              [](const auto& a, const auto& b) { return a[0] == b[0]; }) !=
-                           of_rank.end();
-                  })));
+    auto counts = described.template as<redistribution_counts>();
+    counts.disconnected_ranks = std::count_if(shares.begin(), shares.end(), [](const auto& of_rank) {
+      return std::adjacent_find(of_rank.begin(), of_rank.end(),
+                                [](const auto& a, const auto& b) { return a[0] == b[0]; }) != of_rank.end();
+    });
+    described.set(counts);
     const auto is_seam = [](const simplicial_skeleton<D>& skeleton, std::size_t s) {
       return skeleton.side_hosts[s] == no_id && skeleton.subdomains[s][1] != no_id;
     };
     const auto count_seams = [&](const simplicial_skeleton<D>& skeleton) {
-      double count = 0;
+      std::size_t count = 0;
       for (std::size_t s = 0; s < skeleton.sides.size(); ++s)
         count += is_seam(skeleton, s) ? 1 : 0;
       return count;
     };
-    described.set("super_elements", joined_.graph.node_count());
-    described.set("seams_before", count_seams(mesh_.skeleton));
-    described.set("seams_after", static_cast<double>(migrated_.seams));
-    described.set("interface_sides", count_seams(migrated_.mesh->skeleton));
-    described.set("cut_pieces", static_cast<double>(migrated_.cut_pieces));
-    described.set("depends_on_ranks", given_.partitioner.depends_on_ranks() ? 1 : 0);
+    described.set(migration_counts{.super_elements = joined_.graph.node_count(),
+                                   .seams_before = count_seams(mesh_.skeleton),
+                                   .seams_after = migrated_.seams,
+                                   .interface_sides = count_seams(migrated_.mesh->skeleton),
+                                   .cut_pieces = migrated_.cut_pieces,
+                                   .depends_on_ranks = given_.partitioner.depends_on_ranks()});
     if (given_.partitioner.depends_on_ranks())
       described.warnings.push_back(named_policy("partitioner", given_.partitioner.name()) +
                                    " gives other parts on another number of ranks: the mesh is the same up "
                                    "to meshing, what each rank of the solver gets is not");
-    if (const double imbalance = described.get("imbalance"); imbalance > given_.imbalance)
+    if (const double imbalance = counts.imbalance; imbalance > given_.imbalance)
       described.warnings.push_back("the largest rank has " + number_text(imbalance, 4) +
                                    " times the average of elements, more than the " +
                                    number_text(given_.imbalance, 4) +
@@ -254,10 +279,10 @@ private:
     const interface_angles angles =
         measure_skeleton_angles(migrated_.mesh->skeleton, wanted_angles_of<3>(given_.simplify_by),
                                 migrated_.avoided, {}, mesh_state::valid);
-    to.set("min_face_angle_deg", angles.face_angle.angle_deg);
-    to.set("min_dihedral_deg", angles.min_dihedral_deg());
-    to.set("small_angles", static_cast<double>(angles.violations.size()));
-    to.set("avoidable_angles", static_cast<double>(angles.count(violation_cause::remeshing)));
+    to.set(seam_angle_counts{.min_face_angle_deg = angles.face_angle.angle_deg,
+                             .min_dihedral_deg = angles.min_dihedral_deg(),
+                             .small_angles = angles.violations.size(),
+                             .avoidable_angles = angles.count(violation_cause::remeshing)});
   }
 
   const distributed_simplicial_mesh<D>& mesh_;

@@ -18,12 +18,21 @@
 
 namespace dovetail {
 
+/// What is counted of improving pieces.
+struct improvement_counts {
+  std::size_t pieces = 0;      ///< that were improved
+  global_id elements = 0;      ///< of these, before
+  double improver_seconds = 0; ///< summed over the pieces
+
+  using fields = field_list<&improvement_counts::pieces, &improvement_counts::elements,
+                            &improvement_counts::improver_seconds>;
+};
+
 /// A mesh whose pieces were improved.
 struct improved_pieces {
-  distributed_mesh mesh;      ///< with the improved pieces
-  quality_statistics quality; ///< of all of it
-  /// "pieces", "elements" of those that were improved, before, "improver_seconds" over all workers
-  report summary;
+  distributed_mesh mesh;              ///< with the improved pieces
+  quality_statistics quality;         ///< of all of it
+  report summary;                     ///< `improvement_counts`
   std::vector<local_id> piece_before; ///< per piece: which it was; there may be fewer now
 };
 

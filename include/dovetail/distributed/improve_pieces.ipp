@@ -70,12 +70,13 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
     return options.only.empty() ||
            std::binary_search(options.only.begin(), options.only.end(), static_cast<local_id>(p));
   };
+  improvement_counts counts;
   std::vector<global_id> sizes;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
     sizes.push_back(mesh.counts[p].elements);
     if (chosen(p)) {
-      result.summary.add("pieces", 1);
-      result.summary.add("elements", static_cast<double>(sizes.back()));
+      ++counts.pieces;
+      counts.elements += sizes.back();
     }
   }
   tasks.run(
@@ -86,20 +87,22 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         if (chosen(p))
           detail::improve_inside(piece, mesh.skeleton, sides[static_cast<local_id>(p)], improve, size);
         const double seconds = time.seconds();
-        piece_counts counts = mesh.counts[p];
-        counts.elements = static_cast<global_id>(piece.mesh.elements.size());
-        counts.inner_points = static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size());
+        piece_counts of_piece = mesh.counts[p];
+        of_piece.elements = static_cast<global_id>(piece.mesh.elements.size());
+        of_piece.inner_points =
+            static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size());
         key_maker make;
-        return std::tuple(seconds, counts, measure_quality(piece.mesh),
+        return std::tuple(seconds, of_piece, measure_quality(piece.mesh),
                           tasks.keep_by_content(make(static_cast<std::int64_t>(p)), piece));
       },
       [&](std::size_t p, std::tuple<double, piece_counts, quality_statistics, kept_value> improved) {
-        result.summary.add("improver_seconds", std::get<0>(improved));
+        counts.improver_seconds += std::get<0>(improved);
         result.mesh.counts[p] = std::get<1>(improved);
         result.mesh.quality[p] = std::get<2>(improved);
         (*keys)[p] = store->take(std::move(std::get<3>(improved)));
       });
   tasks.exchange(*keys);
+  result.summary.set(counts);
   result.quality = quality_of_whole(result.mesh);
   result.mesh.load = [store, keys](local_id p) {
     return store->value<mesh_piece>(keys->at(static_cast<std::size_t>(p)));

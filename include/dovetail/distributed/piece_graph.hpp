@@ -52,9 +52,25 @@ csr_graph piece_graph(const distributed_simplicial_mesh<D>& mesh) {
   return graph;
 }
 
-/// Counters: ranks, pieces, elements of the largest and the smallest rank, imbalance (largest over average),
-/// sides between ranks, the most neighbours that a rank shares a side with, and ranks whose pieces are not
-/// connected by sides.
+/// What is counted of pieces given to ranks.
+struct redistribution_counts {
+  int ranks = 0;
+  local_id pieces = 0;
+  double largest_rank = 0;  ///< its elements
+  double smallest_rank = 0; ///< its elements
+  double imbalance = 0;     ///< largest over average
+  double sides_between_ranks = 0;
+  std::size_t most_neighbours = 0;     ///< that a rank shares a side with
+  std::int64_t disconnected_ranks = 0; ///< whose pieces are not connected by sides
+
+  using fields =
+      field_list<&redistribution_counts::ranks, &redistribution_counts::pieces,
+                 &redistribution_counts::largest_rank, &redistribution_counts::smallest_rank,
+                 &redistribution_counts::imbalance, &redistribution_counts::sides_between_ranks,
+                 &redistribution_counts::most_neighbours, &redistribution_counts::disconnected_ranks>;
+};
+
+/// `redistribution_counts` of pieces given to ranks.
 inline report describe_redistribution(const csr_graph& pieces, const std::vector<local_id>& rank, int ranks) {
   report summary;
   summary.name = "redistribution";
@@ -71,16 +87,16 @@ inline report describe_redistribution(const csr_graph& pieces, const std::vector
   std::vector<std::set<local_id>> of_rank(static_cast<std::size_t>(ranks));
   for (std::size_t p = 0; p < rank.size(); ++p)
     of_rank[static_cast<std::size_t>(rank[p])].insert(components.of_node[p]);
-  summary.set("ranks", ranks);
-  summary.set("pieces", pieces.node_count());
-  summary.set("largest_rank", *std::max_element(weights.begin(), weights.end()));
-  summary.set("smallest_rank", *std::min_element(weights.begin(), weights.end()));
-  summary.set("imbalance", imbalance_of(pieces, rank, ranks));
-  summary.set("sides_between_ranks", edge_cut(pieces, rank));
-  summary.set("most_neighbours", static_cast<double>(most));
-  summary.set("disconnected_ranks",
-              static_cast<double>(std::count_if(of_rank.begin(), of_rank.end(),
-                                                [](const auto& parts) { return parts.size() > 1; })));
+  summary.set(redistribution_counts{
+      .ranks = ranks,
+      .pieces = pieces.node_count(),
+      .largest_rank = *std::max_element(weights.begin(), weights.end()),
+      .smallest_rank = *std::min_element(weights.begin(), weights.end()),
+      .imbalance = imbalance_of(pieces, rank, ranks),
+      .sides_between_ranks = edge_cut(pieces, rank),
+      .most_neighbours = most,
+      .disconnected_ranks =
+          std::count_if(of_rank.begin(), of_rank.end(), [](const auto& parts) { return parts.size() > 1; })});
   return summary;
 }
 

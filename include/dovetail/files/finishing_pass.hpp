@@ -26,12 +26,22 @@ struct finishing_options {
   progress on_progress = {};  ///< told how the pieces come along
 };
 
+/// What is counted of the pass.
+struct finishing_counts {
+  std::size_t tasks = 0;
+  std::size_t taken_over = 0; ///< of these, from a run before
+  double peak_rss_bytes = 0;  ///< of the largest worker
+
+  using fields =
+      field_list<&finishing_counts::tasks, &finishing_counts::taken_over, &finishing_counts::peak_rss_bytes>;
+};
+
 /// What the pass found.
 struct finished_mesh {
   std::uint64_t hash = 0;     ///< as `mesh_hash`
   quality_statistics quality; ///< `worst_element` is a global number
   poor_elements poor;         ///< in D = 3, by their causes
-  report summary;             ///< "tasks", "taken_over", "peak_rss_bytes"; a child per writer
+  report summary;             ///< `finishing_counts`; a child per writer
 };
 
 /// One task per file, or per piece without writers: loads its pieces one after the other, checks each as

@@ -92,8 +92,7 @@ public:
       else
         left.push_back(r);
     finished_mesh result;
-    result.summary.set("tasks", static_cast<double>(ranges() + others_.size() + counts_.size()));
-    result.summary.set("taken_over", static_cast<double>(ranges() - left.size()));
+    finishing_counts counted{ranges() + others_.size() + counts_.size(), ranges() - left.size()};
     for (std::size_t k = 0; k < others_.size(); ++k)
       left.push_back(ranges() + k);
 
@@ -115,7 +114,8 @@ public:
     for (std::size_t k = 0; k < left.size(); ++k)
       if (left[k] < ranges())
         found[left[k]] = done[k];
-    result.summary.set("peak_rss_bytes", peak_rss_bytes_);
+    counted.peak_rss_bytes = peak_rss_bytes_;
+    result.summary.set(counted);
 
     mesh_hasher hash = skeleton_hash_;
     for (const auto& pieces : found) {

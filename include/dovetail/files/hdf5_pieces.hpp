@@ -310,9 +310,7 @@ struct hdf5_writer {
         bytes += move_file(unfinished / name, folder / name);
       remove_stale_files(folder, stem, extension, sources);
       sync_to_disk(folder);
-      summary.set("elements", static_cast<double>(tables->numbers.elements()));
-      summary.set("bytes", static_cast<double>(bytes));
-      summary.set("files", static_cast<double>(summary.files.size()));
+      summary.set(written_counts{tables->numbers.elements(), bytes, summary.files.size()});
       return summary;
     };
     return output;

@@ -53,9 +53,7 @@ piecewise_output<D> begin_msh(const distributed_simplicial_mesh<D>& mesh,
     const auto bytes = move_file(whole, folder / name);
     sync_to_disk(folder);
     report summary{"msh", 0, {}, {}, {}, {name}};
-    summary.set("elements", static_cast<double>(shared->numbers.elements()));
-    summary.set("bytes", static_cast<double>(bytes));
-    summary.set("files", 1);
+    summary.set(written_counts{shared->numbers.elements(), bytes, 1});
     return summary;
   };
   return output;

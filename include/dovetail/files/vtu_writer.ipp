@@ -269,9 +269,7 @@ piecewise_output<D> vtu_writer::begin(const distributed_simplicial_mesh<D>& mesh
     remove_stale_files(folder, stem, ".vtu", sources);
     sync_to_disk(folder);
 
-    summary.set("elements", static_cast<double>(shared->numbers.elements()));
-    summary.set("bytes", static_cast<double>(bytes));
-    summary.set("files", static_cast<double>(summary.files.size()));
+    summary.set(written_counts{shared->numbers.elements(), bytes, summary.files.size()});
     return summary;
   };
   return output;

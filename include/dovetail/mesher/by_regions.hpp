@@ -50,7 +50,7 @@ struct by_regions {
                       result.corner_uv.push_back(uv);
                     });
     }
-    result.summary.set("regions", static_cast<double>(input.regions.size()));
+    result.summary.set(mesher_counts{mesh.elements.size(), mesh.points.size()});
     result.summary.children.push_back(std::move(deviation));
     result.summary.seconds = clock.seconds();
     return result;

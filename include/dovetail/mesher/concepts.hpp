@@ -52,6 +52,15 @@ struct mesher_result<2> {
   std::vector<std::array<vec2, 3>> corner_uv = {}; ///< per triangle: parameters on its face; may be empty
 };
 
+/// What a mesher counts of its result.
+struct mesher_counts {
+  std::size_t elements = 0;
+  std::size_t points = 0;
+  std::optional<std::int64_t> sizing_calls = {}; ///< how often the field was asked, where it is known
+
+  using fields = field_list<&mesher_counts::elements, &mesher_counts::points, &mesher_counts::sizing_calls>;
+};
+
 /// The role `piece_mesher<M, D>`: fill the inside of a closed boundary with elements.
 ///
 /// Valid expressions for `const M& m`, `const mesher_input<D>& in`, `const any_sizing& h`:

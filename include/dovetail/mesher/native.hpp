@@ -7,6 +7,20 @@
 
 namespace dovetail::mesher {
 
+/// What is counted of a recovery, beside `mesher_counts`.
+struct native_counts {
+  std::size_t missing_edges = 0;           ///< of the boundary, in the Delaunay tetrahedrization
+  std::size_t missing_triangles = 0;       ///< once the edges were there
+  std::size_t recovery_splits = 0;         ///< edges and triangles divided for a while
+  std::size_t recovery_points = 0;         ///< points more that are left
+  std::size_t recovery_points_removed = 0; ///< that are in no element again
+  std::size_t recovery_operations = 0;     ///< elements visited and places compared
+
+  using fields = field_list<&native_counts::missing_edges, &native_counts::missing_triangles,
+                            &native_counts::recovery_splits, &native_counts::recovery_points,
+                            &native_counts::recovery_points_removed, &native_counts::recovery_operations>;
+};
+
 /// A model of `boundary_keeping_mesher<3>` that needs no library and runs in threads.
 ///
 /// Points of a lattice graded by the sizes are inserted together with those of the boundary; what the

@@ -38,15 +38,14 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
 
   result.summary.name = "native";
   result.summary.seconds = clock.seconds();
-  result.summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  result.summary.set("points", static_cast<double>(result.mesh.points.size()));
-  result.summary.set("missing_edges", static_cast<double>(recovered.missing_edges));
-  result.summary.set("missing_triangles", static_cast<double>(recovered.missing_triangles));
-  result.summary.set("recovery_splits", static_cast<double>(recovered.splits));
-  result.summary.set("recovery_points",
-                     static_cast<double>(recovered.added_points - recovered.removed_points));
-  result.summary.set("recovery_points_removed", static_cast<double>(recovered.removed_points));
-  result.summary.set("recovery_operations", static_cast<double>(recovered.operations));
+  result.summary.set(mesher_counts{result.mesh.elements.size(), result.mesh.points.size()});
+  result.summary.set(
+      native_counts{.missing_edges = recovered.missing_edges,
+                            .missing_triangles = recovered.missing_triangles,
+                            .recovery_splits = recovered.splits,
+                            .recovery_points = recovered.added_points - recovered.removed_points,
+                            .recovery_points_removed = recovered.removed_points,
+                            .recovery_operations = recovered.operations});
   return result;
 }
 

@@ -14,9 +14,10 @@ DOVETAIL_INLINE report brief(const report& piece) {
   report kept;
   kept.seconds = piece.seconds;
   kept.warnings = piece.warnings;
-  kept.set("attempt", piece.get("attempt"));
+  auto counts = piece.as<attempt_counts>();
   if (const double stops = stops_by_clock(piece); stops > 0)
-    kept.set("stops_by_clock", stops);
+    counts.stops_by_clock = stops;
+  kept.set(counts);
   for (const report& part : piece.children) {
     report& child = kept.children.emplace_back();
     child.name = part.name;

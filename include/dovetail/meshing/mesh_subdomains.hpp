@@ -55,6 +55,24 @@ struct meshing_options {
   progress on_progress = {}; ///< told how the subdomains come along
 };
 
+/// What is counted of meshing.
+struct meshing_counts {
+  global_id elements = 0;
+  global_id inner_points = 0;
+  std::size_t reused = 0;           ///< pieces found in the store
+  std::size_t retried = 0;          ///< subdomains whose first attempt failed
+  std::size_t failed = 0;           ///< those that no attempt could mesh
+  double stops_by_clock = 0;        ///< of pieces that a time limit has left to another attempt
+  std::uint64_t peak_rss_bytes = 0; ///< of the largest worker
+  double mesher_seconds = 0;        ///< summed over the pieces
+  double improver_seconds = 0;      ///< likewise
+
+  using fields = field_list<&meshing_counts::elements, &meshing_counts::inner_points, &meshing_counts::reused,
+                            &meshing_counts::retried, &meshing_counts::failed,
+                            &meshing_counts::stops_by_clock, &meshing_counts::peak_rss_bytes,
+                            &meshing_counts::mesher_seconds, &meshing_counts::improver_seconds>;
+};
+
 /// What became of the subdomains.
 template <int D>
 struct meshed_pieces {
@@ -70,9 +88,7 @@ struct meshed_pieces {
       release; ///< of `distributed_simplicial_mesh`, with a spool
   /// The note that was left in place of a piece that was given up.
   std::function<std::optional<piece_note>(local_id)> released;
-  report summary; ///< "elements", "inner_points", "reused" (pieces found in the store), "retried", "failed",
-                  ///< "stops_by_clock" (of pieces that a time limit has left to another attempt),
-                  ///< "peak_rss_bytes", and the sums over workers "mesher_seconds" and "improver_seconds"
+  report summary; ///< `meshing_counts`
 };
 
 using meshing_result = meshed_pieces<3>; ///< that of tetrahedra

@@ -107,7 +107,7 @@ private:
       if (!accept(pending_[k], results[k]))
         failed.push_back(std::move(pending_[k]));
     if (attempt == 0)
-      result_.summary.set("retried", static_cast<double>(failed.size()));
+      counts_.retried = failed.size();
     pending_ = std::move(failed);
   }
 
@@ -125,15 +125,13 @@ private:
 
   /// Takes one result; false when the subdomain failed.
   bool accept(piece_failure& piece, task_result<typename kept_pieces<D>::receipt>& result) {
-    report& summary = result_.summary;
-    summary.set("peak_rss_bytes",
-                std::max(summary.get("peak_rss_bytes"), static_cast<double>(result.peak_rss_bytes)));
+    counts_.peak_rss_bytes = std::max(counts_.peak_rss_bytes, result.peak_rss_bytes);
     if (!result.value) {
       piece.reasons.push_back(result.failure);
       piece.timed_out = piece.timed_out || result.timed_out;
       return false;
     }
-    summary.add("reused", result.value->is_reused ? 1 : 0);
+    counts_.reused += result.value->is_reused ? 1 : 0;
     piece_summary& made = result_.pieces[static_cast<std::size_t>(piece.subdomain)];
     made = std::move(result.value->summary);
     made.summary.name = piece_name(piece.subdomain);
@@ -151,24 +149,25 @@ private:
   void summarize() {
     report& summary = result_.summary;
     summary.name = "meshing";
-    summary.set("failed", static_cast<double>(result_.failures.size()));
+    counts_.failed = result_.failures.size();
     global_id first_element = 0;
     report deviation;
     for (const piece_summary& piece : result_.pieces) {
       result_.quality.merge(piece.quality, first_element);
       first_element += piece.counts.elements;
-      summary.add("elements", static_cast<double>(piece.counts.elements));
-      summary.add("inner_points", static_cast<double>(piece.counts.inner_points));
-      summary.add("stops_by_clock", stops_by_clock(piece.summary));
+      counts_.elements += piece.counts.elements;
+      counts_.inner_points += piece.counts.inner_points;
+      counts_.stops_by_clock += stops_by_clock(piece.summary);
       collect_warnings(piece.summary, piece.summary.name);
       for (const report& part : piece.summary.children) {
-        summary.add(part.name + "_seconds", part.seconds);
+        (part.name == "mesher" ? counts_.mesher_seconds : counts_.improver_seconds) += part.seconds;
         collect_warnings(part, piece.summary.name);
         for (const report& child : part.children)
           if (child.name == "deviation")
             merge_deviations(deviation, child);
       }
     }
+    summary.set(counts_);
     warn_of_deviations(summary, deviation);
     if (!deviation.children.empty())
       summary.children.push_back(std::move(deviation));
@@ -187,6 +186,7 @@ private:
   std::function<std::vector<local_id>(local_id)> skeleton_points_;
   std::shared_ptr<kept_pieces<D>> pieces_;
   std::vector<piece_failure> pending_;
+  meshing_counts counts_;
   meshed_pieces<D> result_;
 };
 

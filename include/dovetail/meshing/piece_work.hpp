@@ -35,11 +35,19 @@ struct piece_input {
 
 using subdomain_input = piece_input<3>; ///< that of tetrahedra
 
+/// What is counted of a piece besides what its mesher and improver count.
+struct attempt_counts {
+  std::size_t attempt = 0;                   ///< 0 unless it failed at first
+  std::optional<double> stops_by_clock = {}; ///< of the attempts before, where there were any
+
+  using fields = field_list<&attempt_counts::attempt, &attempt_counts::stops_by_clock>;
+};
+
 /// What is known of a finished piece without loading it.
 struct piece_summary {
   piece_counts counts;        ///< how large it is
   quality_statistics quality; ///< of its elements
-  report summary; ///< children "mesher" and "improver"; counter "attempt": 0 unless it failed at first
+  report summary;             ///< `attempt_counts`; children "mesher" and "improver"
 
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
@@ -155,7 +163,10 @@ finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, co
                         [&] { return mesh_checked<D>(input.boundary, mesh_it, size); });
   piece_summary summary;
   summary.summary.name = piece_name(subdomain);
-  summary.summary.set("attempt", static_cast<double>(failed.size()));
+  attempt_counts attempt{failed.size()};
+  if (stopped_by_clock)
+    attempt.stops_by_clock = 1;
+  summary.summary.set(attempt);
   summary.summary.children.push_back(std::move(made.summary));
   if (improve != nullptr && is_given(*improve))
     summary.summary.children.push_back(by_policy("improver", policy_name(*improve), [&] {
@@ -164,8 +175,6 @@ finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, co
   if (!failed.empty())
     summary.summary.warnings.push_back((improve != nullptr ? "meshed after " : "left unimproved after ") +
                                        joined_reasons(failed));
-  if (stopped_by_clock)
-    summary.summary.set("stops_by_clock", 1);
   summary.counts.material = input.boundary.material;
   summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());
   summary.counts.inner_points =

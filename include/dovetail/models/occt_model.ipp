@@ -25,6 +25,17 @@ namespace dovetail {
 
 namespace occt {
 
+/// How many entities a shape has.
+struct entity_counts {
+  std::size_t solids = 0;
+  std::size_t faces = 0;
+  std::size_t curves = 0;
+  std::size_t vertices = 0;
+
+  using fields = field_list<&entity_counts::solids, &entity_counts::faces, &entity_counts::curves,
+                            &entity_counts::vertices>;
+};
+
 /// Calls `evaluate`; a failure inside OCCT becomes a `geometry_error` that names the entity.
 template <class Query>
 auto query(const char* kind, local_id id, Query&& evaluate) -> decltype(evaluate()) {
@@ -192,10 +203,10 @@ DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape inp
   const occt::silenced quiet;
   occt::brep data = occt::guarded(source, [&] { return occt::healed_brep(std::move(input), made, what); });
   made.warnings.insert(made.warnings.end(), data.warnings.begin(), data.warnings.end());
-  made.set("solids", static_cast<double>(data.topology.solids.size()));
-  made.set("faces", static_cast<double>(data.topology.faces.size()));
-  made.set("curves", static_cast<double>(data.topology.curves.size()));
-  made.set("vertices", static_cast<double>(data.topology.vertices.size()));
+  made.set(occt::entity_counts{.solids = data.topology.solids.size(),
+                               .faces = data.topology.faces.size(),
+                               .curves = data.topology.curves.size(),
+                               .vertices = data.topology.vertices.size()});
   occt_model model(std::move(data));
   made.seconds = watch.seconds();
   return {std::move(model), std::move(made)};

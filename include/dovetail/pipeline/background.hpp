@@ -97,6 +97,20 @@ element_prediction predict_mesh(const surface_mesh& surface, const geometry_topo
 template <int D>
 any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>& bounds);
 
+/// What is counted of a background mesh.
+struct background_counts {
+  double predicted_elements = 0; ///< of the mesh that is wanted
+  double coarse_scale = 0;       ///< factor between coarse and final size
+  double size_scale = 0;         ///< by which the sizes were enlarged
+  std::size_t elements = 0;      ///< of the background mesh
+  double stops_by_clock = 0;
+  std::optional<int> kept = {}; ///< 1: it was found in the spool
+
+  using fields = field_list<&background_counts::predicted_elements, &background_counts::coarse_scale,
+                            &background_counts::size_scale, &background_counts::elements,
+                            &background_counts::stops_by_clock, &background_counts::kept>;
+};
+
 /// A background mesh, and what it was made by.
 template <int D>
 struct background_result {

@@ -302,11 +302,11 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
     result.summary.warnings.push_back("the sizes were enlarged by a factor of " +
                                       number_text(result.plan.size_scale, 3) + ", for about " +
                                       number_text(result.plan.predicted_elements, 3) + " elements");
-  result.summary.set("predicted_elements", result.plan.predicted_elements);
-  result.summary.set("coarse_scale", result.plan.coarse_scale);
-  result.summary.set("size_scale", result.plan.size_scale);
-  result.summary.set("elements", static_cast<double>(result.mesh.elements().elements.size()));
-  result.summary.set("stops_by_clock", watch.stops());
+  result.summary.set(background_counts{.predicted_elements = result.plan.predicted_elements,
+                                       .coarse_scale = result.plan.coarse_scale,
+                                       .size_scale = result.plan.size_scale,
+                                       .elements = result.mesh.elements().elements.size(),
+                                       .stops_by_clock = watch.stops()});
   result.summary.seconds = clock.seconds();
   keep_background(options.store, model, size, result, given.run_tasks);
   return result;

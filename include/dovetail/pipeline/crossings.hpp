@@ -20,6 +20,20 @@
 
 namespace dovetail {
 
+/// What was found and done about crossings and failures.
+struct intersection_counts {
+  std::size_t crossings = 0; ///< pairs of triangles
+  std::size_t rounds = 0;    ///< of looking for them
+  int refinements = 0;
+  local_id merges = 0;               ///< of subdomains whose boundaries cross
+  local_id merged_after_failure = 0; ///< since no attempt could mesh them
+  local_id largest_merged = 1;       ///< subdomains in one
+
+  using fields = field_list<&intersection_counts::crossings, &intersection_counts::rounds,
+                            &intersection_counts::refinements, &intersection_counts::merges,
+                            &intersection_counts::merged_after_failure, &intersection_counts::largest_merged>;
+};
+
 namespace detail {
 
 /// Whether all faces are known to lie in one plane. Pieces there cannot cross: each covers what its lines
@@ -38,10 +52,10 @@ suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
 } // namespace detail
 
 /// What to do about the boundaries of pieces, before these are meshed: in D = 2 nothing. Counts in
-/// `intersection`. After a merge most patches are of a skeleton that was searched before.
+/// `counts` and `seconds`. After a merge most patches are of a skeleton that was searched before.
 template <bound_parameters<3> Parameters>
 suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& store, const Parameters& given,
-                                     report& intersection) {
+                                     intersection_counts& counts, double& seconds) {
   const remeshed_patches& patches = made.patches;
   if (!patches.failures.empty())
     return detail::plan_for_failed_patches(made.coarse, patches.failures);
@@ -62,13 +76,14 @@ suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& st
     store.patches_apart = patches.keys;
     sort_unique(store.patches_apart);
   }
-  intersection.add("crossings", static_cast<double>(plan.crossings));
-  intersection.add("rounds", 1);
-  intersection.seconds += clock.seconds();
+  counts.crossings += plan.crossings;
+  ++counts.rounds;
+  seconds += clock.seconds();
   return plan;
 }
 template <bound_parameters<2> Parameters>
-suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const Parameters&, report&) {
+suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const Parameters&,
+                                     intersection_counts&, double&) {
   return {};
 }
 
@@ -111,7 +126,7 @@ std::vector<surface_crossing> faults_of_failed_pieces(const any_geometry&, const
 template <bound_parameters<2> Parameters>
 suppression_plan plan_for_pieces(const any_geometry& model, const realized<2>& made,
                                  const meshed_pieces<2>& meshed, const Parameters& given,
-                                 report& intersection) {
+                                 intersection_counts& counts, double& seconds) {
   suppression_plan plan;
   if (!meshed.failures.empty() || detail::lies_in_one_plane(model))
     return plan;
@@ -122,14 +137,14 @@ suppression_plan plan_for_pieces(const any_geometry& model, const realized<2>& m
     plan.surface_crossings.push_back(detail::describe_crossing(
         whole.points, whole.elements, whole.tags, static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
   plan.crossings = plan.surface_crossings.size();
-  intersection.add("crossings", static_cast<double>(plan.crossings));
-  intersection.seconds += clock.seconds();
+  counts.crossings += plan.crossings;
+  seconds += clock.seconds();
   return plan;
 }
 /// Tetrahedra inside a boundary without crossings do not cross.
 template <bound_parameters<3> Parameters>
 suppression_plan plan_for_pieces(const any_geometry&, const realized<3>&, const meshed_pieces<3>&,
-                                 const Parameters&, report&) {
+                                 const Parameters&, intersection_counts&, double&) {
   return {};
 }
 

@@ -113,8 +113,7 @@ DOVETAIL_INLINE divided_background<3> leave_undivided(const surface_mesh& surfac
   result.pieces.parts = static_cast<local_id>(solids);
   result.simplification.name = "simplification";
   result.partition.name = "partition";
-  result.partition.set("subdomains", static_cast<double>(solids));
-  result.partition.set("imbalance", 1);
+  result.partition.set(partition_counts{.subdomains = result.pieces.parts, .imbalance = 1});
   return result;
 }
 

@@ -50,6 +50,18 @@ struct filled_region {
   double volume = 0;        ///< of its elements together
 };
 
+/// What is counted of a filled surface.
+struct fill_counts {
+  std::size_t triangles = 0; ///< of the surface
+  std::size_t regions = 0;   ///< that were filled
+  std::size_t voids = 0;     ///< that were not
+  std::size_t elements = 0;
+  std::size_t points = 0;
+
+  using fields = field_list<&fill_counts::triangles, &fill_counts::regions, &fill_counts::voids,
+                            &fill_counts::elements, &fill_counts::points>;
+};
+
 /// A filled surface.
 struct filled_surface {
   simplicial_mesh<3> mesh; ///< the surface's points first, then those inside; tags: materials
@@ -58,8 +70,7 @@ struct filled_surface {
   std::vector<std::array<local_id, 2>> materials_beside;
   std::vector<filled_region> regions; ///< those that were filled
   quality_statistics quality;         ///< of all elements
-  report summary; ///< "triangles", "regions", "voids", "elements"; children "checks", "regions",
-                  ///< "sizes", "meshing"
+  report summary;                     ///< `fill_counts`; children "checks", "regions", "sizes", "meshing"
 };
 
 namespace detail {

@@ -276,11 +276,11 @@ DOVETAIL_INLINE filled_surface detail::fill_by(const enclosed_region_mesher& mes
     result.materials_beside.push_back({plan.material_of(behind), plan.material_of(before)});
   result.quality = made.quality;
 
-  summary.set("triangles", static_cast<double>(surface.elements.size()));
-  summary.set("regions", static_cast<double>(plan.filled.size()));
-  summary.set("voids", static_cast<double>(plan.material.size() - plan.filled.size()));
-  summary.set("elements", static_cast<double>(result.mesh.elements.size()));
-  summary.set("points", static_cast<double>(result.mesh.points.size()));
+  summary.set(fill_counts{.triangles = surface.elements.size(),
+                          .regions = plan.filled.size(),
+                          .voids = plan.material.size() - plan.filled.size(),
+                          .elements = result.mesh.elements.size(),
+                          .points = result.mesh.points.size()});
   summary.warnings = plan.warnings;
   summary.children.push_back(std::move(made.summary));
   summary.seconds = clock.seconds();

@@ -84,7 +84,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
     if (auto result = detail::generate_once<D>(model, background, given, account, too_many_merges)) {
       // Pieces count theirs themselves, in a run that finds them again too.
       const double of_pieces = stops_by_clock(result->summary.find("meshing"));
-      result->summary.set("stops_by_clock", std::max(0.0, watch.stops() - of_pieces));
+      result->summary.set(clock_counts{std::max(0.0, watch.stops() - of_pieces)});
       result->summary.seconds = result->summary.children.front().seconds + clock.seconds();
       compare_with_plan(result->plan.predicted_elements, static_cast<double>(result->quality.elements),
                         result->summary);
@@ -96,7 +96,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
                                std::to_string(subdomains / 2) + " were asked for: " + too_many_merges);
     report kept = account;
     if (watch.stops() > 0)
-      kept.add("stops_by_clock", watch.stops());
+      kept.set(clock_counts{kept.as<clock_counts>().stops_by_clock + watch.stops()});
     given_up.keep(background, kept);
   }
 }

@@ -37,7 +37,9 @@ std::optional<background_result<D>> find_background(const std::optional<spool>& 
     return std::nullopt;
   found->size = allowed_size<D>(enlarged(size, found->plan), found->bounds);
   found->summary.seconds = clock.seconds(); // of this run
-  found->summary.set("kept", 1);
+  auto counts = found->summary.template as<background_counts>();
+  counts.kept = 1;
+  found->summary.set(counts);
   return found;
 }
 

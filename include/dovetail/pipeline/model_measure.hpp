@@ -14,11 +14,19 @@
 
 namespace dovetail {
 
+/// The volumes of a mesh and of its model.
+struct volume_counts {
+  double volume = 0;       ///< of the mesh
+  double model_volume = 0; ///< as the model knows it
+
+  using fields = field_list<&volume_counts::volume, &volume_counts::model_volume>;
+};
+
 /// The volume inside the boundary of a mesh. Linear in the sides of its skeleton.
 double volume_inside(const simplicial_skeleton<3>& skeleton);
 
 /// The mesh of a model of tetrahedra fills the volume that the model has: or else there is a warning in
-/// `summary`, the report of the run, which gets the counters "volume" and "model_volume". What is allowed is
+/// `summary`, the report of the run, which gets `volume_counts`. What is allowed is
 /// twice the gap, which is measured at the centres of triangles, and a millionth of the volume, which is
 /// rounding and the tolerances that CAD faces meet with. Nothing is done where the model does not know its
 /// volume.

@@ -32,9 +32,8 @@ DOVETAIL_INLINE void compare_volume(const simplicial_skeleton<3>& skeleton,
   if (!of_model || !std::isfinite(*of_model))
     return;
   const double volume = volume_inside(skeleton);
-  const double gap = summary.find("skeleton").find("deviation").get("gap");
-  summary.set("volume", volume);
-  summary.set("model_volume", *of_model);
+  const double gap = deviation_in(summary.find("skeleton").find("deviation")).gap;
+  summary.set(volume_counts{volume, *of_model});
   if (std::abs(volume - *of_model) > 2 * gap + 1e-6 * std::abs(*of_model))
     summary.warnings.push_back("the mesh fills a volume of " + number_text(volume) + ", and the model has " +
                                number_text(*of_model) + "; the distance between their surfaces explains " +

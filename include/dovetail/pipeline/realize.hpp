@@ -16,6 +16,33 @@
 
 namespace dovetail {
 
+/// What is counted of a skeleton. What a dimension does not have is 0, and seconds and what was made add up
+/// over the tries at one skeleton.
+struct skeleton_counts {
+  std::size_t lines = 0;
+  std::size_t regions = 0;
+  std::size_t interface_faces = 0;
+  std::size_t triangles = 0; ///< of D = 3
+  std::size_t edges = 0;     ///< of D = 2
+  std::size_t points = 0;
+  std::size_t lines_made = 0; ///< the others were made before
+  std::size_t patches_made = 0;
+  double line_seconds = 0;
+  double matching_seconds = 0;
+  std::size_t matched_lines = 0; ///< whose numbers of segments were changed for the angles of patches
+  int repartition_rounds = 0;
+  std::size_t repartitioned = 0; ///< super-elements that changed their subdomain
+  double repartition_seconds = 0;
+
+  using fields =
+      field_list<&skeleton_counts::lines, &skeleton_counts::regions, &skeleton_counts::interface_faces,
+                 &skeleton_counts::triangles, &skeleton_counts::edges, &skeleton_counts::points,
+                 &skeleton_counts::lines_made, &skeleton_counts::patches_made, &skeleton_counts::line_seconds,
+                 &skeleton_counts::matching_seconds, &skeleton_counts::matched_lines,
+                 &skeleton_counts::repartition_rounds, &skeleton_counts::repartitioned,
+                 &skeleton_counts::repartition_seconds>;
+};
+
 /// A decomposition with the fine boundaries of its pieces.
 template <int D>
 struct realized {
@@ -25,7 +52,8 @@ struct realized {
   simplicial_skeleton<D> fine;                 ///< the same, remeshed
   numbered_lines lines;     ///< in D = 2; in D = 3 they are given up when the patches are made
   remeshed_patches patches; ///< in D = 3; in D = 2 what lies between the lines are the pieces
-  report summary;           ///< what was counted on the way
+  skeleton_counts counts;   ///< what was counted on the way
+  report summary;           ///< the same, with warnings and deviations
 };
 
 /// The lines, patches and matching segments made so far, by their keys. After a merge of subdomains most are

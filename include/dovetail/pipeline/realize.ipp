@@ -43,12 +43,11 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
   realized<D> result;
   result.coarse = extract_skeleton(surface, pieces, std::move(faces), mesh_state::valid);
   space_lines(model, surface, coarse_points, size, made, given, result);
-  report& summary = result.summary;
-  summary.name = "skeleton";
-  summary.set("lines", static_cast<double>(result.coarse.lines.size()));
-  summary.set("regions", static_cast<double>(result.coarse.regions.size()));
-  summary.set("lines_made", static_cast<double>(made.lines.made() - made_before));
-  summary.set("line_seconds", clock.seconds());
+  result.summary.name = "skeleton";
+  result.counts.lines = result.coarse.lines.size();
+  result.counts.regions = result.coarse.regions.size();
+  result.counts.lines_made = made.lines.made() - made_before;
+  result.counts.line_seconds = clock.seconds();
   return result;
 }
 
@@ -60,8 +59,8 @@ realized<2> realize_boundaries(const any_geometry& model, const simplicial_backg
   auto result = realize_lines<2>(model, mesh.surface, mesh.points(), own_subdomains(subdomain_of_element), {},
                                  size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, divided.sides, subdomain_of_element, result.lines);
-  result.summary.set("edges", static_cast<double>(result.fine.sides.size()));
-  result.summary.set("points", static_cast<double>(result.fine.points.size()));
+  result.counts.edges = result.fine.sides.size();
+  result.counts.points = result.fine.points.size();
   return result;
 }
 
@@ -86,7 +85,7 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
     matched = match_segments(of.model, of.coarse_points, result.coarse, result.lines.lines,
                              faces_with_small_angles(patches, result.coarse, made.patches, wanted), of.size,
                              wanted, given.mesh_surface, given.run_tasks, made.segments, on_progress);
-  result.summary.set("matching_seconds", clock.seconds());
+  result.counts.matching_seconds = clock.seconds();
   if (matched > 0)
     patches = fill_again();
   if (matched > 0 && !patches.failures.empty()) {
@@ -95,7 +94,7 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
     patches = fill_again();
     matched = 0;
   }
-  result.summary.set("matched_lines", static_cast<double>(matched));
+  result.counts.matched_lines = matched;
   return patches;
 }
 
@@ -116,11 +115,14 @@ realized<3> realize_boundaries(const any_geometry& model, const simplicial_backg
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
   result.lines = {};
-  append(result.summary.counters, remeshed.summary.counters);
+  const auto of_patches = remeshed.summary.as<patch_counts>();
+  result.counts.interface_faces = of_patches.interface_faces;
+  result.counts.triangles = of_patches.triangles;
+  result.counts.points = of_patches.points;
   append(result.summary.warnings, remeshed.summary.warnings);
   append(result.summary.children, remeshed.summary.children);
-  result.summary.set("lines_made", static_cast<double>(made.lines.made() - lines_before));
-  result.summary.set("patches_made", static_cast<double>(made.patches.meshes.made() - patches_before));
+  result.counts.lines_made = made.lines.made() - lines_before;
+  result.counts.patches_made = made.patches.meshes.made() - patches_before;
   return result;
 }
 
@@ -142,6 +144,7 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
                                            size, made, given);
   result.material_of_subdomain = std::move(material_of_subdomain);
   result.subdomain_of_element = std::move(subdomain_of_element);
+  result.summary.set(result.counts);
   result.summary.seconds = clock.seconds();
   return result;
 }

@@ -58,10 +58,11 @@ public:
       made = realize();
       small_angles(made);
     }
-    made.summary.set("repartition_rounds", rounds_);
-    made.summary.set("repartitioned", static_cast<double>(moved_));
     seconds_ += rounds_ > 0 ? cost.seconds() : 0;
-    made.summary.set("repartition_seconds", seconds_);
+    made.counts.repartition_rounds = rounds_;
+    made.counts.repartitioned = moved_;
+    made.counts.repartition_seconds = seconds_;
+    made.summary.set(made.counts);
     return made;
   }
 

@@ -39,8 +39,9 @@ public:
                               .merges = {divided.pieces.parts, given.options.largest_merged_fraction},
                               .size = size},
         repartition_(mesh, divided), made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
-        pieces_(std::make_shared<entity_store>(given.options.store)), intersection_(std::move(account)) {
-    intersection_.name = "intersection";
+        pieces_(std::make_shared<entity_store>(given.options.store)), account_(std::move(account)),
+        counts_(account_.as<intersection_counts>()) {
+    account_.name = "intersection";
   }
 
   decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const divided_background<D>&,
@@ -49,14 +50,16 @@ public:
   const merge_account& merges() const { return state_.merges; } ///< which subdomains were merged, and why
   /// The field given, smaller where something crossed.
   any_sizing size() const { return state_.size.everywhere(); }
-  /// What was found and done so far: "crossings", "rounds", "refinements", "merges", "merged_after_failure",
-  /// "largest_merged". Its time is also that of measuring interface angles and of local repartition.
+  /// What was found and done so far, `intersection_counts`. Its time is also that of measuring interface
+  /// angles and of local repartition.
   report intersection() const {
-    report account = intersection_;
-    account.add("refinements", state_.refinements);
-    account.add("merges", state_.merges.merged() - state_.merged_after_failure);
-    account.add("merged_after_failure", state_.merged_after_failure);
-    account.set("largest_merged", std::max<double>(account.get("largest_merged"), state_.merges.largest()));
+    intersection_counts counts = counts_;
+    counts.refinements += state_.refinements;
+    counts.merges += state_.merges.merged() - state_.merged_after_failure;
+    counts.merged_after_failure += state_.merged_after_failure;
+    counts.largest_merged = std::max(counts.largest_merged, state_.merges.largest());
+    report account = account_;
+    account.set(counts);
     return account;
   }
   /// Why too many subdomains would have to be merged; empty as long as they would not.
@@ -82,7 +85,7 @@ public:
   std::optional<realized<D>> realize_boundaries() {
     for (;;) {
       auto made = realize_once();
-      if (repaired_by([&] { return crossings_of(plan_for_boundaries(made, made_, given_, intersection_)); }))
+      if (repaired_by([&] { return crossings_of(boundaries_plan(made)); }))
         continue;
       if (!too_many_merges_.empty())
         return {};
@@ -99,7 +102,7 @@ public:
       const auto refine = [&] { return refine_faults(faults_of(*made, meshed)); };
       const auto merge = [&] { return merge_failures<D>(made->fine, meshed.failures, state_); };
       const auto uncross = [&] {
-        return crossings_of(plan_for_pieces(model_, *made, meshed, given_, intersection_));
+        return crossings_of(plan_for_pieces(model_, *made, meshed, given_, counts_, account_.seconds));
       };
       if (repaired_by(refine, merge, uncross))
         continue;
@@ -128,6 +131,9 @@ private:
     return (does(steps) || ...);
   }
 
+  suppression_plan boundaries_plan(const realized<D>& made) {
+    return plan_for_boundaries(made, made_, given_, counts_, account_.seconds);
+  }
   std::optional<repair> crossings_of(const suppression_plan& plan) const {
     return repair_of_crossings(plan, state_, model_.topology(), given_.options.refinement_rounds);
   }
@@ -149,10 +155,8 @@ private:
     return repartition_.avoid_small_angles(
         std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
         [&] { return realize_once(); },
-        [&](const realized<D>& made_so) {
-          return !plan_for_boundaries(made_so, made_, given_, intersection_).empty();
-        },
-        [&](const realized<D>& made_so) { return small_angles_of(made_so); }, intersection_.seconds);
+        [&](const realized<D>& made_so) { return !boundaries_plan(made_so).empty(); },
+        [&](const realized<D>& made_so) { return small_angles_of(made_so); }, account_.seconds);
   }
 
   /// Measures the interface angles; returns the coarse sides at each that is small and not forced.
@@ -166,7 +170,7 @@ private:
       return std::pair(std::move(measured), std::move(small));
     });
     angles_ = std::move(angles);
-    intersection_.seconds += clock.seconds();
+    account_.seconds += clock.seconds();
     return std::move(places);
   }
 
@@ -180,7 +184,8 @@ private:
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;
   std::set<content_key> finished_; ///< pieces, of all rounds
-  report intersection_;
+  report account_;                 ///< of decompositions before and of this one
+  intersection_counts counts_;
   double skeleton_seconds_ = 0;
   std::string too_many_merges_;
 };

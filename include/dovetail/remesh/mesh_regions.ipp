@@ -93,6 +93,13 @@ DOVETAIL_INLINE void check_region(const patch_mesh& made, const patch_boundary& 
     throw mesher_error(who + ": its triangles leave a hole or lie upon each other");
 }
 
+/// What is kept of a region's mesh, where it is asked for.
+struct region_counts {
+  double least_angle_deg = 180;
+
+  using fields = field_list<&region_counts::least_angle_deg>;
+};
+
 /// In degrees; 180 without triangles.
 inline double least_corner_angle(const patch_boundary& boundary, const patch_mesh& made) {
   const auto point = [&](local_id v) {
@@ -202,7 +209,7 @@ private:
               mesh.triangles.size(),
               !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
               deviation_in(mesh.summary),
-              mesh.summary.get("least_angle_deg", 180),
+              mesh.summary.as<region_counts>().least_angle_deg,
               chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
         });
   }
@@ -213,15 +220,10 @@ private:
     const any_sizing size = size_.near(place(model, r, region.boundary));
     patch_mesh made = mesh_it_(surface, region, size);
     made.summary = {};
-    if (options_.deviation && region.face != no_id) {
-      const surface_deviation off = measure_deviation(surface, region.boundary, made, size);
-      made.summary.set("points", off.points);
-      made.summary.set("centres", off.centres);
-      made.summary.set("cut_off", off.cut_off);
-      made.summary.set("gap", off.gap);
-    }
+    if (options_.deviation && region.face != no_id)
+      made.summary.set(measure_deviation(surface, region.boundary, made, size));
     if (options_.angles && region.face == no_id)
-      made.summary.set("least_angle_deg", least_corner_angle(region.boundary, made));
+      made.summary.set(region_counts{least_corner_angle(region.boundary, made)});
     if (!options_.parameters)
       made.inner_uv.clear();
     return made;

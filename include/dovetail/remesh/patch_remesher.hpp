@@ -10,6 +10,24 @@
 #include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
+namespace dovetail {
+
+/// What the remesher of patches counts.
+struct remeshed_counts {
+  std::size_t triangles = 0;
+  double min_angle_deg = 0;
+  double mean_min_angle_deg = 0; ///< of the smallest angles of triangles
+  std::size_t below_30_deg = 0;
+  double mean_relative_length = 0; ///< of edges, in units of the size
+  std::size_t folded = 0;
+
+  using fields = field_list<&remeshed_counts::triangles, &remeshed_counts::min_angle_deg,
+                            &remeshed_counts::mean_min_angle_deg, &remeshed_counts::below_30_deg,
+                            &remeshed_counts::mean_relative_length, &remeshed_counts::folded>;
+};
+
+} // namespace dovetail
+
 namespace dovetail::remesh {
 
 /// Parameters and call of the patch remesher; a policy in the sense of the other roles.

@@ -246,13 +246,14 @@ private:
     }
     constexpr double degrees = 57.29577951308232;
     const double count = static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
-    mesh.summary.set("triangles", static_cast<double>(mesh.triangles.size()));
-    mesh.summary.set("min_angle_deg", least > 0 ? degrees * std::asin(std::sqrt(least)) : 0);
-    mesh.summary.set("mean_min_angle_deg", degrees * angle_sum / count);
-    mesh.summary.set("below_30_deg", static_cast<double>(below_thirty));
-    mesh.summary.set("mean_relative_length",
-                     lengths > 0 ? State::calibration * length_sum / static_cast<double>(lengths) : 1);
-    mesh.summary.set("folded", static_cast<double>(mesh.folded.size()));
+    mesh.summary.set(
+        remeshed_counts{.triangles = mesh.triangles.size(),
+                        .min_angle_deg = least > 0 ? degrees * std::asin(std::sqrt(least)) : 0,
+                        .mean_min_angle_deg = degrees * angle_sum / count,
+                        .below_30_deg = below_thirty,
+                        .mean_relative_length =
+                            lengths > 0 ? State::calibration * length_sum / static_cast<double>(lengths) : 1,
+                        .folded = mesh.folded.size()});
   }
 };
 

@@ -17,6 +17,9 @@ struct surface_deviation {
   double centres = 0; ///< of the triangles' centres along the normal: what the size leaves of curvature
   double cut_off = 0; ///< likewise of those triangles that step over an edge: no curvature explains it
   double gap = 0;     ///< the volume between the triangles and the surface, in the unit of the model
+
+  using fields = field_list<&surface_deviation::points, &surface_deviation::centres,
+                            &surface_deviation::cut_off, &surface_deviation::gap>;
 };
 
 /// A triangle whose centre is further from the surface than this, in sizes, is searched for an edge.
@@ -35,7 +38,7 @@ void note_deviation(report& to, const std::string& face, const surface_deviation
 
 /// What the report of a region's mesh says of it.
 inline surface_deviation deviation_in(const report& noted) {
-  return {noted.get("points"), noted.get("centres"), noted.get("cut_off"), noted.get("gap")};
+  return noted.as<surface_deviation>();
 }
 
 /// Adds what another such report says.

@@ -17,10 +17,11 @@ namespace dovetail {
 
 DOVETAIL_INLINE void note_deviation(report& to, const std::string& face, const surface_deviation& found) {
   const auto raise = [&](report& noted) {
-    noted.set("points", std::max(noted.get("points"), found.points));
-    noted.set("centres", std::max(noted.get("centres"), found.centres));
-    noted.set("cut_off", std::max(noted.get("cut_off"), found.cut_off));
-    noted.add("gap", found.gap);
+    const surface_deviation before = deviation_in(noted);
+    noted.set(surface_deviation{.points = std::max(before.points, found.points),
+                                .centres = std::max(before.centres, found.centres),
+                                .cut_off = std::max(before.cut_off, found.cut_off),
+                                .gap = before.gap + found.gap});
   };
   to.name = "deviation";
   raise(to);

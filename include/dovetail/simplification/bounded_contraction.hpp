@@ -284,21 +284,20 @@ private:
 
   void summarize(simplification& out) const {
     const auto count = [&](side_state state) {
-      return static_cast<double>(std::count(out.side_states.begin(), out.side_states.end(), state));
+      return std::count(out.side_states.begin(), out.side_states.end(), state);
     };
-    report& summary = out.summary;
-    summary.name = "simplification";
-    summary.set("elements", static_cast<double>(weights_.size()));
-    summary.set("super_elements", static_cast<double>(out.super_count));
-    summary.set("kept_sides", count(side_state::kept));
-    summary.set("removed_sides", count(side_state::removed));
-    summary.set("refused_sides", count(side_state::refused));
-    summary.set("fixed_sides", count(side_state::fixed));
-    summary.set("forced_dihedrals", static_cast<double>(out.forced.size()));
-    summary.set("weight_bound", bound_);
     const auto& weights = out.graph.node_weights;
-    summary.set("heaviest_super_element",
-                weights.empty() ? 0 : *std::max_element(weights.begin(), weights.end()));
+    out.summary.name = "simplification";
+    out.summary.set(simplification_counts{
+        .elements = weights_.size(),
+        .super_elements = out.super_count,
+        .kept_sides = count(side_state::kept),
+        .removed_sides = count(side_state::removed),
+        .refused_sides = count(side_state::refused),
+        .fixed_sides = count(side_state::fixed),
+        .forced_dihedrals = out.forced.size(),
+        .weight_bound = bound_,
+        .heaviest_super_element = weights.empty() ? 0 : *std::max_element(weights.begin(), weights.end())});
   }
 
   const Elements& elements_;

@@ -63,4 +63,23 @@ struct simplification {
   report summary;                      ///< what was counted on the way
 };
 
+/// What is counted of a simplification.
+struct simplification_counts {
+  std::size_t elements = 0;
+  local_id super_elements = 0;
+  std::int64_t kept_sides = 0;    ///< that may be interfaces
+  std::int64_t removed_sides = 0; ///< inside super-elements
+  std::int64_t refused_sides = 0; ///< that the bound kept from being removed
+  std::int64_t fixed_sides = 0;   ///< that are interfaces in any case
+  std::size_t forced_dihedrals = 0;
+  double weight_bound = 0; ///< no super-element was made heavier
+  double heaviest_super_element = 0;
+
+  using fields = field_list<&simplification_counts::elements, &simplification_counts::super_elements,
+                            &simplification_counts::kept_sides, &simplification_counts::removed_sides,
+                            &simplification_counts::refused_sides, &simplification_counts::fixed_sides,
+                            &simplification_counts::forced_dihedrals, &simplification_counts::weight_bound,
+                            &simplification_counts::heaviest_super_element>;
+};
+
 } // namespace dovetail

@@ -36,6 +36,17 @@ struct remeshed_patches {
   std::vector<patch_failure> failures;  ///< the skeleton is incomplete when there are any
 };
 
+/// What is counted of the patches of a skeleton.
+struct patch_counts {
+  std::size_t interface_faces = 0;
+  std::size_t triangles = 0;
+  std::size_t points = 0;
+  std::size_t patches_made = 0; ///< the others were made before
+
+  using fields = field_list<&patch_counts::interface_faces, &patch_counts::triangles, &patch_counts::points,
+                            &patch_counts::patches_made>;
+};
+
 /// A skeleton whose patches are remeshed.
 struct remeshed_skeleton {
   fine_skeleton fine;       ///< all patches together

@@ -182,10 +182,10 @@ DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, ske
   result.patches.failures = std::move(patches.failures);
   warn_of_deviations(result.summary, deviation);
   result.summary.children.push_back(std::move(deviation));
-  result.summary.set("interface_faces", static_cast<double>(of.skeleton.faces.size()));
-  result.summary.set("triangles", static_cast<double>(result.fine.sides.size()));
-  result.summary.set("points", static_cast<double>(result.fine.points.size()));
-  result.summary.set("patches_made", static_cast<double>(patches.made));
+  result.summary.set(patch_counts{.interface_faces = of.skeleton.faces.size(),
+                                  .triangles = result.fine.sides.size(),
+                                  .points = result.fine.points.size(),
+                                  .patches_made = patches.made});
   return result;
 }
 

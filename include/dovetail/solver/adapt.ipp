@@ -126,19 +126,30 @@ inline mesh_extent extent_of(const distributed_simplicial_mesh<2>& mesh, double 
   return extent;
 }
 
+/// What adaptation did to the extent of a mesh.
+struct extent_counts {
+  std::optional<double> volume_before = {};
+  std::optional<double> volume_after = {};
+  double area_before = 0;
+  double area_after = 0;
+  double explained_change = 0; ///< by chords of other lengths
+
+  using fields =
+      field_list<&extent_counts::volume_before, &extent_counts::volume_after, &extent_counts::area_before,
+                 &extent_counts::area_after, &extent_counts::explained_change>;
+};
+
 /// The part of the report, with a warning where the mesh has another size than chords explain.
 template <int D>
 report change_of_extent(const mesh_extent& before, const mesh_extent& after) {
   report change;
   change.name = "adaptation";
-  if (D == 3) {
-    change.set("volume_before", before.volume);
-    change.set("volume_after", after.volume);
-  }
-  change.set("area_before", before.area);
-  change.set("area_after", after.area);
   const double explained = before.chord_gap - after.chord_gap;
-  change.set("explained_change", explained);
+  change.set(extent_counts{.volume_before = D == 3 ? std::optional(before.volume) : std::nullopt,
+                           .volume_after = D == 3 ? std::optional(after.volume) : std::nullopt,
+                           .area_before = before.area,
+                           .area_after = after.area,
+                           .explained_change = explained});
   const double was = D == 3 ? before.volume : before.area, is = D == 3 ? after.volume : after.area;
   const double rounding = 0.3 * (std::abs(before.chord_gap) + std::abs(after.chord_gap)) + 5e-4 * was;
   if (std::abs(is - was - explained) > rounding)

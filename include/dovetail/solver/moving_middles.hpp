@@ -19,6 +19,23 @@
 #include <span>
 #include <vector>
 
+namespace dovetail::io {
+
+/// What is counted of the middles of edges.
+struct middle_counts {
+  std::int64_t nodes = 0;
+  std::int64_t on_cad = 0;       ///< of edges on curves and faces
+  std::int64_t not_found = 0;    ///< of these: the model has no point near, so that they are straight
+  std::int64_t moved_back = 0;   ///< from the model, so that no element is inverted
+  std::int64_t straightened = 0; ///< of these: moved back all the way
+  std::optional<std::int64_t> rounds = {}; ///< of looking at the pieces
+
+  using fields = field_list<&middle_counts::nodes, &middle_counts::on_cad, &middle_counts::not_found,
+                            &middle_counts::moved_back, &middle_counts::straightened, &middle_counts::rounds>;
+};
+
+} // namespace dovetail::io
+
 namespace dovetail::io::detail {
 
 /// How often the middle of an edge was moved half of its way back; the last time all the way.
@@ -90,10 +107,10 @@ inline bool on_cad(host on) {
   return on.dimension == 1 || on.dimension == 2;
 }
 
-void count_middles(report& summary, const std::vector<host>& hosts, const moving_middles& middles,
-                   std::int64_t not_found);
+middle_counts count_middles(const std::vector<host>& hosts, const moving_middles& middles,
+                            std::int64_t not_found);
 
-void warn_of_middles(report& summary);
+void warn_of_middles(const middle_counts& counts, report& summary);
 
 } // namespace dovetail::io::detail
 

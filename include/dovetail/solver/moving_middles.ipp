@@ -46,26 +46,25 @@ DOVETAIL_INLINE std::vector<host> faces_of_edges(const simplicial_mesh<2>& mesh,
   return hosts;
 }
 
-DOVETAIL_INLINE void count_middles(report& summary, const std::vector<host>& hosts,
-                                   const moving_middles& middles, std::int64_t not_found) {
+DOVETAIL_INLINE middle_counts count_middles(const std::vector<host>& hosts, const moving_middles& middles,
+                                            std::int64_t not_found) {
   const auto& moved = middles.moved;
-  summary.set("nodes", static_cast<double>(moved.size()));
-  summary.set("on_cad", static_cast<double>(std::count_if(hosts.begin(), hosts.end(), on_cad)));
-  summary.set("not_found", static_cast<double>(not_found));
-  summary.set("moved_back", static_cast<double>(
-                                std::count_if(moved.begin(), moved.end(), [](halvings h) { return h > 0; })));
-  summary.set("straightened", static_cast<double>(std::count(moved.begin(), moved.end(), all_the_way)));
+  return {.nodes = static_cast<std::int64_t>(moved.size()),
+          .on_cad = std::count_if(hosts.begin(), hosts.end(), on_cad),
+          .not_found = not_found,
+          .moved_back = std::count_if(moved.begin(), moved.end(), [](halvings h) { return h > 0; }),
+          .straightened = std::count(moved.begin(), moved.end(), all_the_way)};
 }
 
-DOVETAIL_INLINE void warn_of_middles(report& summary) {
-  const auto count = [&](const char* counter) { return std::to_string(std::llround(summary.get(counter))); };
-  if (summary.get("not_found") > 0)
-    summary.warnings.push_back(count("not_found") +
+DOVETAIL_INLINE void warn_of_middles(const middle_counts& counts, report& summary) {
+  if (counts.not_found > 0)
+    summary.warnings.push_back(std::to_string(counts.not_found) +
                                " edges on the CAD model have straight middles: it has no point near");
-  if (summary.get("moved_back") > 0)
-    summary.warnings.push_back(
-        count("moved_back") + " middles of edges were moved back from the CAD model, " +
-        count("straightened") + " of them all the way, so that no second-order element is inverted");
+  if (counts.moved_back > 0)
+    summary.warnings.push_back(std::to_string(counts.moved_back) +
+                               " middles of edges were moved back from the CAD model, " +
+                               std::to_string(counts.straightened) +
+                               " of them all the way, so that no second-order element is inverted");
 }
 
 } // namespace detail

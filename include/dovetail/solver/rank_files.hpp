@@ -198,9 +198,7 @@ private:
     if constexpr (!shared_rank_format<Format, D>)
       remove_outdated(source.numbers.ranks(), format, folder);
     sync_to_disk(folder);
-    summary.set("elements", static_cast<double>(source.numbers.first_element.back()));
-    summary.set("bytes", static_cast<double>(bytes));
-    summary.set("files", static_cast<double>(summary.files.size()));
+    summary.set(written_counts{source.numbers.first_element.back(), bytes, summary.files.size()});
     return summary;
   }
 };

@@ -35,10 +35,8 @@ struct second_order_options {
 /// Gives a distributed mesh its `mid_nodes`; the mesh itself does not change. Pieces are loaded one per
 /// worker, again when what they share has moved. The result does not depend on the executor. `model` is the
 /// one that the mesh is of. Throws `mesh_error` when pieces, skeleton and model disagree or when a task
-/// fails. Returns the counters "nodes", "on_cad" (of edges on curves and faces), of these "not_found" (the
-/// model has no point near, so that they are straight), "moved_back" and "straightened" (moved back all the
-/// way), and "rounds"; and warnings where middles are not on the model. Memory: 36 bytes per edge of the
-/// skeleton.
+/// fails. Returns `middle_counts`, and warnings where middles are not on the model. Memory: 36 bytes per edge
+/// of the skeleton.
 /// Complexity: linear, and a few evaluations of the model per edge on it.
 /// \param mesh gets `mid_nodes`
 /// \param model what the mesh is of

@@ -40,9 +40,9 @@ struct moved_edge {
 struct kept_middles {
   std::vector<vec3> points;
   std::vector<global_id> inner;
-  std::vector<std::pair<std::string, double>> counters; ///< of the summary
+  middle_counts counts;
 
-  using fields = field_list<&kept_middles::points, &kept_middles::inner, &kept_middles::counters>;
+  using fields = field_list<&kept_middles::points, &kept_middles::inner, &kept_middles::counts>;
 };
 
 template <int D>
@@ -70,9 +70,10 @@ public:
     find_hosts();
     curve();
     check();
-    summarize(summary);
+    const middle_counts counts = counted();
+    summary.set(counts);
     if (options_.store && run_.leads())
-      store.keep_value(key, kept_middles{nodes_->points, nodes_->inner, summary.counters});
+      store.keep_value(key, kept_middles{nodes_->points, nodes_->inner, counts});
     return nodes_;
   }
 
@@ -94,8 +95,7 @@ private:
   void take(kept_middles kept, report& summary) {
     nodes_->points = std::move(kept.points);
     nodes_->inner = std::move(kept.inner);
-    for (const auto& [counter, value] : kept.counters)
-      summary.set(counter, value);
+    summary.set(kept.counts);
   }
 
   local_id edge_of(const simplex<1>& vertices) const {
@@ -296,16 +296,17 @@ private:
       take(pieces[i], result_of(std::move(results[i]), "subdomain " + std::to_string(pieces[i])));
   }
 
-  void summarize(report& summary) const {
-    count_middles(summary, hosts_, middles_, not_found_);
+  middle_counts counted() const {
+    middle_counts counts = count_middles(hosts_, middles_, not_found_);
     for (const auto& piece : of_piece_) {
-      summary.add("nodes", static_cast<double>(piece.inner));
-      summary.add("on_cad", D == 2 ? static_cast<double>(piece.inner) : 0);
-      summary.add("not_found", static_cast<double>(piece.not_found));
-      summary.add("moved_back", static_cast<double>(piece.moved));
-      summary.add("straightened", static_cast<double>(piece.straightened));
+      counts.nodes += piece.inner;
+      counts.on_cad += D == 2 ? piece.inner : 0;
+      counts.not_found += piece.not_found;
+      counts.moved_back += piece.moved;
+      counts.straightened += piece.straightened;
     }
-    summary.set("rounds", static_cast<double>(rounds_));
+    counts.rounds = rounds_;
+    return counts;
   }
 
   const distributed_simplicial_mesh<D>& mesh_;
@@ -347,7 +348,7 @@ report add_mid_nodes(distributed_simplicial_mesh<D>& mesh, const any_geometry& m
   const stopwatch clock;
   report summary{"second order", 0, {}, {}, {}};
   mesh.mid_nodes = detail::second_order_pass<D>(mesh, model, run_tasks, options).run(summary);
-  detail::warn_of_middles(summary);
+  detail::warn_of_middles(summary.as<middle_counts>(), summary);
   summary.seconds = clock.seconds();
   return summary;
 }
@@ -384,8 +385,9 @@ second_order_mesh<D> second_order(const gathered_mesh<D>& mesh, const any_geomet
     quadratic.template operator()<D>(element, result.elements.emplace_back());
   for (const auto& side : mesh.sides)
     quadratic.template operator()<D - 1>(side, result.sides.emplace_back());
-  detail::count_middles(result.summary, hosts, middles, found.not_found);
-  detail::warn_of_middles(result.summary);
+  const middle_counts counts = detail::count_middles(hosts, middles, found.not_found);
+  result.summary.set(counts);
+  detail::warn_of_middles(counts, result.summary);
   result.summary.seconds = clock.seconds();
   return result;
 }

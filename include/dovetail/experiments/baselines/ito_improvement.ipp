@@ -68,7 +68,7 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
       },
       run_tasks, within_stage(options, "collection"));
   report collection{"collection", collecting.seconds(), {}, {}, {}};
-  collection.set("elements", static_cast<double>(collected.moved));
+  collection.set(moved_counts{.elements = collected.moved, .pieces = collected.labels.size()});
 
   improving_options of_collected = within_stage(options, "second pass");
   for (std::size_t p = 0; p < collected.labels.size(); ++p)
@@ -109,7 +109,7 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
 
   improved_pieces result{*back.mesh, quality_of_whole(*back.mesh), {}, back.labels};
   report written{"writing back", writing.seconds(), {}, {}, {}};
-  written.set("pieces", static_cast<double>(back.labels.size()));
+  written.set(moved_counts{.elements = back.moved, .pieces = back.labels.size()});
   result.summary =
       summary_of_passes(std::move(first.summary), std::move(collection), std::move(second.summary));
   result.summary.children.push_back(std::move(written));

@@ -35,6 +35,15 @@ struct labelled_mesh {
   global_id moved = 0;                    ///< elements whose label is not the one of their old piece
 };
 
+/// What is counted of elements that were moved between two passes.
+struct moved_counts {
+  global_id elements = 0;       ///< that were moved
+  std::size_t pieces = 0;       ///< afterwards
+  double largest_over_mean = 0; ///< of the elements of pieces afterwards
+
+  using fields = field_list<&moved_counts::elements, &moved_counts::pieces, &moved_counts::largest_over_mean>;
+};
+
 /// The same progress, but with one name for all that is done from here on, and so have traces.
 inline progress within_stage(const progress& given, const char* stage) {
   given(stage, 0, 0);
@@ -160,7 +169,9 @@ inline report summary_of_passes(report first, report between, report second) {
   for (const report* pass : {&first, &second})
     for (const auto& [counter, value] : pass->counters)
       both.add(counter, value);
-  both.set("pieces", first.get("pieces"));
+  auto counts = both.as<improvement_counts>();
+  counts.pieces = first.as<improvement_counts>().pieces;
+  both.set(counts);
   first.name = "first pass";
   second.name = "second pass";
   both.children = {std::move(first), std::move(between), std::move(second)};

@@ -44,9 +44,7 @@ DOVETAIL_INLINE improved_pieces loehner_improvement::operator()(const distribute
       static_cast<double>(most) * static_cast<double>(moved.labels.size()) / static_cast<double>(all);
   first.mesh = {};
   report redistribution{"redistribution", moving.seconds(), {}, {}, {}};
-  redistribution.set("elements", static_cast<double>(moved.moved));
-  redistribution.set("pieces", static_cast<double>(moved.labels.size()));
-  redistribution.set("largest_over_mean", largest_over_mean);
+  redistribution.set(moved_counts{moved.moved, moved.labels.size(), largest_over_mean});
 
   improved_pieces result =
       improve_pieces(*moved.mesh, improve, size, run_tasks, within_stage(options, "second pass"));

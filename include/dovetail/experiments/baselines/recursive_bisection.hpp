@@ -14,6 +14,29 @@
 
 namespace dovetail::baselines {
 
+/// What is counted of a bisection.
+struct bisection_counts {
+  std::size_t subdomains = 0;
+  std::size_t cuts = 0;
+  std::size_t planes = 0;        ///< tried; those of them that failed follow
+  std::size_t without_loops = 0; ///< no simple loops lie in the plane
+  std::size_t uneven = 0;        ///< one side has too few faces
+  std::size_t unspanned = 0;     ///< the loops could not be spanned
+  std::size_t crossing = 0;      ///< the interface crosses the boundary
+  std::size_t too_sharp = 0;     ///< no better than the least dihedral, or than another plane
+  std::size_t whole = 0;         ///< subdomains with more than `most_faces` that no plane divides
+  std::size_t most_faces = 0;    ///< of a subdomain
+  std::size_t interface_faces = 0;
+  double least_dihedral_deg = 0; ///< at a loop
+
+  using fields =
+      field_list<&bisection_counts::subdomains, &bisection_counts::cuts, &bisection_counts::planes,
+                 &bisection_counts::without_loops, &bisection_counts::uneven, &bisection_counts::unspanned,
+                 &bisection_counts::crossing, &bisection_counts::too_sharp, &bisection_counts::whole,
+                 &bisection_counts::most_faces, &bisection_counts::interface_faces,
+                 &bisection_counts::least_dihedral_deg>;
+};
+
 /// Subdomains whose boundaries are as fine as the mesh.
 struct bisected_surface {
   fine_skeleton fine;                          ///< the subdomains' boundaries
@@ -40,10 +63,7 @@ struct bisected_surface {
 /// that is not divided. Throws what the surface mesher and the field throw, and `cancelled`. About
 /// O(n log n) in the faces for each level of the recursion and each plane tried.
 ///
-/// The summary counts "subdomains", "cuts", "planes" (tried), those of them that failed ("without_loops",
-/// "uneven", "unspanned", "crossing", and "too_sharp": no better than `least_dihedral_deg`, or than another),
-/// "whole" (subdomains with more than `most_faces` that no plane divides), "most_faces" and
-/// "interface_faces"; "least_dihedral_deg" is the smallest at a loop.
+/// The summary has `bisection_counts`.
 struct recursive_bisection {
   std::size_t most_faces = 20000;         ///< of a subdomain's boundary
   std::size_t most_subdomains = 0;        ///< no more cuts are made when there are so many; 0: any number

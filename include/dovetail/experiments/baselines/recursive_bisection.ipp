@@ -30,6 +30,9 @@ struct bi_division {
   double dihedral_deg = 0;
 };
 
+/// The counter of planes that were refused for one reason; null where a plane is not.
+using refusal = std::size_t bisection_counts::*;
+
 /// One run of `recursive_bisection`.
 class bisection_run {
 public:
@@ -40,9 +43,6 @@ public:
   bisected_surface run() {
     const stopwatch clock;
     summary_.name = "recursive bisection";
-    for (const char* counter : {"cuts", "planes", "without_loops", "uneven", "unspanned", "crossing",
-                                "too_sharp", "whole", "most_faces", "interface_faces"})
-      summary_.set(counter, 0);
     sides_.resize(materials_.size());
     stays_whole_.resize(materials_.size(), 0);
     for (std::size_t t = 0; t < fine_.sides.size(); ++t)
@@ -56,13 +56,14 @@ public:
         break;
       if (!divide(s)) {
         stays_whole_[index(s)] = 1;
-        summary_.add("whole", 1);
+        ++counts_.whole;
       }
     }
     for (const auto& sides : sides_)
-      summary_.set("most_faces", std::max(summary_.get("most_faces"), static_cast<double>(sides.size())));
-    summary_.set("subdomains", static_cast<double>(sides_.size()));
-    summary_.set("least_dihedral_deg", least_dihedral_deg_);
+      counts_.most_faces = std::max(counts_.most_faces, sides.size());
+    counts_.subdomains = sides_.size();
+    counts_.least_dihedral_deg = least_dihedral_deg_;
+    summary_.set(counts_);
     summary_.seconds = clock.seconds();
     return {std::move(fine_), std::move(materials_), std::move(summary_)};
   }
@@ -127,27 +128,27 @@ private:
   }
 
   /// What a plane makes of a surface, or the name of the reason why it is no cut.
-  const char* try_plane(const simplicial_mesh<2>& surface, const side_table<2>& table, const cut_plane& plane,
-                        double better_than_deg, bi_division& made) const {
+  refusal try_plane(const simplicial_mesh<2>& surface, const side_table<2>& table, const cut_plane& plane,
+                    double better_than_deg, bi_division& made) const {
     made.cut = cut_surface(surface, table, plane);
     if (made.cut.loops.empty() || !made.cut.simple)
-      return "without_loops";
+      return &bisection_counts::without_loops;
     const std::size_t all = surface.elements.size();
     const auto above =
         static_cast<std::size_t>(std::count(made.cut.above.begin(), made.cut.above.end(), std::uint8_t{1}));
     const double least = given_.least_share * static_cast<double>(all);
     if (static_cast<double>(std::min(above, all - above)) < least)
-      return "uneven";
+      return &bisection_counts::uneven;
     auto spanning = span_loops(surface, table, made.cut, plane, given_.mesh_interface, size_);
     if (!spanning)
-      return "unspanned";
+      return &bisection_counts::unspanned;
     made.spanning = *std::move(spanning);
     if (std::max(above, all - above) + made.spanning.triangles.size() >= all)
-      return "uneven"; // it would not end
+      return &bisection_counts::uneven; // it would not end
     made.dihedral_deg = least_dihedral_at_loops(surface, made.cut, made.spanning);
     if (made.dihedral_deg <= better_than_deg)
-      return "too_sharp";
-    return crosses(surface, made.spanning) ? "crossing" : nullptr;
+      return &bisection_counts::too_sharp;
+    return crosses(surface, made.spanning) ? &bisection_counts::crossing : nullptr;
   }
 
   static bool crosses(const simplicial_mesh<2>& surface, const spanning_surface& spanning) {
@@ -170,11 +171,11 @@ private:
       return false;
     std::optional<bi_division> best;
     for (const cut_plane& plane : planes_for(whole.boundary)) {
-      summary_.add("planes", 1);
+      ++counts_.planes;
       bi_division made;
-      if (const char* reason = try_plane(whole.boundary, table, plane,
-                                         best ? best->dihedral_deg : given_.least_dihedral_deg, made)) {
-        summary_.add(reason, 1);
+      if (const refusal reason = try_plane(whole.boundary, table, plane,
+                                           best ? best->dihedral_deg : given_.least_dihedral_deg, made)) {
+        ++(counts_.*reason);
         continue;
       }
       best = std::move(made);
@@ -203,8 +204,8 @@ private:
       fine_.subdomains.own().push_back({s, above});
       fine_.side_hosts.own().push_back(no_id);
     }
-    summary_.add("cuts", 1);
-    summary_.add("interface_faces", static_cast<double>(made.spanning.triangles.size()));
+    ++counts_.cuts;
+    counts_.interface_faces += made.spanning.triangles.size();
     least_dihedral_deg_ = std::min(least_dihedral_deg_, made.dihedral_deg);
     for (const local_id part : {s, above})
       separate_bodies(part);
@@ -261,6 +262,7 @@ private:
   std::vector<std::uint8_t> stays_whole_;    ///< per subdomain: not zero where no plane divides it
   double least_dihedral_deg_ = 360;
   report summary_;
+  bisection_counts counts_;
 };
 
 } // namespace detail

@@ -57,6 +57,7 @@ public:
     shells_ = oriented(result_.mesh, name_);
     nest();
     count_turned(listed);
+    result_.repairs.set(counts_);
     require_no_crossing(result_.mesh, name_, sliver_height(), result_.repairs);
     return std::move(result_);
   }
@@ -103,7 +104,7 @@ private:
       for (local_id& v : t)
         v = sets.find(v);
     drop_unused_points(result_.mesh);
-    result_.repairs.add("merged_points", static_cast<double>(n - points().size()));
+    counts_.merged_points += n - points().size();
   }
 
   /// Drops triangles with equal corners and the second copy of a triangle listed twice in one orientation.
@@ -120,10 +121,10 @@ private:
       const auto& v = keyed[i].first;
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
         dropped[keyed[i].second] = 1;
-        result_.repairs.add("degenerate", 1);
+        ++counts_.degenerate;
       } else if (i > 0 && keyed[i - 1].first == v) {
         dropped[keyed[i].second] = 1;
-        result_.repairs.add("duplicates", 1);
+        ++counts_.duplicates;
       }
     }
     drop(dropped);
@@ -145,7 +146,7 @@ private:
     for (std::size_t i = 0; i + 1 < keyed.size(); ++i)
       if (keyed[i].first == keyed[i + 1].first) {
         dropped[keyed[i].second] = dropped[keyed[i + 1].second] = 1;
-        result_.repairs.add("degenerate", 2);
+        counts_.degenerate += 2;
         ++i;
       }
     drop(dropped);
@@ -224,7 +225,7 @@ private:
         touched[t] = touched[static_cast<std::size_t>(across)] = 1;
         ++flips;
       }
-      result_.repairs.add("flipped_caps", static_cast<double>(flips));
+      counts_.flipped_caps += flips;
       if (flips == 0)
         return;
     }
@@ -274,10 +275,10 @@ private:
         std::swap(triangles()[t][1], triangles()[t][2]);
       result_.solid_of[t] = nesting.solid_of[static_cast<std::size_t>(shell)];
     }
-    result_.repairs.set("shells", static_cast<double>(closed.size()));
-    result_.repairs.set("sheets", static_cast<double>(shells_.is_sheet.size() - closed.size()));
-    result_.repairs.set("solids", nesting.solids);
-    result_.repairs.set("voids", nesting.voids);
+    counts_.shells = closed.size();
+    counts_.sheets = shells_.is_sheet.size() - closed.size();
+    counts_.solids = nesting.solids;
+    counts_.voids = nesting.voids;
   }
 
   /// Those that are the other way round than before.
@@ -288,7 +289,7 @@ private:
       const auto next = first + 1 == triangles()[t].end() ? triangles()[t].begin() : first + 1;
       turned += *next == listed[t][1] ? 0 : 1;
     }
-    result_.repairs.set("turned", static_cast<double>(turned));
+    counts_.turned = turned;
   }
 
   bool is_sliver(std::size_t t) {
@@ -301,6 +302,7 @@ private:
   std::string name_;
   repair_options options_;
   oriented_surfaces result_;
+  repair_counts counts_;
   double diagonal_ = 0;
   oriented_shells shells_;
 };
@@ -315,13 +317,14 @@ DOVETAIL_INLINE oriented_surfaces repaired(const triangle_soup& soup, const std:
 DOVETAIL_INLINE oriented_surfaces repaired_file(const triangle_soup& soup, const std::string& name,
                                                 const repair_options& options) {
   oriented_surfaces made = repaired(soup, name, options);
-  const auto note = [&](const char* counter, const char* one, const char* more) {
-    if (const double count = made.repairs.get(counter); count > 0)
-      made.repairs.warnings.push_back(name + ": " + number_text(count, 12) + (count == 1 ? one : more));
+  const auto counts = made.repairs.as<repair_counts>();
+  const auto note = [&](std::size_t count, const char* one, const char* more) {
+    if (count > 0)
+      made.repairs.warnings.push_back(name + ": " + std::to_string(count) + (count == 1 ? one : more));
   };
-  note("duplicates", " triangle is a copy of another one and was left out",
+  note(counts.duplicates, " triangle is a copy of another one and was left out",
        " triangles are copies of others and were left out");
-  note("turned", " triangle was listed the wrong way round and turned",
+  note(counts.turned, " triangle was listed the wrong way round and turned",
        " triangles were listed the wrong way round and turned");
   return made;
 }
