@@ -92,8 +92,7 @@ interface_figures figures_of(const interface_angles& angles, const geometry_topo
   figures.remeshing = count(violation_cause::remeshing);
   constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
   for (const angle_violation& v : angles.violations) {
-    figures.below.push_back(
-        {v.angle_deg, v.is_dihedral(), causes[static_cast<std::size_t>(v.cause)], v.place, {}});
+    figures.below.push_back({v.angle_deg, v.is_dihedral(), causes[v.cause], v.place, {}});
     for (const host& entity : v.cad)
       figures.below.back().cad.push_back(name_of(entity, topology));
   }
@@ -387,7 +386,7 @@ private:
         mesh = std::move(improved.mesh);
         ranks.clear();
         for (const local_id p : improved.piece_before)
-          ranks.push_back(given.rank_of_piece[static_cast<std::size_t>(p)]);
+          ranks.push_back(given.rank_of_piece[p]);
         figures_.details.children.push_back(std::move(improved.summary));
         add_mesh_figures(mesh, figures_);
       }

@@ -66,10 +66,7 @@ void add_with_edges(raster_scene& scene, const std::array<vec3, 3>& p, rgb colou
 /// The edges on CAD curves.
 void add_outline(raster_scene& scene, const fine_skeleton& skeleton) {
   for (const auto& [a, b] : skeleton.curve_edges)
-    scene.lines.push_back(
-        {{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
-         outline,
-         1.6});
+    scene.lines.push_back({{skeleton.points[a], skeleton.points[b]}, outline, 1.6});
 }
 
 void add_outline(raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
@@ -125,10 +122,7 @@ std::vector<ranked_element<D>> worst_elements(const distributed_simplicial_mesh<
 /// The triangles that bound an element: its sides, or itself.
 void add_faces(raster_scene& scene, const std::array<vec3, 4>& p, rgb colour) {
   for (const auto& side : numbering::sides<3>)
-    add_with_edges(scene,
-                   {p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
-                    p[static_cast<std::size_t>(side[2])]},
-                   colour);
+    add_with_edges(scene, {p[side[0]], p[side[1]], p[side[2]]}, colour);
 }
 void add_faces(raster_scene& scene, const std::array<vec3, 3>& p, rgb colour) {
   add_with_edges(scene, p, colour);
@@ -167,7 +161,7 @@ raster_image picture_of_decomposition(const generated<3>& result) {
         continue;
       auto p = corners(std::span(skeleton.points), skeleton.sides[t]);
       for (vec3& corner : p)
-        corner += explosion * (centers[static_cast<std::size_t>(s)] - box.center());
+        corner += explosion * (centers[s] - box.center());
       add_with_edges(scene, p, colour_of_number(s));
     }
   return rendered(scene);
@@ -198,18 +192,14 @@ raster_image picture_of_interfaces(const generated<3>& result) {
     }
   const vec3 before_all = 2 * scene.bounds().diagonal() * oblique_direction();
   const auto mark = [&](local_id a, local_id b) {
-    scene.lines.push_back(
-        lifted({{skeleton.points[static_cast<std::size_t>(a)], skeleton.points[static_cast<std::size_t>(b)]},
-                red,
-                5},
-               before_all));
+    scene.lines.push_back(lifted({{skeleton.points[a], skeleton.points[b]}, red, 5}, before_all));
   };
   for (const angle_violation& violation : angles.violations) {
     if (violation.is_dihedral()) {
       mark(violation.edge[0], violation.edge[1]);
       continue;
     }
-    const auto& triangle = skeleton.sides[static_cast<std::size_t>(violation.sides[0])];
+    const auto& triangle = skeleton.sides[violation.sides[0]];
     for (std::size_t k = 0; k < 3; ++k)
       mark(triangle[k], triangle[(k + 1) % 3]);
   }
@@ -229,7 +219,7 @@ raster_image picture_of_interfaces(const generated<2>& result) {
   const raster_view view = view_from(from);
   for (const angle_violation& violation : result.fine_angles.violations) {
     // The vertices of lines are those of the background mesh.
-    const vec3 at = result.background.surface.mesh.points[static_cast<std::size_t>(violation.edge[0])];
+    const vec3 at = result.background.surface.mesh.points[violation.edge[0]];
     for (const vec3 along : {view.right + view.up, view.right - view.up})
       scene.lines.push_back(
           lifted({{at - arm * diagonal * along, at + arm * diagonal * along}, red, 5}, 2 * diagonal * from));

@@ -66,9 +66,7 @@ void improvable_mesh<D>::join_subdomains() {
 
 template <int D>
 void improvable_mesh<D>::freeze_interfaces() {
-  const auto tag = [&](local_id element) {
-    return mesh.tags.empty() ? 0 : mesh.tags[static_cast<std::size_t>(element)];
-  };
+  const auto tag = [&](local_id element) { return mesh.tags.empty() ? 0 : mesh.tags[element]; };
   std::vector<simplex<D - 1>> kept; // triangles of the file
   if constexpr (D == 3) {
     for (const simplex<2>& triangle : rest_.triangles)
@@ -78,7 +76,7 @@ void improvable_mesh<D>::freeze_interfaces() {
   std::vector<bool> stays(mesh.points.size(), false);
   const auto stay = [&](const auto& vertices) {
     for (const local_id v : vertices)
-      stays[static_cast<std::size_t>(v)] = true;
+      stays[v] = true;
   };
   for (const simplex<2>& triangle : rest_.triangles)
     stay(triangle);
@@ -120,7 +118,7 @@ void improvable_mesh<D>::bring_forward(std::vector<bool> stays) {
   const auto renumber = [&](auto& simplices) {
     for (auto& vertices : simplices)
       for (local_id& v : vertices)
-        v = place[static_cast<std::size_t>(v)];
+        v = place[v];
   };
   renumber(mesh.elements);
   renumber(rest_.triangles);
@@ -139,7 +137,7 @@ io::loaded_mesh improvable_mesh<D>::put_back() && {
     if (!material_and_subdomain_.empty()) {
       whole.subdomains.resize(mesh.elements.size());
       for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-        const auto& [material, subdomain] = material_and_subdomain_[static_cast<std::size_t>(mesh.tags[e])];
+        const auto& [material, subdomain] = material_and_subdomain_[mesh.tags[e]];
         mesh.tags[e] = material;
         whole.subdomains[e] = subdomain;
       }

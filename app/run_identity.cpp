@@ -32,7 +32,7 @@ std::string values_of_field(const any_sizing& size, const box3& box) {
   for (int i = 0; i < samples; ++i) {
     vec3 p = box.lower;
     for (int axis = 0; axis < 3; ++axis) {
-      const double t = i * steps[static_cast<std::size_t>(axis)];
+      const double t = i * steps[axis];
       p[axis] += (t - std::floor(t)) * extent[axis];
     }
     hash.number(size(p));

@@ -62,10 +62,10 @@ public:
   template <std::size_t N>
   void add(std::vector<std::uint32_t>& to, const std::array<local_id, N>& vertices) {
     for (const local_id v : vertices) {
-      local_id& number = numbers_[static_cast<std::size_t>(v)];
+      local_id& number = numbers_[v];
       if (number == no_id) {
         number = static_cast<local_id>(places_.size() / 3);
-        const vec3 p = scene_.points[static_cast<std::size_t>(v)] - scene_.box.center();
+        const vec3 p = scene_.points[v] - scene_.box.center();
         for (int k = 0; k < 3; ++k)
           places_.push_back(static_cast<float>(p[k]));
       }
@@ -119,7 +119,7 @@ json arrays_of(const view_scene& scene, const view_part& part) {
     groups.push_back(static_cast<std::uint32_t>(scene.groups.of[at]));
   }
   for (const local_id e : part.elements) {
-    points.add(elements.vertices, scene.tetrahedra[static_cast<std::size_t>(e)]);
+    points.add(elements.vertices, scene.tetrahedra[e]);
     elements.add(scene, e);
   }
   for (const auto& edge : scene.outline) {

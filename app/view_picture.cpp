@@ -87,7 +87,7 @@ private:
     return !wishes_.under || scene_.angles[element] < *wishes_.under;
   }
   vec3 displacement(local_id piece) const {
-    return wishes_.explode * (scene_.centres[static_cast<std::size_t>(piece)] - scene_.box.center());
+    return wishes_.explode * (scene_.centres[piece] - scene_.box.center());
   }
   template <std::size_t N>
   std::array<vec3, N> placed(const std::array<local_id, N>& vertices, local_id piece) const {
@@ -137,9 +137,7 @@ private:
       if (is_shown(e)) {
         const auto p = placed(scene_.tetrahedra[e], scene_.pieces.of[e]);
         for (const auto& side : numbering::sides<3>)
-          add_triangle({p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
-                        p[static_cast<std::size_t>(side[2])]},
-                       colour_of_element(e));
+          add_triangle({p[side[0]], p[side[1]], p[side[2]]}, colour_of_element(e));
       }
     for (std::size_t e = 0; scene_.dimension == 2 && e < scene_.elements(); ++e)
       if (is_shown(e))

@@ -46,9 +46,7 @@ struct view_scene {
   box3 box;
 
   std::size_t elements() const { return angles.size(); }
-  local_id piece_of_triangle(std::size_t t) const {
-    return pieces.of[static_cast<std::size_t>(element_of[t])];
-  }
+  local_id piece_of_triangle(std::size_t t) const { return pieces.of[element_of[t]]; }
   /// Which is 180 where there are none.
   float least_angle() const;
 };

@@ -36,7 +36,7 @@ template <graph G>
 
 /// The element across a side, or no_id; `manifold`: the table has no side with three elements or more.
 local_id across(const side_table<3>& sides, local_id side, local_id element, bool manifold) {
-  const auto& pair = sides.elements[static_cast<std::size_t>(side)];
+  const auto& pair = sides.elements[side];
   const local_id other = pair[0] == element ? pair[1] : pair[0];
   return manifold || !sides.is_non_manifold(side) ? other : no_id;
 }
@@ -60,10 +60,10 @@ local_id across(const side_table<3>& sides, local_id side, local_id element, boo
   seen[0] = true;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const local_id element = order[k];
-    for (const local_id side : sides.of_element[static_cast<std::size_t>(element)]) {
+    for (const local_id side : sides.of_element[element]) {
       const local_id other = across(sides, side, element, manifold);
-      if (other != no_id && !seen[static_cast<std::size_t>(other)]) {
-        seen[static_cast<std::size_t>(other)] = true;
+      if (other != no_id && !seen[other]) {
+        seen[other] = true;
         order.push_back(other);
       }
     }
@@ -77,8 +77,8 @@ local_id across(const side_table<3>& sides, local_id side, local_id element, boo
   seen[0] = true;
   for (std::size_t k = 0; k < order.size(); ++k)
     for (const local_id other : graph.row(order[k]))
-      if (!seen[static_cast<std::size_t>(other)]) {
-        seen[static_cast<std::size_t>(other)] = true;
+      if (!seen[other]) {
+        seen[other] = true;
         order.push_back(other);
       }
   return order.back();

@@ -37,7 +37,7 @@ simplicial_mesh<3> graded_mesh(double elements) {
 std::vector<double> predicted_elements(const simplicial_mesh<3>& mesh) {
   std::vector<double> weights;
   for (const auto& t : mesh.elements) {
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return mesh.points[t[k]]; };
     const double size = 0.002 + 0.02 * norm((at(0) + at(1) + at(2) + at(3)) / 4);
     weights.push_back(signed_volume(at(0), at(1), at(2), at(3)) / (0.12 * size * size * size));
   }

@@ -41,10 +41,10 @@ simplicial_mesh<2> surface_of(const io::loaded_mesh& file) {
   std::vector<local_id> place(file.mesh.points.size(), no_id);
   for (auto& triangle : surface.elements)
     for (auto& v : triangle) {
-      auto& own = place[static_cast<std::size_t>(v)];
+      auto& own = place[v];
       if (own == no_id) {
         own = static_cast<local_id>(surface.points.size());
-        surface.points.push_back(file.mesh.points[static_cast<std::size_t>(v)]);
+        surface.points.push_back(file.mesh.points[v]);
       }
       v = own;
     }
@@ -125,22 +125,22 @@ void empty_voids(simplicial_mesh<3>& mesh, const simplicial_mesh<2>& surface) {
       const local_id e = reached.back();
       reached.pop_back();
       for (int side = 0; side < 4; ++side) {
-        const auto half = across[static_cast<std::size_t>(e)][static_cast<std::size_t>(side)];
-        if (half == no_id || shells[static_cast<std::size_t>(improvement::element_of(half))] != 0)
+        const auto half = across[e][side];
+        if (half == no_id || shells[improvement::element_of(half)] != 0)
           continue;
         const local_id other = improvement::element_of(half);
-        const auto key = sorted_side(mesh.elements[static_cast<std::size_t>(e)], side);
+        const auto key = sorted_side(mesh.elements[e], side);
         if (std::binary_search(walls.begin(), walls.end(), key)) {
           behind.push_back(other);
         } else {
-          shells[static_cast<std::size_t>(other)] = depth;
+          shells[other] = depth;
           reached.push_back(other);
         }
       }
     }
     for (const local_id e : behind)
-      if (shells[static_cast<std::size_t>(e)] == 0) {
-        shells[static_cast<std::size_t>(e)] = depth + 1;
+      if (shells[e] == 0) {
+        shells[e] = depth + 1;
         reached.push_back(e);
       }
   }
@@ -156,7 +156,7 @@ void drop_unused_points(simplicial_mesh<3>& mesh, std::size_t kept) {
   std::vector<local_id> place(mesh.points.size(), no_id);
   for (const auto& element : mesh.elements)
     for (const local_id v : element)
-      place[static_cast<std::size_t>(v)] = 0;
+      place[v] = 0;
   std::size_t used = 0;
   for (std::size_t v = 0; v < place.size(); ++v)
     if (v < kept || place[v] != no_id) {
@@ -166,7 +166,7 @@ void drop_unused_points(simplicial_mesh<3>& mesh, std::size_t kept) {
   mesh.points.resize(used);
   for (auto& element : mesh.elements)
     for (auto& v : element)
-      v = place[static_cast<std::size_t>(v)];
+      v = place[v];
 }
 
 void write_raw(const char* path, const simplicial_mesh<3>& mesh, std::size_t frozen) {

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
         seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
       }
       std::nth_element(seconds.begin(), seconds.begin() + repeats / 2, seconds.end());
-      print_row(name, measure_quality(mesh), seconds[static_cast<std::size_t>(repeats / 2)]);
+      print_row(name, measure_quality(mesh), seconds[repeats / 2]);
     }
   }
   return 0;

@@ -26,10 +26,10 @@ mesher_input<3> boundary_of(const simplicial_mesh<3>& mesh) {
       continue;
     simplex<2> triangle = sides.vertices[s];
     for (auto& vertex : triangle) {
-      auto& own = place[static_cast<std::size_t>(vertex)];
+      auto& own = place[vertex];
       if (own == no_id) {
         own = static_cast<local_id>(input.boundary.points.size());
-        input.boundary.points.push_back(mesh.points[static_cast<std::size_t>(vertex)]);
+        input.boundary.points.push_back(mesh.points[vertex]);
       }
       vertex = own;
     }

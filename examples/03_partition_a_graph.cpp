@@ -30,8 +30,7 @@ double cut_weight(const dovetail::csr_graph& graph, const std::vector<dovetail::
   double cut = 0;
   for (dovetail::local_id node = 0; node < graph.node_count(); ++node)
     for (const auto neighbour : graph.row(node))
-      if (node < neighbour &&
-          parts[static_cast<std::size_t>(node)] != parts[static_cast<std::size_t>(neighbour)])
+      if (node < neighbour && parts[node] != parts[neighbour])
         cut += 1;
   return cut;
 }

@@ -55,7 +55,7 @@ Eigen::Vector3d gradient_in(const linear_element& element, const simplex<3>& ver
                             const Eigen::VectorXd& u) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int i = 0; i < 4; ++i)
-    sum += u[vertices[static_cast<std::size_t>(i)]] * element.gradients.col(i);
+    sum += u[vertices[i]] * element.gradients.col(i);
   return sum;
 }
 
@@ -84,8 +84,8 @@ std::vector<double> estimate(const simplicial_mesh<3>& mesh, const Eigen::Vector
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto element = element_of(mesh, static_cast<Eigen::Index>(e));
     for (const local_id v : mesh.elements[e]) {
-      mean[static_cast<std::size_t>(v)] += element.volume * gradient_in(element, mesh.elements[e], u);
-      around[static_cast<std::size_t>(v)] += element.volume;
+      mean[v] += element.volume * gradient_in(element, mesh.elements[e], u);
+      around[v] += element.volume;
     }
   }
   std::vector<double> shares;
@@ -121,12 +121,10 @@ std::vector<double> new_sizes(const simplicial_mesh<3>& mesh, const std::vector<
     double length = 0;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < i; ++j)
-        length += distance(mesh.points[static_cast<std::size_t>(mesh.elements[e][i])],
-                           mesh.points[static_cast<std::size_t>(mesh.elements[e][j])]) /
-                  6;
+        length += distance(mesh.points[mesh.elements[e][i]], mesh.points[mesh.elements[e][j]]) / 6;
     for (const local_id v : mesh.elements[e]) {
-      logarithms[static_cast<std::size_t>(v)] += std::log(factor(e, std::exp(high)) * length);
-      count[static_cast<std::size_t>(v)] += 1;
+      logarithms[v] += std::log(factor(e, std::exp(high)) * length);
+      count[v] += 1;
     }
   }
   for (std::size_t v = 0; v < count.size(); ++v)

@@ -23,8 +23,8 @@ double jacobian(const std::array<vec3, 10>& nodes, const std::array<double, 4>& 
     by[i] = (4 * at[i] - 1) * nodes[i];
   for (std::size_t e = 0; e < 6; ++e) {
     const auto [a, b] = numbering::edges<3>[e]; // the corners of the edge that node 4 + e is on
-    by[static_cast<std::size_t>(a)] += 4 * at[static_cast<std::size_t>(b)] * nodes[4 + e];
-    by[static_cast<std::size_t>(b)] += 4 * at[static_cast<std::size_t>(a)] * nodes[4 + e];
+    by[a] += 4 * at[b] * nodes[4 + e];
+    by[b] += 4 * at[a] * nodes[4 + e];
   }
   return dot(cross(by[1] - by[0], by[2] - by[0]), by[3] - by[0]);
 }
@@ -34,7 +34,7 @@ double volume(const io::second_order_mesh<3>& mesh) {
   for (const auto& element : mesh.elements) {
     std::array<vec3, 10> nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      nodes[k] = mesh.points[static_cast<std::size_t>(element[k])];
+      nodes[k] = mesh.points[element[k]];
     sum -= 4.0 / 30 * jacobian(nodes, {0.25, 0.25, 0.25, 0.25}); // exact up to degree 3, which this is
     for (std::size_t i = 0; i < 4; ++i) {
       std::array<double, 4> at{1.0 / 6, 1.0 / 6, 1.0 / 6, 1.0 / 6};
@@ -49,7 +49,7 @@ double volume(const io::second_order_mesh<3>& mesh) {
 double volume(const simplicial_mesh<3>& mesh) {
   double sum = 0;
   for (const auto& [a, b, c, d] : mesh.elements) {
-    const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return mesh.points[v]; };
     sum += signed_volume(at(a), at(b), at(c), at(d));
   }
   return sum;

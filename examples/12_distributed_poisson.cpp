@@ -34,12 +34,11 @@ void exchange(const std::vector<rank_mesh<3>>& ranks, vectors& values) {
   const vectors sent = values;
   for (const auto& rank : ranks)
     for (const auto& here : rank.neighbours) {
-      const auto& other = ranks[static_cast<std::size_t>(here.rank)];
+      const auto& other = ranks[here.rank];
       const auto there = std::find_if(other.neighbours.begin(), other.neighbours.end(),
                                       [&](const auto& back) { return back.rank == rank.rank; });
       for (std::size_t i = 0; i < here.vertices.size(); ++i) // the same vertices in the same order
-        values[static_cast<std::size_t>(rank.rank)][here.vertices[i]] +=
-            sent[static_cast<std::size_t>(other.rank)][there->vertices[i]];
+        values[rank.rank][here.vertices[i]] += sent[other.rank][there->vertices[i]];
     }
 }
 
@@ -69,10 +68,9 @@ rank_problem assemble(const rank_mesh<3>& rank, const wave& exact) {
     const auto element = element_of(rank.mesh, static_cast<Eigen::Index>(e));
     const auto& vertices = rank.mesh.elements[e];
     for (int i = 0; i < 4; ++i) {
-      problem.load[vertices[static_cast<std::size_t>(i)]] +=
-          element.volume / 4 * exact.source(element.centre);
+      problem.load[vertices[i]] += element.volume / 4 * exact.source(element.centre);
       for (int j = 0; j < 4; ++j)
-        entries.emplace_back(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(j)],
+        entries.emplace_back(vertices[i], vertices[j],
                              element.volume * element.gradients.col(i).dot(element.gradients.col(j)));
     }
   }

@@ -70,7 +70,7 @@ int main() {
   const std::vector<local_id> part_of_super = partition::greedy{}(simplified.graph, 8);
   std::vector<local_id> whole;
   for (const local_id super : simplified.super_of_element)
-    whole.push_back(part_of_super[static_cast<std::size_t>(super)]);
+    whole.push_back(part_of_super[super]);
   // end
   std::printf("as it is:         %3.0f lanes cut, main streets cut in %d places, imbalance %.2f\n",
               edge_cut(network, part), main_streets_cut(streets, part), imbalance_of(network, part, 8));

@@ -27,8 +27,7 @@ dovetail::simplicial_mesh<2> sphere(double radius, int times) {
       const auto [place, is_new] =
           middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<local_id>(s.points.size()));
       if (is_new)
-        s.points.push_back(0.5 *
-                           (s.points[static_cast<std::size_t>(a)] + s.points[static_cast<std::size_t>(b)]));
+        s.points.push_back(0.5 * (s.points[a] + s.points[b]));
       return place->second;
     };
     std::vector<dovetail::simplex<2>> finer;

@@ -21,11 +21,11 @@ struct layers {
     double weight = 0;
     for (dovetail::local_id i = 0; i < graph.node_count(); ++i) {
       const auto start = (first_node + i) % graph.node_count();
-      if (part_of_node[static_cast<std::size_t>(start)] != dovetail::no_id)
+      if (part_of_node[start] != dovetail::no_id)
         continue;
       for (const auto node : dovetail::breadth_first_order(graph, start)) {
-        part_of_node[static_cast<std::size_t>(node)] = part;
-        weight += graph.node_weights[static_cast<std::size_t>(node)];
+        part_of_node[node] = part;
+        weight += graph.node_weights[node];
         const bool full = weight >= total * (part + 1) / parts;
         const bool few_left = --left <= parts - 1 - part; // just enough to leave no part empty
         if (part + 1 < parts && (full || few_left))

@@ -24,7 +24,7 @@ struct away_from {
     for (const auto& vertices : sides.vertices) {
       double nearest = radius;
       for (const auto v : vertices)
-        nearest = std::min(nearest, distance(mesh.points[static_cast<std::size_t>(v)], point));
+        nearest = std::min(nearest, distance(mesh.points[v], point));
       judged.quality.push_back(nearest);
     }
     return judged;

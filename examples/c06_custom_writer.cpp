@@ -39,9 +39,7 @@ struct su2_writer {
     std::vector<std::vector<simplex<2>>> of_group(groups.names.size());
     for (std::size_t t = 0; t < mesh.skeleton.sides.size(); ++t)
       if (mesh.skeleton.subdomains[t][1] == no_id) // the domain ends there
-        of_group[static_cast<std::size_t>(
-                     groups.of_face[static_cast<std::size_t>(mesh.skeleton.side_hosts[t])])]
-            .push_back(mesh.skeleton.sides[t]);
+        of_group[groups.of_face[mesh.skeleton.side_hosts[t]]].push_back(mesh.skeleton.sides[t]);
     file.text("NMARK= " + std::to_string(of_group.size()) + "\n");
     for (std::size_t m = 0; m < of_group.size(); ++m) {
       file.text("MARKER_TAG= " + groups.names[m] + "\nMARKER_ELEMS= " + std::to_string(of_group[m].size()) +

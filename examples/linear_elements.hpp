@@ -32,7 +32,7 @@ inline std::vector<bool> points_on_boundary(const dovetail::simplicial_mesh<3>& 
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (sides.is_boundary(static_cast<dovetail::local_id>(s)))
       for (const auto v : sides.vertices[s])
-        found[static_cast<std::size_t>(v)] = true;
+        found[v] = true;
   return found;
 }
 
@@ -49,13 +49,13 @@ Eigen::VectorXd solve(const dovetail::simplicial_mesh<3>& mesh, const Problem& p
     const auto element = element_of(mesh, e);
     for (int i = 0; i < 4; ++i) {
       const auto row = elements(e, i);
-      if (given[static_cast<std::size_t>(row)])
+      if (given[row])
         continue;
       load[row] += element.volume / 4 * problem.source(element.centre);
       for (int j = 0; j < 4; ++j) {
         const auto column = elements(e, j);
         const double entry = element.volume * element.gradients.col(i).dot(element.gradients.col(j));
-        if (given[static_cast<std::size_t>(column)])
+        if (given[column])
           load[row] -= entry * problem(points.row(column));
         else
           stiffness.coeffRef(row, column) += entry;
@@ -63,7 +63,7 @@ Eigen::VectorXd solve(const dovetail::simplicial_mesh<3>& mesh, const Problem& p
     }
   }
   for (Eigen::Index p = 0; p < points.rows(); ++p)
-    if (given[static_cast<std::size_t>(p)]) {
+    if (given[p]) {
       stiffness.coeffRef(p, p) = 1;
       load[p] = problem(points.row(p));
     }

@@ -60,7 +60,7 @@ void show(int argc, char** argv) {
   const auto supers = static_cast<std::size_t>(result.super_count);
   std::vector<std::size_t> members(supers, 0);
   for (const local_id super : result.super_of_element)
-    ++members[static_cast<std::size_t>(super)];
+    ++members[super];
   const auto merged = supers - static_cast<std::size_t>(std::count(members.begin(), members.end(), 1u));
   std::printf("  simplified EDG: %zu nodes, of which %zu are super-elements, the largest of %zu elements\n",
               supers, merged, *std::max_element(members.begin(), members.end()));

@@ -36,7 +36,7 @@ void write_boundaries(const simplicial_background<3>& coarse, const realized<3>&
       after{{{made.fine.points.begin(), made.fine.points.end()}, {}, {}}};
   for (const skeleton_region& region : made.coarse.regions)
     for (const local_id t : region.triangles)
-      before.add(coarse.surface.mesh.elements[static_cast<std::size_t>(t)], region.subdomains);
+      before.add(coarse.surface.mesh.elements[t], region.subdomains);
   for (const skeleton_face& face : made.coarse.faces)
     before.add(face.vertices, face.subdomains);
   for (std::size_t s = 0; s < made.fine.sides.size(); ++s)

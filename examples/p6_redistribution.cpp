@@ -24,7 +24,7 @@ void write(const distributed_simplicial_mesh<D>& mesh, const std::vector<local_i
            const std::string& file) {
   auto whole = io::gather(mesh);
   for (std::size_t e = 0; e < whole.mesh.elements.size(); ++e)
-    whole.mesh.tags[e] = number_of_piece[static_cast<std::size_t>(whole.subdomains[e])];
+    whole.mesh.tags[e] = number_of_piece[whole.subdomains[e]];
   io::write_vtu(whole.mesh, file);
 }
 

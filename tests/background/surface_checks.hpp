@@ -16,7 +16,7 @@ inline std::size_t open_edges(const surface_mesh& surface, const geometry_topolo
   for (local_id solid = 0; solid < static_cast<local_id>(topology.solids.size()); ++solid) {
     std::map<std::array<local_id, 2>, int> balance;
     for (std::size_t e = 0; e < surface.mesh.elements.size(); ++e) {
-      const auto& face = topology.faces[static_cast<std::size_t>(surface.mesh.tags[e])];
+      const auto& face = topology.faces[surface.mesh.tags[e]];
       const int sense = face.solids[0] == solid ? 1 : face.solids[1] == solid ? -1 : 0;
       const auto& t = surface.mesh.elements[e];
       for (std::size_t i = 0; i < 3 && sense != 0; ++i) {
@@ -40,9 +40,8 @@ double parameter_error(const surface_mesh& surface, const G& model) {
   double worst = 0;
   for (std::size_t e = 0; e < surface.mesh.elements.size(); ++e)
     for (std::size_t i = 0; i < 3; ++i)
-      worst =
-          std::max(worst, distance(surface.mesh.points[static_cast<std::size_t>(surface.mesh.elements[e][i])],
-                                   model.face_point(surface.mesh.tags[e], surface.corner_uv[e][i])));
+      worst = std::max(worst, distance(surface.mesh.points[surface.mesh.elements[e][i]],
+                                       model.face_point(surface.mesh.tags[e], surface.corner_uv[e][i])));
   return worst;
 }
 

@@ -37,8 +37,8 @@ void check_surface(const G& model, const surface_mesh& surface) {
   for (const auto& edge : surface.curve_edges) {
     CHECK(edge.t[0] < edge.t[1]);
     for (std::size_t i = 0; i < 2; ++i)
-      CHECK(distance(model.curve_point(edge.curve, edge.t[i]),
-                     surface.mesh.points[static_cast<std::size_t>(edge.vertices[i])]) < 1e-12);
+      CHECK(distance(model.curve_point(edge.curve, edge.t[i]), surface.mesh.points[edge.vertices[i]]) <
+            1e-12);
   }
 }
 
@@ -63,8 +63,7 @@ TEST_CASE("curvature bounds the edges of a ball whatever the size") {
   CHECK(volume_of(result.surface) > 0.72 * 4 * pi / 3);
   for (const auto& t : result.surface.mesh.elements)
     for (std::size_t i = 0; i < 3; ++i)
-      CHECK(distance(result.surface.mesh.points[static_cast<std::size_t>(t[i])],
-                     result.surface.mesh.points[static_cast<std::size_t>(t[(i + 1) % 3])]) < 1.6);
+      CHECK(distance(result.surface.mesh.points[t[i]], result.surface.mesh.points[t[(i + 1) % 3]]) < 1.6);
 }
 
 TEST_CASE("a thin disc stays a surface: two faces never share an edge that is on no curve") {
@@ -120,8 +119,8 @@ TEST_CASE("where a caller wants it finer edges get small, and faces out of reach
   check_surface(model, refined.surface);
   double shortest = 1e300;
   for (const auto& t : refined.surface.mesh.elements)
-    shortest = std::min(shortest, distance(refined.surface.mesh.points[static_cast<std::size_t>(t[0])],
-                                           refined.surface.mesh.points[static_cast<std::size_t>(t[1])]));
+    shortest =
+        std::min(shortest, distance(refined.surface.mesh.points[t[0]], refined.surface.mesh.points[t[1]]));
   CHECK(shortest < 0.08);
 }
 

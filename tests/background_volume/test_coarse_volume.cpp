@@ -33,7 +33,7 @@ struct model {
       known[{surface.mesh.points[v].x, surface.mesh.points[v].y, surface.mesh.points[v].z}] =
           static_cast<local_id>(v);
     const auto shared = [&](local_id v) {
-      const vec3 p = s.points[static_cast<std::size_t>(v)];
+      const vec3 p = s.points[v];
       const auto [it, is_new] =
           known.try_emplace({p.x, p.y, p.z}, static_cast<local_id>(surface.mesh.points.size()));
       if (is_new)
@@ -55,7 +55,7 @@ struct model {
 
 double volume_of_tag(const simplicial_mesh<3>& mesh, local_id tag) {
   double sum = 0;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     if (mesh.tags[e] == tag) {
       const auto& [a, b, c, d] = mesh.elements[e];
@@ -89,15 +89,13 @@ void check_core(const model& m, const background::coarse_volume_result& result) 
   const auto sides = build_sides(result.mesh);
   std::map<simplex<2>, std::array<local_id, 2>> tags;
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    const auto tag = [&](local_id e) {
-      return e == no_id ? no_id : result.mesh.tags[static_cast<std::size_t>(e)];
-    };
+    const auto tag = [&](local_id e) { return e == no_id ? no_id : result.mesh.tags[e]; };
     auto pair = std::array{tag(sides.elements[s][0]), tag(sides.elements[s][1])};
     std::sort(pair.begin(), pair.end());
     tags[sorted_vertices(sides.vertices[s])] = pair;
   }
   for (std::size_t t = 0; t < m.surface.mesh.elements.size(); ++t) {
-    auto expected = m.topology.faces[static_cast<std::size_t>(m.surface.mesh.tags[t])].solids;
+    auto expected = m.topology.faces[m.surface.mesh.tags[t]].solids;
     std::sort(expected.begin(), expected.end());
     const auto found = tags.find(sorted_vertices(m.surface.mesh.elements[t]));
     REQUIRE(found != tags.end());

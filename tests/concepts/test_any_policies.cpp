@@ -82,7 +82,7 @@ TEST_CASE("the fallbacks of a held mesher are the held one's, and then those add
   const auto meshers = with_fallbacks(held);
   REQUIRE(meshers.size() == 4);
   for (int attempt = 0; attempt < 3; ++attempt)
-    CHECK(meshers[static_cast<std::size_t>(attempt)]({}, {}).mesh.tags == std::vector<local_id>{attempt});
+    CHECK(meshers[attempt]({}, {}).mesh.tags == std::vector<local_id>{attempt});
   CHECK(meshers[3].name() == "archetype");
 }
 

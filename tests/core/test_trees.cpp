@@ -23,10 +23,6 @@ std::vector<vec3> random_points(std::size_t count, std::uint64_t seed) {
 
 constexpr auto itself = [](vec3 p) { return p; };
 
-std::size_t at(local_id id) {
-  return static_cast<std::size_t>(id);
-}
-
 } // namespace
 
 TEST_CASE("a box tree holds every item once, in boxes that it fits") {
@@ -42,10 +38,10 @@ TEST_CASE("a box tree holds every item once, in boxes that it fits") {
     REQUIRE(order.size() == count);
     CHECK(std::set<local_id>(order.begin(), order.end()).size() == count);
     for (std::size_t k = 0; k < count; ++k)
-      CHECK(points[k] == given[at(order[k])]);
+      CHECK(points[k] == given[order[k]]);
     const auto boxes = tree.reduce<box3>(
         [&](local_id k) {
-          return box3{points[at(k)], points[at(k)]};
+          return box3{points[k], points[k]};
         },
         [](const box3& a, const box3& b) { return united(a, b); });
     REQUIRE(boxes.size() == tree.node_count());
@@ -64,7 +60,7 @@ TEST_CASE("the least value over a box tree is that of a search through all") {
   const auto centers = random_points(200, 4);
   for (const vec3& p : centers) {
     const vec3 q = p + vec3{0.3, 0.2, 0.1};
-    const auto value = [&](local_id k) { return distance(points[at(k)], q); };
+    const auto value = [&](local_id k) { return distance(points[k], q); };
     double expected = 0.5;
     for (std::size_t k = 0; k < points.size(); ++k)
       expected = std::min(expected, value(static_cast<local_id>(k)));
@@ -128,7 +124,7 @@ TEST_CASE("candidates are all items that may concern a point, in the order given
     bounds.include(centers[k]);
   }
   const candidate_octree tree(bounds, order, [&](local_id k, const box3& box) {
-    return distance_squared(box, centers[at(k)]) <= radius * radius;
+    return distance_squared(box, centers[k]) <= radius * radius;
   });
   std::size_t listed = 0;
   const auto places = random_points(300, 9);

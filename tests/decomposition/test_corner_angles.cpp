@@ -74,9 +74,8 @@ TEST_CASE("between fine lines, a corner is as they leave the vertex") {
   const square s;
   const std::vector<local_id> part{0, 0, 1, 1};
   const auto leaves = [&](local_id side, local_id vertex) {
-    const auto& ends = s.sides.vertices[static_cast<std::size_t>(side)];
-    vec3 along = s.mesh.points[static_cast<std::size_t>(ends[0] == vertex ? ends[1] : ends[0])] -
-                 s.mesh.points[static_cast<std::size_t>(vertex)];
+    const auto& ends = s.sides.vertices[side];
+    vec3 along = s.mesh.points[ends[0] == vertex ? ends[1] : ends[0]] - s.mesh.points[vertex];
     if (vertex == 0 && ends[0] + ends[1] == 4) // the diagonal leaves the first corner at 30 degrees
       along = {std::sqrt(3.0), 1, 0};
     return along;

@@ -87,8 +87,7 @@ void check_parts(const simplicial_mesh<D>& mesh, const side_table<D>& sides, con
   disjoint_sets sets(mesh.elements.size());
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = sides.elements[s];
-    if (sides.is_interior(static_cast<local_id>(s)) &&
-        d.part_of_element[static_cast<std::size_t>(a)] == d.part_of_element[static_cast<std::size_t>(b)])
+    if (sides.is_interior(static_cast<local_id>(s)) && d.part_of_element[a] == d.part_of_element[b])
       sets.unite(a, b);
   }
   CHECK(sets.number_sets().count == d.parts);
@@ -97,7 +96,7 @@ void check_parts(const simplicial_mesh<D>& mesh, const side_table<D>& sides, con
   CHECK(*used.rbegin() == d.parts - 1);
   if (!mesh.tags.empty())
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      REQUIRE(mesh.tags[e] == d.material_of_part[static_cast<std::size_t>(d.part_of_element[e])]);
+      REQUIRE(mesh.tags[e] == d.material_of_part[d.part_of_element[e]]);
 }
 
 /// A partitioner that cuts badly: parts by a hash of the node, so parts are scattered.
@@ -127,10 +126,7 @@ TEST_CASE("defects agree with the definition of a manifold on random partitions"
     boundary_defects<3> defects(mesh, sides);
     std::set<local_id> found;
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
-      if (defects
-              .count_at(static_cast<local_id>(v),
-                        [&](local_id e) { return part[static_cast<std::size_t>(e)]; })
-              .any())
+      if (defects.count_at(static_cast<local_id>(v), [&](local_id e) { return part[e]; }).any())
         found.insert(static_cast<local_id>(v));
     CHECK(found == non_manifold_points(mesh, part, 2));
     CHECK(!found.empty());
@@ -229,7 +225,7 @@ TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, i
     CHECK(d.summary.get("imbalance") <= 1.05);
     const auto boundary = subdomain_boundary<3>(mesh, sides, d.part_of_element);
     for (std::size_t k = 0; k < boundary.sides.size(); ++k) {
-      const auto state = simplified.side_states[static_cast<std::size_t>(boundary.side_ids[k])];
+      const auto state = simplified.side_states[boundary.side_ids[k]];
       REQUIRE(state != side_state::removed);
       REQUIRE((boundary.on_surface[k] != 0) == (boundary.subdomains[k][1] == no_id));
     }
@@ -303,19 +299,18 @@ TEST_CASE("the boundary of every part is closed and encloses the part's volume")
   const auto boundary = subdomain_boundary<3>(mesh, sides, d.part_of_element);
   std::vector<double> enclosed(static_cast<std::size_t>(d.parts), 0.0);
   std::vector<double> expected(enclosed);
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   for (std::size_t k = 0; k < boundary.sides.size(); ++k) {
     const auto& t = boundary.sides[k];
     // Seen from the origin outward triangles have positive volume, with the order (0, a, b, c).
     const double volume = dot(at(t[0]), cross(at(t[1]), at(t[2]))) / 6;
-    enclosed[static_cast<std::size_t>(boundary.subdomains[k][0])] += volume;
+    enclosed[boundary.subdomains[k][0]] += volume;
     if (boundary.subdomains[k][1] != no_id)
-      enclosed[static_cast<std::size_t>(boundary.subdomains[k][1])] -= volume;
+      enclosed[boundary.subdomains[k][1]] -= volume;
   }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& t = mesh.elements[e];
-    expected[static_cast<std::size_t>(d.part_of_element[e])] +=
-        signed_volume(at(t[0]), at(t[1]), at(t[2]), at(t[3]));
+    expected[d.part_of_element[e]] += signed_volume(at(t[0]), at(t[1]), at(t[2]), at(t[3]));
   }
   for (std::size_t part = 0; part < enclosed.size(); ++part)
     CHECK(enclosed[part] == doctest::Approx(expected[part]));

@@ -39,11 +39,9 @@ measured dihedrals_from_elements(const simplicial_mesh<3>& mesh, const std::vect
       const dihedral w = ridge_table<3>::decode(code);
       const auto e = static_cast<std::size_t>(w.element);
       const auto is_surface = [&](std::size_t end) {
-        return adj.sides.is_boundary(adj.sides.of_element[e][static_cast<std::size_t>(w.sides[end])]);
+        return adj.sides.is_boundary(adj.sides.of_element[e][w.sides[end]]);
       };
-      items.push_back({part[e],
-                       dihedral_angles(corners(std::span(mesh.points),
-                                               mesh.elements[e]))[static_cast<std::size_t>(w.ridge)],
+      items.push_back({part[e], dihedral_angles(corners(std::span(mesh.points), mesh.elements[e]))[w.ridge],
                        is_surface(0), is_surface(1)});
     }
     if (adj.ridges.closed[f]) {
@@ -120,7 +118,7 @@ void check_measured(const interface_angles& angles, const simplicial_mesh<3>& me
   double smallest = 360;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = sides.elements[s];
-    if (b == no_id || part[static_cast<std::size_t>(a)] == part[static_cast<std::size_t>(b)])
+    if (b == no_id || part[a] == part[b])
       continue;
     const auto corner = dihedral_angles(corners(std::span(mesh.points), sides.vertices[s]));
     const double angle = *std::min_element(corner.begin(), corner.end());

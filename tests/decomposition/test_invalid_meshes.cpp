@@ -51,9 +51,7 @@ std::vector<broken_mesh<D>> broken_meshes() {
       {"out of range", "element 7 refers to point 9999", [](auto& mesh) { mesh.elements[7][1] = 9999; }},
       {"flat", "is flat", [](auto& mesh) {
          const auto& element = mesh.elements[7];
-         const auto at = [&](std::size_t k) -> vec3& {
-           return mesh.points[static_cast<std::size_t>(element[k])];
-         };
+         const auto at = [&](std::size_t k) -> vec3& { return mesh.points[element[k]]; };
          at(D) = at(0);
        }}};
   return broken;
@@ -95,7 +93,7 @@ void simplify_refuses(const simplicial_mesh<D>& valid) {
   const std::vector<local_id> parts = [&] {
     std::vector<local_id> part(valid.elements.size(), 0);
     for (std::size_t e = 0; e < part.size(); ++e)
-      part[e] = valid.points[static_cast<std::size_t>(valid.elements[e][0])].x < 0.5 ? 0 : 1;
+      part[e] = valid.points[valid.elements[e][0]].x < 0.5 ? 0 : 1;
     return part;
   }();
   refuses_all<D>("measure_interface_angles", valid, [&](const auto& mesh, const auto& sides) {
@@ -136,7 +134,7 @@ TEST_CASE("the skeleton is extracted of valid meshes, with one number per elemen
   const auto valid = dovetail_test::cube(3);
   std::vector<local_id> part;
   for (const auto& element : valid.volume.elements)
-    part.push_back(valid.volume.points[static_cast<std::size_t>(element[0])].x < 0.5 ? 0 : 1);
+    part.push_back(valid.volume.points[element[0]].x < 0.5 ? 0 : 1);
   const auto with_volume = [&](const simplicial_mesh<3>& volume) {
     auto mesh = valid;
     mesh.volume = volume;
@@ -167,7 +165,7 @@ TEST_CASE("interface angles are measured between triangles that are there once a
   const auto mesh = dovetail_test::jittered_cubes(3);
   std::vector<local_id> part;
   for (const auto& element : mesh.elements)
-    part.push_back(mesh.points[static_cast<std::size_t>(element[0])].x < 0.5 ? 0 : 1);
+    part.push_back(mesh.points[element[0]].x < 0.5 ? 0 : 1);
   const auto whole = dovetail_test::subdomain_boundary<3>(mesh, build_sides(mesh), part);
   std::size_t interface = 0; // a triangle of it
   while (whole.subdomains[interface][1] == no_id)

@@ -17,10 +17,6 @@ namespace {
 
 using places_to_avoid = std::vector<std::vector<local_id>>;
 
-std::size_t at(local_id id) {
-  return static_cast<std::size_t>(id);
-}
-
 struct decomposed {
   explicit decomposed(simplicial_mesh<3> given, int parts)
       : mesh(std::move(given)), sides(build_sides(mesh)) {
@@ -38,14 +34,14 @@ struct decomposed {
     return between;
   }
   bool is_between(local_id side, const std::vector<local_id>& part) const {
-    const auto& [a, b] = sides.elements[at(side)];
-    return part[at(a)] != part[at(b)];
+    const auto& [a, b] = sides.elements[side];
+    return part[a] != part[b];
   }
   std::vector<local_id> defective_points(const std::vector<local_id>& part) const {
     boundary_defects<3> defects(mesh, sides);
     std::vector<local_id> points;
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
-      if (defects.count_at(static_cast<local_id>(v), [&](local_id e) { return part[at(e)]; }).any())
+      if (defects.count_at(static_cast<local_id>(v), [&](local_id e) { return part[e]; }).any())
         points.push_back(static_cast<local_id>(v));
     return points;
   }

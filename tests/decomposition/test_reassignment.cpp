@@ -25,12 +25,12 @@ std::vector<std::set<local_id>> components_without(const csr_graph& graph, const
                                                    const std::vector<local_id>& leaving) {
   std::vector<local_id> label = part;
   for (const local_id s : leaving)
-    label[at(s)] = no_id;
+    label[s] = no_id;
   const auto components = components_within(graph, label);
   std::vector<std::set<local_id>> all(at(components.count));
   for (std::size_t v = 0; v < label.size(); ++v)
-    if (label[v] == part[at(leaving[0])])
-      all[at(components.of_node[v])].insert(static_cast<local_id>(v));
+    if (label[v] == part[leaving[0]])
+      all[components.of_node[v]].insert(static_cast<local_id>(v));
   std::vector<std::set<local_id>> beside; // those that leave were beside them
   for (const auto& component : all)
     if (std::any_of(leaving.begin(), leaving.end(), [&](local_id s) {
@@ -129,13 +129,13 @@ TEST_CASE("what is cut off a part agrees with its components") {
     for (local_id s = 0; s < n; ++s) {
       std::vector<local_id> leaving{s};
       for (const local_id other : graph.row(s))
-        if (seed % 3 == 0 && part[at(other)] == part[at(s)] && leaving.size() < 3)
+        if (seed % 3 == 0 && part[other] == part[s] && leaving.size() < 3)
           leaving.push_back(other);
       const auto components = components_without(graph, part, leaving);
       REQUIRE(search.stays_connected(leaving) == (components.size() == 1));
       const auto weight_of = [&](const std::set<local_id>& component) {
         return std::accumulate(component.begin(), component.end(), 0.0,
-                               [&](double sum, local_id v) { return sum + weights[at(v)]; });
+                               [&](double sum, local_id v) { return sum + weights[v]; });
       };
       // The weight that the search is told is that of the components beside; others have nothing to do with
       // it.
@@ -143,7 +143,7 @@ TEST_CASE("what is cut off a part agrees with its components") {
       for (const auto& component : components)
         total += weight_of(component);
       for (const local_id v : leaving)
-        total += weights[at(v)];
+        total += weights[v];
       const auto heaviest =
           std::max_element(components.begin(), components.end(),
                            [&](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
@@ -167,7 +167,7 @@ TEST_CASE("borders, weights and defects are kept through changes and returns") {
   for (int k = 0; k < 200; ++k) {
     const auto s = static_cast<local_id>(random.bits() % given.part.size());
     const auto to = static_cast<local_id>(random.bits() % 6);
-    if (given.part[at(s)] != to && parts.keeps_connected(std::array{s}))
+    if (given.part[s] != to && parts.keeps_connected(std::array{s}))
       parts.assign(std::array{s}, to);
     if (k % 40 == 0)
       check_bookkeeping(given, parts);

@@ -24,7 +24,7 @@ inline distributed_mesh lumps(int pieces, std::uint32_t seed, double jitter = 0)
   for (const auto& element : whole.elements) {
     vec3 at{};
     for (const local_id v : element)
-      at += whole.points[static_cast<std::size_t>(v)] / 4;
+      at += whole.points[v] / 4;
     std::size_t best = 0;
     for (std::size_t p = 0; p < centres.size(); ++p)
       if (norm(centres[p] - at) < norm(centres[best] - at))

@@ -60,7 +60,7 @@ distributed_simplicial_mesh<2> wings(local_id length, bool in_one_piece) {
   std::vector<simplicial_piece<2>> pieces(in_one_piece ? 1 : 3);
   for (local_id w = 1; w <= 3; ++w) {
     const local_id to = in_one_piece ? 0 : w - 1;
-    auto& piece = pieces[static_cast<std::size_t>(to)];
+    auto& piece = pieces[to];
     const auto add_side = [&](local_id a, local_id b, local_id on) {
       skeleton.sides.own().push_back({a, b});
       skeleton.subdomains.own().push_back({to, no_id});
@@ -88,11 +88,11 @@ distributed_simplicial_mesh<2> wings(local_id length, bool in_one_piece) {
             std::lower_bound(piece.skeleton_points.begin(), piece.skeleton_points.end(), v) -
             piece.skeleton_points.begin());
     for (const local_id v : piece.skeleton_points)
-      piece.mesh.points.push_back(skeleton.points[static_cast<std::size_t>(v)]);
+      piece.mesh.points.push_back(skeleton.points[v]);
     piece.mesh.tags.assign(piece.mesh.elements.size(), 0);
     mesh.counts.push_back({0, 0, static_cast<global_id>(piece.mesh.elements.size())});
   }
-  mesh.load = [pieces](local_id p) { return pieces[static_cast<std::size_t>(p)]; };
+  mesh.load = [pieces](local_id p) { return pieces[p]; };
   return mesh;
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("a CAD face inside a piece stays, also where both of its sides go to o
     if (!table.is_boundary(static_cast<local_id>(s))) {
       auto sheet = table.vertices[s];
       for (local_id& v : sheet)
-        v = piece.skeleton_points[static_cast<std::size_t>(v)];
+        v = piece.skeleton_points[v];
       mesh.skeleton.sides.own().push_back(sheet);
       mesh.skeleton.subdomains.own().push_back({0, 0});
       mesh.skeleton.side_hosts.own().push_back(99);
@@ -265,8 +265,7 @@ TEST_CASE("super-elements are about as many as asked for, connected, and none cr
   const auto table = build_sides(piece.mesh);
   disjoint_sets within(piece.mesh.elements.size());
   for (const auto& [a, b] : table.elements)
-    if (b != no_id && supers.super_of_element[static_cast<std::size_t>(a)] ==
-                          supers.super_of_element[static_cast<std::size_t>(b)])
+    if (b != no_id && supers.super_of_element[a] == supers.super_of_element[b])
       within.unite(a, b);
   CHECK(within.number_sets().count == known.graph.node_count());
   // No side between two of them is bad, unless it was refused.
@@ -274,8 +273,7 @@ TEST_CASE("super-elements are about as many as asked for, connected, and none cr
   std::size_t between = 0;
   for (std::size_t s = 0; s < table.size(); ++s)
     if (const auto [a, b] = table.elements[s];
-        b != no_id && supers.super_of_element[static_cast<std::size_t>(a)] !=
-                          supers.super_of_element[static_cast<std::size_t>(b)]) {
+        b != no_id && supers.super_of_element[a] != supers.super_of_element[b]) {
       ++between;
       CHECK((judged.quality[s] >= judged.wanted_quality ||
              std::binary_search(supers.refused.begin(), supers.refused.end(), static_cast<local_id>(s))));
@@ -293,8 +291,7 @@ TEST_CASE("bad sides of an old interface have a penalty, and so have those besid
         simplify_piece<3>(piece, mesh.skeleton, sides[p], simplifier::paper{.volume_shape_deg = 36}, 50)
             .first;
     for (std::size_t i = 0; i < known.penalty_of_side.size(); ++i) {
-      const auto corners_of =
-          corners(span_of(mesh.skeleton.points), mesh.skeleton.sides[static_cast<std::size_t>(sides[p][i])]);
+      const auto corners_of = corners(span_of(mesh.skeleton.points), mesh.skeleton.sides[sides[p][i]]);
       if (smallest_corner_angle(corners_of) < 36)
         CHECK(known.penalty_of_side[i] > 10);
       dear += known.penalty_of_side[i] > 1 ? 1 : 0;

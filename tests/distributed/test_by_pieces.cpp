@@ -22,8 +22,7 @@ double imbalance(const distributed_mesh& mesh, const redistribution<3>& given, i
   std::vector<double> elements(static_cast<std::size_t>(ranks), 0);
   double all = 0;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
-    elements[static_cast<std::size_t>(given.rank_of_piece[p])] +=
-        static_cast<double>(mesh.counts[p].elements);
+    elements[given.rank_of_piece[p]] += static_cast<double>(mesh.counts[p].elements);
     all += static_cast<double>(mesh.counts[p].elements);
   }
   return *std::max_element(elements.begin(), elements.end()) * ranks / all;
@@ -71,7 +70,7 @@ TEST_CASE("the graph of pieces counts elements and sides") {
     CHECK(graph.node_weight(p) == 6 * 8);
     CHECK(graph.row(p).size() == 3);
     graph.for_each_edge(p, [](local_id, double sides) { CHECK(sides == 8); });
-    CHECK((graph.positions[static_cast<std::size_t>(p)].x < 0.5) == (p % 2 == 0));
+    CHECK((graph.positions[p].x < 0.5) == (p % 2 == 0));
   }
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 using place = std::tuple<double, double, double>;
 place place_of(const io::loaded_mesh& mesh, local_id v) {
-  const vec3 p = mesh.mesh.points[static_cast<std::size_t>(v)];
+  const vec3 p = mesh.mesh.points[v];
   return {p.x, p.y, p.z};
 }
 
@@ -40,8 +40,7 @@ io::loaded_mesh with_everything() {
   const auto sides = build_sides(made.mesh);
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (const auto [first, second] = sides.elements[s];
-        second == no_id || s % 40 == 0 ||
-        made.mesh.tags[static_cast<std::size_t>(first)] != made.mesh.tags[static_cast<std::size_t>(second)]) {
+        second == no_id || s % 40 == 0 || made.mesh.tags[first] != made.mesh.tags[second]) {
       made.triangles.push_back(sides.vertices[s]);
       made.triangle_tags.push_back(static_cast<local_id>(s % groups));
     }
@@ -53,7 +52,7 @@ io::loaded_mesh with_everything() {
   for (const simplex<3>& t : made.mesh.elements) {
     vec3 center{};
     for (const local_id v : t)
-      center += points[static_cast<std::size_t>(v)] / 4.0;
+      center += points[v] / 4.0;
     made.subdomains.push_back(static_cast<local_id>(center.x > 0.5) +
                               2 * static_cast<local_id>(center.y > 0.5));
   }
@@ -77,7 +76,7 @@ std::map<std::array<local_id, 2>, double> volumes_of(const io::loaded_mesh& mesh
   const auto& p = mesh.mesh.points;
   for (std::size_t e = 0; e < mesh.mesh.elements.size(); ++e) {
     const auto& [a, b, c, d] = mesh.mesh.elements[e];
-    const auto at = [&](local_id v) { return p[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return p[v]; };
     found[{mesh.mesh.tags.at(e), mesh.subdomains.at(e)}] +=
         dot(cross(at(b) - at(a), at(c) - at(a)), at(d) - at(a)) / 6;
   }
@@ -89,7 +88,7 @@ std::map<global_id, place> numbers_of(const io::loaded_mesh& mesh) {
   std::map<global_id, place> found;
   for (const auto& triangle : mesh.triangles)
     for (const local_id v : triangle)
-      found[mesh.node_ids.at(static_cast<std::size_t>(v))] = place_of(mesh, v);
+      found[mesh.node_ids.at(v)] = place_of(mesh, v);
   return found;
 }
 
@@ -178,7 +177,7 @@ TEST_CASE("triangles keep their groups, their names, and the numbers on their bo
       if (const vec3 p = mesh.mesh.points[v]; p.x == 0 || p.x == 2 || p.x == 4 || p.y == 0 || p.y == 4) {
         const auto at = std::find(found.node_ids.begin(), found.node_ids.end(), mesh.node_ids[v]);
         REQUIRE(at != found.node_ids.end());
-        CHECK(found.mesh.points[static_cast<std::size_t>(at - found.node_ids.begin())] == p);
+        CHECK(found.mesh.points[at - found.node_ids.begin()] == p);
       }
   }
   CHECK(after.triangle_names == mesh.triangle_names);
@@ -199,8 +198,8 @@ TEST_CASE("triangles without numbers of points: what the improver removes leaves
         }
   std::vector<local_id> number(place.size());
   for (std::size_t v = 0; v < place.size(); ++v)
-    number[static_cast<std::size_t>(place[v])] = static_cast<local_id>(v);
-  const auto at = [&](int i, int j) { return number[static_cast<std::size_t>(i * (n + 1) + j)]; };
+    number[place[v]] = static_cast<local_id>(v);
+  const auto at = [&](int i, int j) { return number[i * (n + 1) + j]; };
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});

@@ -20,7 +20,7 @@ using names = std::vector<std::string>;
 std::size_t of_label(const view_labels& labels, const std::string& name) {
   std::size_t count = 0;
   for (const local_id label : labels.of)
-    count += labels.names[static_cast<std::size_t>(label)] == name;
+    count += labels.names[label] == name;
   return count;
 }
 
@@ -52,8 +52,7 @@ TEST_CASE("triangles look away from their element") {
   const view_scene scene = scene_of(testing::cubes_in_pieces(3));
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     const auto p = corners(span_of(scene.points), scene.triangles[t]);
-    const auto q =
-        corners(span_of(scene.points), scene.tetrahedra[static_cast<std::size_t>(scene.element_of[t])]);
+    const auto q = corners(span_of(scene.points), scene.tetrahedra[scene.element_of[t]]);
     const vec3 middle = (q[0] + q[1] + q[2] + q[3]) / 4;
     CHECK(dot(cross(p[1] - p[0], p[2] - p[0]), middle - p[0]) < 0);
   }
@@ -120,7 +119,7 @@ TEST_CASE("of elements that do not fit there are the worst ones first, then spre
   CHECK(part.triangles.size() == scene.triangles.size());
   REQUIRE(part.elements.size() == 10);
   CHECK(std::set<local_id>(part.elements.begin(), part.elements.end()).size() == 10);
-  const auto angle = [&](local_id e) { return scene.angles[static_cast<std::size_t>(e)]; };
+  const auto angle = [&](local_id e) { return scene.angles[e]; };
   std::vector<float> sorted = scene.angles;
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t k = 0; k < 5; ++k)

@@ -23,7 +23,7 @@ inline io::loaded_mesh row_of_cubes(local_id cubes) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
       simplex<3> element{4 * cube};
       for (std::size_t k = 0; k < 3; ++k)
-        element[k + 1] = element[k] + step[static_cast<std::size_t>(paths[p][k])];
+        element[k + 1] = element[k] + step[paths[p][k]];
       if (p >= 3) // an odd order of the axes
         std::swap(element[2], element[3]);
       row.mesh.elements.push_back(element);

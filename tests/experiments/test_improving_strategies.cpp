@@ -43,7 +43,7 @@ template <std::size_t N>
 places places_of(std::span<const vec3> points, const std::array<local_id, N>& entity) {
   places at;
   for (const local_id v : entity) {
-    const vec3& p = points[static_cast<std::size_t>(v)];
+    const vec3& p = points[v];
     at.push_back({p.x, p.y, p.z});
   }
   std::sort(at.begin(), at.end());

@@ -212,12 +212,11 @@ TEST_CASE("loops are closed, come to a point once, and have what is below on the
     const auto [a, b] = cut.loops[k];
     starts.push_back(a);
     ends.push_back(b);
-    const vec3 p = surface.points[static_cast<std::size_t>(a)],
-               q = surface.points[static_cast<std::size_t>(b)];
+    const vec3 p = surface.points[a], q = surface.points[b];
     area += p.x * q.y - p.y * q.x;
     CHECK(std::abs(p.z - 0.1) < 0.15);
-    CHECK(cut.above[static_cast<std::size_t>(cut.beside[k][0])] == 0);
-    CHECK(cut.above[static_cast<std::size_t>(cut.beside[k][1])] == 1);
+    CHECK(cut.above[cut.beside[k][0]] == 0);
+    CHECK(cut.above[cut.beside[k][1]] == 1);
   }
   CHECK(area / 2 == doctest::Approx(std::numbers::pi).epsilon(0.1));
   sort_unique(starts);

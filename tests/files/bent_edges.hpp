@@ -25,7 +25,7 @@ template <int D>
 distributed_simplicial_mesh<D> with_bent_edges(distributed_simplicial_mesh<D> mesh) {
   auto nodes = std::make_shared<mid_edge_nodes<D>>();
   const auto bent = [](const simplex<1>& edge, std::span<const vec3> points) {
-    return bent_middle(points[static_cast<std::size_t>(edge[0])], points[static_cast<std::size_t>(edge[1])]);
+    return bent_middle(points[edge[0]], points[edge[1]]);
   };
   nodes->edges = edges_of(mesh.skeleton);
   for (const auto& edge : nodes->edges)

@@ -29,7 +29,7 @@ inline std::vector<owned_side> sorted_sides(const simplicial_mesh<3>& mesh,
     for (const auto& local : numbering::sides<3>) {
       simplex<2> side;
       for (std::size_t k = 0; k < 3; ++k)
-        side[k] = mesh.elements[e][static_cast<std::size_t>(local[k])];
+        side[k] = mesh.elements[e][local[k]];
       auto key = side;
       std::sort(key.begin(), key.end());
       sides.push_back({key, side, parts[e]});
@@ -55,10 +55,10 @@ std::vector<local_id> cut_skeleton(const simplicial_mesh<3>& mesh, const std::ve
       continue;
     simplex<2> triangle;
     for (std::size_t k = 0; k < 3; ++k) {
-      auto& s = skeleton_point[static_cast<std::size_t>(first.side[k])];
+      auto& s = skeleton_point[first.side[k]];
       if (s == no_id) {
         s = static_cast<local_id>(skeleton.points.size());
-        skeleton.points.own().push_back(mesh.points[static_cast<std::size_t>(first.side[k])]);
+        skeleton.points.own().push_back(mesh.points[first.side[k]]);
         skeleton.point_hosts.own().push_back(host_of(simplex<0>{first.side[k]}));
       }
       triangle[k] = s;
@@ -73,8 +73,7 @@ std::vector<local_id> cut_skeleton(const simplicial_mesh<3>& mesh, const std::ve
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const auto& edge : edges)
     if (const auto on = host_of(edge); on.dimension == 1) {
-      skeleton.curve_edges.push_back({skeleton_point[static_cast<std::size_t>(edge[0])],
-                                      skeleton_point[static_cast<std::size_t>(edge[1])]});
+      skeleton.curve_edges.push_back({skeleton_point[edge[0]], skeleton_point[edge[1]]});
       skeleton.curves.push_back(on.id);
     }
   return skeleton_point;
@@ -96,7 +95,7 @@ inline mesh_piece cut_piece(const simplicial_mesh<3>& mesh, const std::vector<lo
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::stable_partition(vertices.begin(), vertices.end(),
-                        [&](local_id v) { return skeleton_point[static_cast<std::size_t>(v)] != no_id; });
+                        [&](local_id v) { return skeleton_point[v] != no_id; });
   std::vector<local_id> place(mesh.points.size(), no_id);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto v = static_cast<std::size_t>(vertices[i]);
@@ -107,7 +106,7 @@ inline mesh_piece cut_piece(const simplicial_mesh<3>& mesh, const std::vector<lo
   }
   for (auto& element : piece.mesh.elements)
     for (auto& v : element)
-      v = place[static_cast<std::size_t>(v)];
+      v = place[v];
   return piece;
 }
 
@@ -129,7 +128,7 @@ distributed_mesh distribute(const simplicial_mesh<3>& mesh, const std::vector<lo
                              static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
                              static_cast<global_id>(piece.mesh.elements.size())});
   }
-  result.load = [pieces](local_id p) { return (*pieces)[static_cast<std::size_t>(p)]; };
+  result.load = [pieces](local_id p) { return (*pieces)[p]; };
   return result;
 }
 

@@ -106,7 +106,7 @@ inline simplicial_mesh<3> stacked_cubes::whole() const {
           simplex<3> element;
           element[0] = point_index(i, j, k);
           for (std::size_t s = 0; s < 3; ++s) {
-            ++step[static_cast<std::size_t>(orders[o][s])];
+            ++step[orders[o][s]];
             element[s + 1] = point_index(step[0], step[1], step[2]);
           }
           if (o >= 3)

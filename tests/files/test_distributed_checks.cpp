@@ -36,7 +36,7 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
   for (const auto& local : numbering::sides<3>) {
     simplex<2> side;
     for (std::size_t k = 0; k < 3; ++k)
-      side[k] = element[static_cast<std::size_t>(local[k])];
+      side[k] = element[local[k]];
     if (std::all_of(side.begin(), side.end(),
                     [&](local_id v) { return static_cast<std::size_t>(v) < piece.skeleton_points.size(); }))
       continue; // on the boundary already
@@ -46,27 +46,27 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
     std::vector<local_id> place(piece.mesh.points.size(), no_id);
     local_id next = static_cast<local_id>(piece.skeleton_points.size());
     for (local_id v = 0; v < next; ++v)
-      place[static_cast<std::size_t>(v)] = v;
+      place[v] = v;
     simplex<2> triangle;
     for (std::size_t k = 0; k < 3; ++k) {
-      auto& at = place[static_cast<std::size_t>(side[k])];
+      auto& at = place[side[k]];
       if (at == no_id) {
         at = next++;
         changed.skeleton_points.push_back(static_cast<local_id>(with_sheet.skeleton.points.size()));
-        with_sheet.skeleton.points.own().push_back(piece.mesh.points[static_cast<std::size_t>(side[k])]);
+        with_sheet.skeleton.points.own().push_back(piece.mesh.points[side[k]]);
         with_sheet.skeleton.point_hosts.own().push_back({2, 99});
         --with_sheet.counts[0].inner_points;
       }
-      triangle[k] = changed.skeleton_points[static_cast<std::size_t>(at)];
+      triangle[k] = changed.skeleton_points[at];
     }
     for (auto& at : place)
       if (at == no_id)
         at = next++;
     for (std::size_t v = 0; v < place.size(); ++v)
-      changed.mesh.points[static_cast<std::size_t>(place[v])] = piece.mesh.points[v];
+      changed.mesh.points[place[v]] = piece.mesh.points[v];
     for (auto& e : changed.mesh.elements)
       for (auto& v : e)
-        v = place[static_cast<std::size_t>(v)];
+        v = place[v];
     with_sheet.load = [changed](local_id) { return changed; };
     with_sheet.skeleton.sides.own().push_back(triangle);
     with_sheet.skeleton.subdomains.own().push_back({0, 0});

@@ -28,7 +28,7 @@ std::vector<std::vector<std::array<double, 3>>> by_coordinates(const simplicial_
   for (const auto& element : mesh.elements) {
     auto& corners = elements.emplace_back();
     for (const local_id v : element) {
-      const vec3 p = mesh.points[static_cast<std::size_t>(v)];
+      const vec3 p = mesh.points[v];
       corners.push_back({p.x, p.y, p.z});
     }
   }
@@ -37,7 +37,7 @@ std::vector<std::vector<std::array<double, 3>>> by_coordinates(const simplicial_
 }
 
 vec3 point(const simplicial_mesh<3>& mesh, local_id v) {
-  return mesh.points[static_cast<std::size_t>(v)];
+  return mesh.points[v];
 }
 
 vec3 centre(const simplicial_mesh<3>& mesh, const simplex<3>& element) {
@@ -50,7 +50,7 @@ vec3 centre(const simplicial_mesh<3>& mesh, const simplex<3>& element) {
 /// Positive when the side faces outwards of the element behind it.
 double outwardness(const io::gathered_mesh<3>& whole, std::size_t side) {
   const auto& [a, b, c] = whole.sides[side];
-  const auto& behind = whole.mesh.elements[static_cast<std::size_t>(whole.side_elements[side][0])];
+  const auto& behind = whole.mesh.elements[whole.side_elements[side][0]];
   const vec3 p = point(whole.mesh, a);
   const vec3 u = point(whole.mesh, b) - p, v = point(whole.mesh, c) - p, w = p - centre(whole.mesh, behind);
   return w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) + w.z * (u.x * v.y - u.y * v.x);
@@ -88,17 +88,16 @@ TEST_CASE("sides on CAD faces are there once, between their elements, facing out
     CHECK((front == no_id) == (whole.side_hosts[s] != 1)); // face 1 lies between the solids
     between_solids += front == no_id ? 0 : 1;
     if (front != no_id)
-      CHECK(whole.mesh.tags[static_cast<std::size_t>(behind)] !=
-            whole.mesh.tags[static_cast<std::size_t>(front)]);
+      CHECK(whole.mesh.tags[behind] != whole.mesh.tags[front]);
     for (const local_id v : whole.sides[s]) {
       const double z = point(whole.mesh, v).z;
       if (whole.side_hosts[s] <= 2)
         CHECK(z == doctest::Approx(0.5 * whole.side_hosts[s]));
-      const auto& element = whole.mesh.elements[static_cast<std::size_t>(behind)];
+      const auto& element = whole.mesh.elements[behind];
       CHECK(std::find(element.begin(), element.end(), v) != element.end());
     }
-    const auto group = whole.group_of_face.at(static_cast<std::size_t>(whole.side_hosts[s]));
-    met.insert(whole.group_names.at(static_cast<std::size_t>(group)));
+    const auto group = whole.group_of_face.at(whole.side_hosts[s]);
+    met.insert(whole.group_names.at(group));
   }
   CHECK(between_solids == 2 * squares);
   CHECK(met == std::set<std::string>{"floor", "cad face 1", "roof", "side walls"});
@@ -153,8 +152,7 @@ TEST_CASE("triangles: a generated plane domain in one piece, its boundary edges 
     CHECK(whole.side_elements[s][1] == no_id);
     CHECK(whole.side_hosts[s] >= 0);
     const auto [from, to] = whole.sides[s];
-    length += norm(whole.mesh.points[static_cast<std::size_t>(to)] -
-                   whole.mesh.points[static_cast<std::size_t>(from)]);
+    length += norm(whole.mesh.points[to] - whole.mesh.points[from]);
   }
   CHECK(length == doctest::Approx(2 * (3 + 2) + 4 * 0.5));
   CHECK(whole.group_of_face.size() == 1);

@@ -80,8 +80,7 @@ distributed_mesh with_straight_middles(distributed_mesh mesh) {
   nodes.edges = edges_of(mesh.skeleton);
   const auto& points = mesh.skeleton.points;
   for (const auto& [a, b] : nodes.edges)
-    nodes.points.push_back(
-        midpoint(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+    nodes.points.push_back(midpoint(points[a], points[b]));
   for (local_id p = 0; static_cast<std::size_t>(p) < mesh.counts.size(); ++p) {
     const auto found = edges_of(mesh.load(p), nodes);
     nodes.inner.push_back(std::count(found.in_skeleton.begin(), found.in_skeleton.end(), no_id));

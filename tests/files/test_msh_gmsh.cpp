@@ -200,7 +200,7 @@ TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal coun
             continue;
           if (is_ghost(d, tag))
             continue;
-          ++partitioned[static_cast<std::size_t>(dimension)];
+          ++partitioned[dimension];
           if (dimension == 3)
             elements[partitions.front()] += element_count(d, tag);
           int parent_dimension = -1, parent = -1;

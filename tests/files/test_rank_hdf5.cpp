@@ -258,7 +258,7 @@ TEST_CASE(
   REQUIRE(output.others.size() == 3);
   for (const local_id q : {2, 0, 1}) {
     loads.clear();
-    output.others[static_cast<std::size_t>(q)].run();
+    output.others[q].run();
     CHECK(loads.size() == 9);
     for (const local_id p : loads)
       CHECK(p / 9 == q);

@@ -60,8 +60,7 @@ std::vector<std::array<global_id, D + 1>> put_together(const std::vector<rank_me
   for (const auto& rank : ranks)
     for (std::size_t e = 0; e < rank.owned_elements; ++e)
       for (std::size_t k = 0; k <= D; ++k)
-        elements.at(static_cast<std::size_t>(rank.element_numbers[e]))[k] =
-            rank.vertex_numbers[static_cast<std::size_t>(rank.mesh.elements[e][k])];
+        elements.at(rank.element_numbers[e])[k] = rank.vertex_numbers[rank.mesh.elements[e][k]];
   return elements;
 }
 
@@ -69,7 +68,7 @@ template <int D>
 std::array<global_id, D> by_number(const rank_mesh<D>& rank, const simplex<D - 1>& side) {
   std::array<global_id, D> numbers;
   for (std::size_t k = 0; k < D; ++k)
-    numbers[k] = rank.vertex_numbers[static_cast<std::size_t>(side[k])];
+    numbers[k] = rank.vertex_numbers[side[k]];
   return numbers;
 }
 
@@ -79,7 +78,7 @@ bool has_side(const simplex<D>& element, const simplex<D - 1>& side, bool outwar
   for (const auto& local : numbering::sides<D>) {
     simplex<D - 1> at;
     for (std::size_t k = 0; k < D; ++k)
-      at[k] = element[static_cast<std::size_t>(local[k])];
+      at[k] = element[local[k]];
     if (!outwards && sorted_vertices(at) == sorted_vertices(side))
       return true;
     for (int turn = 0; turn < (D == 3 ? 3 : 1); ++turn) {
@@ -118,8 +117,7 @@ void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<
   for (const auto& rank : plain) {
     io::hash_rank_mesh(hasher, rank);
     for (std::size_t v = 0; v < rank.mesh.points.size(); ++v)
-      same =
-          same && rank.mesh.points[v] == whole.mesh.points[static_cast<std::size_t>(rank.vertex_numbers[v])];
+      same = same && rank.mesh.points[v] == whole.mesh.points[rank.vertex_numbers[v]];
     for (std::size_t e = 0; e < rank.owned_elements; ++e) {
       const auto number = static_cast<std::size_t>(rank.element_numbers[e]);
       same = same && rank.mesh.tags[e] == whole.mesh.tags[number] &&
@@ -132,8 +130,8 @@ void check_all_of(const distributed_simplicial_mesh<D>& mesh, const std::vector<
       std::sort(key.begin(), key.end());
       same = same && hosts.count({key, rank.side_hosts[s]}) == 1;
       for (const local_id e : rank.side_elements[s])
-        same = same && (e == no_id || has_side<D>(rank.mesh.elements[static_cast<std::size_t>(e)],
-                                                  rank.sides[s], e == rank.side_elements[s][0]));
+        same = same && (e == no_id ||
+                        has_side<D>(rank.mesh.elements[e], rank.sides[s], e == rank.side_elements[s][0]));
     }
   }
   CHECK(same);
@@ -181,16 +179,15 @@ void check_second_order(const distributed_simplicial_mesh<D>& mesh,
     std::size_t vertices = 0, elements = 0;
     bool same = true;
     for (const auto& rank : all) {
-      const auto& corners = of_corners[static_cast<std::size_t>(rank.rank)];
+      const auto& corners = of_corners[rank.rank];
       vertices += rank.owned_vertices;
       elements += rank.owned_elements;
       for (std::size_t v = 0; v < rank.mesh.points.size(); ++v)
-        same = same && rank.mesh.points[v] == whole.points[static_cast<std::size_t>(rank.vertex_numbers[v])];
+        same = same && rank.mesh.points[v] == whole.points[rank.vertex_numbers[v]];
       for (std::size_t e = 0; e < rank.mesh.elements.size(); ++e) {
         std::vector<global_id> nodes;
-        for_each_node(rank, e,
-                      [&](local_id v) { nodes.push_back(rank.vertex_numbers[static_cast<std::size_t>(v)]); });
-        same = same && nodes == whole.elements[static_cast<std::size_t>(rank.element_numbers[e])];
+        for_each_node(rank, e, [&](local_id v) { nodes.push_back(rank.vertex_numbers[v]); });
+        same = same && nodes == whole.elements[rank.element_numbers[e]];
       }
       same = same && rank.owned_corners == corners.owned_vertices &&
              std::equal(corners.mesh.points.begin(),
@@ -201,7 +198,7 @@ void check_second_order(const distributed_simplicial_mesh<D>& mesh,
       for (std::size_t s = 0; s < rank.side_middles.size(); ++s)
         for (std::size_t k = 0; k < edges_per_element<D - 1>; ++k) {
           const auto [a, b] = vertices_of_edge(rank.sides[s], numbering::edges<D - 1>[k]);
-          const auto at = [&](local_id v) { return rank.mesh.points[static_cast<std::size_t>(v)]; };
+          const auto at = [&](local_id v) { return rank.mesh.points[v]; };
           same = same && at(rank.side_middles[s][k]) == testing::bent_middle(at(a), at(b));
         }
     }
@@ -278,7 +275,7 @@ TEST_CASE("only the rank's own pieces are loaded, once; for ghosts those that to
   auto mesh = testing::stacked_cubes{.cells = 6, .cuts = 3}.distributed();
   std::vector<int> loads(27, 0);
   mesh.load = [&loads, load = mesh.load](local_id p) {
-    ++loads[static_cast<std::size_t>(p)];
+    ++loads[p];
     return load(p);
   };
   std::vector<local_id> rank(27, 1);
@@ -316,7 +313,7 @@ TEST_CASE("triangles: a plane domain, and sheets that meet in an edge") {
     simplicial_piece<2> piece;
     piece.subdomain = s;
     piece.skeleton_points = {0, 1, 2 + s};
-    piece.mesh = {{points[0], points[1], points[static_cast<std::size_t>(2 + s)]}, {{0, 1, 2}}, {s}};
+    piece.mesh = {{points[0], points[1], points[2 + s]}, {{0, 1, 2}}, {s}};
     return piece;
   };
   check_second_order(testing::with_bent_edges(sheets), {0, 1, 2}, 3);

@@ -78,7 +78,7 @@ std::array<vec3, quadratic_nodes<D>> nodes_of(const std::vector<vec3>& points,
                                               const quadratic_simplex<D>& element) {
   std::array<vec3, quadratic_nodes<D>> nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    nodes[k] = points[static_cast<std::size_t>(element[k])];
+    nodes[k] = points[element[k]];
   return nodes;
 }
 
@@ -100,7 +100,7 @@ double volume(const io::second_order_mesh<3>& mesh) {
 double volume(const simplicial_mesh<3>& mesh) {
   double sum = 0;
   for (const auto& [a, b, c, d] : mesh.elements) {
-    const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return mesh.points[v]; };
     sum += signed_volume(at(a), at(b), at(c), at(d));
   }
   return sum;
@@ -188,8 +188,7 @@ struct two_at_an_arc {
 TEST_CASE("the bound of the Jacobian is 1 for straight elements, and below it nowhere else") {
   std::array<vec3, 10> nodes{vec3{0, 0, 0}, vec3{2, 0, 0}, vec3{0.3, 1, 0}, vec3{0.2, 0.4, 0.5}};
   for (std::size_t e = 0; e < 6; ++e)
-    nodes[4 + e] = midpoint(nodes[static_cast<std::size_t>(numbering::edges<3>[e][0])],
-                            nodes[static_cast<std::size_t>(numbering::edges<3>[e][1])]);
+    nodes[4 + e] = midpoint(nodes[numbering::edges<3>[e][0]], nodes[numbering::edges<3>[e][1]]);
   CHECK(least_jacobian(nodes) == doctest::Approx(1));
   const double straight = determinant(nodes, {0.25, 0.25, 0.25, 0.25});
   nodes[5] -= vec3{0.05, 0.02, -0.06};
@@ -210,14 +209,14 @@ TEST_CASE("a ball's volume is of fourth order, of second with linear elements") 
     const auto whole = io::gather(ball_of<3>(fine == 0 ? 0.4 : 0.2, 3).mesh);
     const auto curved = io::second_order(whole, ball);
     const double exact = 4.0 / 3 * std::numbers::pi;
-    linear[static_cast<std::size_t>(fine)] = exact - volume(whole.mesh);
-    quadratic[static_cast<std::size_t>(fine)] = std::abs(exact - volume(curved));
+    linear[fine] = exact - volume(whole.mesh);
+    quadratic[fine] = std::abs(exact - volume(curved));
     CHECK(curved.summary.get("on_cad") == 1.5 * static_cast<double>(whole.sides.size()));
     CHECK(curved.summary.get("not_found") == 0);
     std::size_t off = 0; // beyond the edge of a face's chart the model knows its start triangulation alone
     for (const auto& side : curved.sides)
       for (const local_id v : side) {
-        const double away = std::abs(norm(curved.points[static_cast<std::size_t>(v)]) - 1);
+        const double away = std::abs(norm(curved.points[v]) - 1);
         CHECK(away < 1e-3);
         off += away > 1e-9 ? 1 : 0;
       }
@@ -252,9 +251,7 @@ TEST_CASE_TEMPLATE("pieces have the nodes of the gathered mesh, whoever finds th
 }
 
 TEST_CASE("middles that would invert an element go back by halves, for both elements at the edge") {
-  const auto height = [](const io::second_order_mesh<2>& mesh) {
-    return mesh.points[static_cast<std::size_t>(mesh.elements[0][3])].y;
-  };
+  const auto height = [](const io::second_order_mesh<2>& mesh) { return mesh.points[mesh.elements[0][3]].y; };
   const two_at_an_arc flat(0.01);
   const auto untouched = io::second_order(flat.gathered(), flat.domain);
   CHECK(height(untouched) == doctest::Approx(0.01));

@@ -73,15 +73,13 @@ std::string fault_of(const shapes::surface& given, const filled_surface& made) {
   std::map<local_id, std::size_t> count;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& v = mesh.elements[e];
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(v[k])]; };
+    const auto at = [&](std::size_t k) { return mesh.points[v[k]]; };
     if (!(orient3d(at(0), at(1), at(2), at(3)) > 0))
       return "an element is not positive";
     ++count[mesh.tags[e]];
     for (const auto& local : numbering::sides<3>) {
-      const simplex<2> side{v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
-                            v[static_cast<std::size_t>(local[2])]};
-      materials[sorted_vertices(side)][static_cast<std::size_t>(boundary_sides::parity(side))].push_back(
-          mesh.tags[e]);
+      const simplex<2> side{v[local[0]], v[local[1]], v[local[2]]};
+      materials[sorted_vertices(side)][boundary_sides::parity(side)].push_back(mesh.tags[e]);
     }
   }
   for (std::size_t t = 0; t < given.elements.size(); ++t) {

@@ -188,13 +188,12 @@ TEST_CASE("the contraction keeps the weights of a network's edges") {
   CHECK(some.graph.node_weights == expected.node_weights);
   for (const refused_side& each : some.refused) { // each weighs ten times as much
     const auto [a, b] = duals.elements(each.side);
-    const local_id from = some.super_of_element[static_cast<std::size_t>(a)];
-    const local_id to = some.super_of_element[static_cast<std::size_t>(b)];
+    const local_id from = some.super_of_element[a];
+    const local_id to = some.super_of_element[b];
     for (const auto& [x, y] : {std::pair(from, to), {to, from}})
-      for (auto k = expected.offsets[static_cast<std::size_t>(x)];
-           k < expected.offsets[static_cast<std::size_t>(x) + 1]; ++k)
-        if (expected.neighbours[static_cast<std::size_t>(k)] == y)
-          expected.edge_weights[static_cast<std::size_t>(k)] += 9 * duals.side_weight(each.side);
+      for (auto k = expected.offsets[x]; k < expected.offsets[static_cast<std::size_t>(x) + 1]; ++k)
+        if (expected.neighbours[k] == y)
+          expected.edge_weights[k] += 9 * duals.side_weight(each.side);
   }
   for (std::size_t k = 0; k < expected.edge_weights.size(); ++k)
     CHECK(some.graph.edge_weights[k] == doctest::Approx(expected.edge_weights[k]));
@@ -231,7 +230,5 @@ TEST_CASE("Boost's algorithms run on a copy") {
   std::vector<double> distance(50);
   boost::dijkstra_shortest_paths(list, 0, boost::distance_map(distance.data()));
   for (local_id v = 0; v < 50; ++v)
-    graph.for_each_edge(v, [&](local_id w, double weight) {
-      CHECK(distance[static_cast<std::size_t>(w)] <= distance[static_cast<std::size_t>(v)] + weight);
-    });
+    graph.for_each_edge(v, [&](local_id w, double weight) { CHECK(distance[w] <= distance[v] + weight); });
 }

@@ -33,7 +33,7 @@ std::map<std::pair<local_id, local_id>, double> as_map(const csr_graph& g) {
   for (local_id v = 0; v < g.node_count(); ++v) {
     const auto row = g.row(v);
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const auto slot = static_cast<std::size_t>(g.offsets[static_cast<std::size_t>(v)]) + k;
+      const auto slot = static_cast<std::size_t>(g.offsets[v]) + k;
       REQUIRE(entries.emplace(std::pair(v, row[k]), g.edge_weights[slot]).second);
     }
   }
@@ -68,10 +68,10 @@ TEST_CASE("contraction adds node weights and merged edges") {
     std::map<std::pair<local_id, local_id>, double> expected;
     std::vector<double> weights(labels, 0.0);
     for (std::size_t v = 0; v < label.size(); ++v)
-      weights[static_cast<std::size_t>(label[v])] += g.node_weights[v];
+      weights[label[v]] += g.node_weights[v];
     for (const weighted_edge& e : g.edges) {
-      const local_id a = label[static_cast<std::size_t>(e.a)];
-      const local_id b = label[static_cast<std::size_t>(e.b)];
+      const local_id a = label[e.a];
+      const local_id b = label[e.b];
       if (a != b) {
         expected[{a, b}] += e.weight;
         expected[{b, a}] += e.weight;
@@ -92,7 +92,7 @@ TEST_CASE("components within labels are connected, maximal and numbered by their
       label[v] = static_cast<local_id>(v % 3);
     disjoint_sets sets(label.size());
     for (const weighted_edge& e : g.edges)
-      if (label[static_cast<std::size_t>(e.a)] == label[static_cast<std::size_t>(e.b)])
+      if (label[e.a] == label[e.b])
         sets.unite(e.a, e.b);
     const auto expected = sets.number_sets();
     const auto found = components_within(csr, label);
@@ -114,8 +114,7 @@ TEST_CASE("an induced subgraph keeps exactly the edges among its nodes") {
       expected[ends] = weight;
   std::map<std::pair<local_id, local_id>, double> renamed;
   for (const auto& [ends, weight] : as_map(odd.graph))
-    renamed[{odd.nodes[static_cast<std::size_t>(ends.first)],
-             odd.nodes[static_cast<std::size_t>(ends.second)]}] = weight;
+    renamed[{odd.nodes[ends.first], odd.nodes[ends.second]}] = weight;
   CHECK(renamed == expected);
 }
 

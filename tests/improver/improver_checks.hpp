@@ -29,7 +29,7 @@ using placed_side = std::array<std::array<double, 3>, 3>;
 inline placed_side place(const mesh_type& mesh, const std::array<local_id, 3>& v) {
   placed_side side;
   for (std::size_t k = 0; k < 3; ++k) {
-    const vec3 p = mesh.points[static_cast<std::size_t>(v[k])];
+    const vec3 p = mesh.points[v[k]];
     side[k] = {p.x, p.y, p.z};
   }
   std::sort(side.begin(), side.end());
@@ -43,7 +43,7 @@ inline std::set<placed_side> outer_and_material_sides(const mesh_type& mesh) {
     for (const auto& local : dovetail::numbering::sides<3>) {
       std::array<local_id, 3> v{};
       for (std::size_t k = 0; k < 3; ++k)
-        v[k] = mesh.elements[e][static_cast<std::size_t>(local[k])];
+        v[k] = mesh.elements[e][local[k]];
       std::sort(v.begin(), v.end());
       at[v].push_back(e);
     }
@@ -58,9 +58,7 @@ inline std::set<placed_side> all_sides(const mesh_type& mesh) {
   std::set<placed_side> result;
   for (const auto& element : mesh.elements)
     for (const auto& local : dovetail::numbering::sides<3>)
-      result.insert(place(mesh, {element[static_cast<std::size_t>(local[0])],
-                                 element[static_cast<std::size_t>(local[1])],
-                                 element[static_cast<std::size_t>(local[2])]}));
+      result.insert(place(mesh, {element[local[0]], element[local[1]], element[local[2]]}));
   return result;
 }
 
@@ -128,7 +126,7 @@ inline void check_boundary_points(const mesh_type& before, const mesh_type& afte
       for (const auto& local : dovetail::numbering::sides<3>) {
         std::array<local_id, 3> v{};
         for (std::size_t k = 0; k < 3; ++k)
-          v[k] = element[static_cast<std::size_t>(local[k])];
+          v[k] = element[local[k]];
         std::sort(v.begin(), v.end());
         ++count[v];
       }
@@ -141,7 +139,7 @@ inline void check_boundary_points(const mesh_type& before, const mesh_type& afte
   const auto vertices = at_boundary(before);
   CHECK(at_boundary(after) == vertices);
   for (const local_id v : vertices)
-    CHECK(after.points[static_cast<std::size_t>(v)] == before.points[static_cast<std::size_t>(v)]);
+    CHECK(after.points[v] == before.points[v]);
 }
 
 /// Jittered cubes squeezed along one axis and sheared: needles, caps and slivers everywhere.

@@ -71,7 +71,7 @@ public:
 private:
   using side_type = std::array<local_id, 3>;
 
-  vec3 at(local_id v) const { return mesh.points[static_cast<std::size_t>(v)]; }
+  vec3 at(local_id v) const { return mesh.points[v]; }
   bool is_positive(const simplex<3>& v) const {
     return dovetail::orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
   }
@@ -79,7 +79,7 @@ private:
     std::array<side_type, 4> sides{};
     for (std::size_t s = 0; s < 4; ++s)
       for (std::size_t k = 0; k < 3; ++k)
-        sides[s][k] = v[static_cast<std::size_t>(dovetail::numbering::sides<3>[s][k])];
+        sides[s][k] = v[dovetail::numbering::sides<3>[s][k]];
     return sides;
   }
   /// `p` is strictly on the inner side of an outward side.
@@ -200,7 +200,7 @@ inline mesh_type valid_mesh(std::uint64_t seed) {
 
 /// Moves some inner points far, into the plane of a side, or onto another point.
 inline void tangle(mesh_type& mesh, random_numbers& random) {
-  const auto point_of = [&](local_id v) -> vec3& { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto point_of = [&](local_id v) -> vec3& { return mesh.points[v]; };
   const auto outer = outer_and_material_sides(mesh);
   for (local_id v = 0; v < static_cast<local_id>(mesh.points.size()); ++v) {
     const vec3 p = point_of(v);

@@ -32,7 +32,7 @@ using placed_edge = std::array<std::array<double, 3>, 2>;
 inline placed_edge place(const mesh_type& mesh, std::array<local_id, 2> v) {
   placed_edge edge;
   for (std::size_t k = 0; k < 2; ++k) {
-    const vec3 p = mesh.points[static_cast<std::size_t>(v[k])];
+    const vec3 p = mesh.points[v[k]];
     edge[k] = {p.x, p.y, p.z};
   }
   std::sort(edge.begin(), edge.end());
@@ -45,9 +45,7 @@ inline std::set<placed_edge> fixed_edges(const mesh_type& mesh) {
   std::set<placed_edge> result;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [t, u] = sides.elements[s];
-    if (!sides.is_interior(static_cast<local_id>(s)) ||
-        (!mesh.tags.empty() &&
-         mesh.tags[static_cast<std::size_t>(t)] != mesh.tags[static_cast<std::size_t>(u)]))
+    if (!sides.is_interior(static_cast<local_id>(s)) || (!mesh.tags.empty() && mesh.tags[t] != mesh.tags[u]))
       result.insert(place(mesh, sides.vertices[s]));
   }
   return result;
@@ -96,7 +94,7 @@ inline void check_change(const mesh_type& before, const mesh_type& after, const 
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (!sides.is_interior(static_cast<local_id>(s)))
       for (const local_id v : sides.vertices[s])
-        CHECK(after.points[static_cast<std::size_t>(v)] == before.points[static_cast<std::size_t>(v)]);
+        CHECK(after.points[v] == before.points[v]);
 }
 
 /// A jittered grid without its points near some random places: a plane mesh with holes, in two tags.
@@ -120,10 +118,10 @@ inline mesh_type holed_squares(int n, double jitter, std::uint64_t seed) {
   mesh_type kept{{}, cut.elements, cut.tags};
   for (auto& triangle : kept.elements)
     for (local_id& v : triangle) {
-      local_id& name = number[static_cast<std::size_t>(v)];
+      local_id& name = number[v];
       if (name == dovetail::no_id) {
         name = static_cast<local_id>(kept.points.size());
-        kept.points.push_back(cut.points[static_cast<std::size_t>(v)]);
+        kept.points.push_back(cut.points[v]);
       }
       v = name;
     }
@@ -164,7 +162,7 @@ inline mesh_type closed_cube(int n, double jitter, std::uint64_t seed, bool onto
     }
     for (simplex<2> triangle : square.elements) {
       for (local_id& v : triangle)
-        v = number[static_cast<std::size_t>(v)];
+        v = number[v];
       result.elements.push_back(triangle);
     }
   }

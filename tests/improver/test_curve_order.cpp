@@ -16,7 +16,7 @@ std::multiset<std::array<std::array<double, 3>, 4>> placed_elements(const mesh_t
   for (const auto& element : mesh.elements) {
     std::array<std::array<double, 3>, 4> placed{};
     for (std::size_t k = 0; k < 4; ++k) {
-      const vec3 p = mesh.points[static_cast<std::size_t>(element[k])];
+      const vec3 p = mesh.points[element[k]];
       placed[k] = {p.x, p.y, p.z};
     }
     result.insert(placed);
@@ -34,12 +34,12 @@ TEST_CASE("ordering renames points and moves elements, and changes nothing else"
   const auto before = order_along_curve(ordered);
   REQUIRE(before.size() == mesh.points.size());
   for (std::size_t v = 0; v < before.size(); ++v)
-    CHECK(ordered.points[v] == mesh.points[static_cast<std::size_t>(before[v])]);
+    CHECK(ordered.points[v] == mesh.points[before[v]]);
   CHECK(placed_elements(ordered) == placed_elements(mesh));
   local_id last_first = 0;
   for (std::size_t e = 0; e < ordered.elements.size(); ++e) {
     const auto& v = ordered.elements[e];
-    CHECK(before[static_cast<std::size_t>(v[0])] == ordered.tags[e]);
+    CHECK(before[v[0]] == ordered.tags[e]);
     const local_id first = *std::min_element(v.begin(), v.end());
     CHECK(first >= last_first);
     last_first = first;
@@ -54,7 +54,7 @@ TEST_CASE("neighbours get close numbers") {
     double sum = 0;
     for (const auto& v : m.elements)
       for (const auto& edge : dovetail::numbering::ridges<3>)
-        sum += std::abs(v[static_cast<std::size_t>(edge[0])] - v[static_cast<std::size_t>(edge[1])]);
+        sum += std::abs(v[edge[0]] - v[edge[1]]);
     return sum / (6.0 * static_cast<double>(m.elements.size()));
   };
   REQUIRE(mean_gap(mesh) > 1000);

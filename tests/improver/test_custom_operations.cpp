@@ -49,8 +49,7 @@ public:
   explicit relaxing(surface_complex& mesh) : smooth_(mesh) {}
   bool mend(surface_complex& mesh, local_id t, const operation_limits<2>&, const recorded_tries& tries) {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      if (const local_id v = mesh.table.vertex[mesh.at(c)];
-          mesh.inner(v) && tries([&] { return smooth_.relax(v); }))
+      if (const local_id v = mesh.table.vertex[c]; mesh.inner(v) && tries([&] { return smooth_.relax(v); }))
         return true;
     return false;
   }

@@ -115,7 +115,7 @@ TEST_CASE("no element gets worse than the worst around its vertex was, and no po
       double gain = 0;
       for (local_id e = 0; e < mesh.element_slots(); ++e) {
         const auto& corners = mesh.vertices(e);
-        const float was = before[static_cast<std::size_t>(e)], is = value_of(mesh, e);
+        const float was = before[e], is = value_of(mesh, e);
         CHECK(is == mesh.value(e)); // what is remembered is true
         if (std::find(corners.begin(), corners.end(), v) == corners.end()) {
           CHECK(is == was);

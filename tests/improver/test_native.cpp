@@ -126,9 +126,7 @@ TEST_CASE("edges stay in the band around the size") {
     const auto measure = [](const mesh_type& m, double& low, double& high) {
       for (const auto& element : m.elements)
         for (const auto& edge : dovetail::numbering::ridges<3>) {
-          const double length =
-              distance(m.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[0])])],
-                       m.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[1])])]);
+          const double length = distance(m.points[element[edge[0]]], m.points[element[edge[1]]]);
           low = std::min(low, length);
           high = std::max(high, length);
         }
@@ -181,7 +179,7 @@ TEST_CASE("flat elements are mended") {
     const auto& first = mesh.elements[200];
     local_id inner = dovetail::no_id;
     for (const local_id v : first) {
-      const vec3 p = mesh.points[static_cast<std::size_t>(v)];
+      const vec3 p = mesh.points[v];
       if (p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1)
         inner = v;
     }
@@ -190,8 +188,8 @@ TEST_CASE("flat elements are mended") {
     vec3 sum{};
     for (const local_id v : first)
       if (v != inner)
-        sum += mesh.points[static_cast<std::size_t>(v)];
-    mesh.points[static_cast<std::size_t>(inner)] = sum / 3;
+        sum += mesh.points[v];
+    mesh.points[inner] = sum / 3;
     native::fine()(mesh, {}, {});
     CHECK(inverted_count(mesh) == 0);
   }

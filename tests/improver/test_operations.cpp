@@ -47,7 +47,7 @@ void evaluate(tet_complex& mesh) {
 double best_by_force(const mesh_type& mesh, const std::vector<local_id>& polygon) {
   if (polygon.size() < 3)
     return 2;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   // The triangle on the polygon's closing edge has some third vertex; split there.
   double best = -2;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
@@ -62,7 +62,7 @@ double best_by_force(const mesh_type& mesh, const std::vector<local_id>& polygon
 
 int edge_of(const tet_complex& mesh, local_id e, local_id a, local_id b) {
   for (int edge = 0; edge < 6; ++edge) {
-    const auto& corners = edge_corners[static_cast<std::size_t>(edge)];
+    const auto& corners = edge_corners[edge];
     const local_id p = mesh.vertex(e, corners[0]), q = mesh.vertex(e, corners[1]);
     if ((p == a && q == b) || (p == b && q == a))
       return edge;
@@ -91,7 +91,7 @@ mesh_type sandwich(int n, std::uint64_t seed) {
 /// Whether the removal of some run of the fan's triangles that contains `start` makes the worst element
 /// better: the gain of the best one, else 0.
 double best_removal_by_force(const mesh_type& mesh, int n, int start) {
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   const auto value_of = [&](local_id x, local_id y) {
     return measure_of<measure>(at(n), at(n + 1), at(x), at(y));
   };
@@ -102,7 +102,7 @@ double best_removal_by_force(const mesh_type& mesh, int n, int start) {
       for (int i = from; i <= to; ++i) {
         after = std::min(after, value_of(i, i + 1));
         for (const int e : {2 * (i - 1), 2 * (i - 1) + 1}) {
-          const auto& v = mesh.elements[static_cast<std::size_t>(e)];
+          const auto& v = mesh.elements[e];
           before = std::min(before, measure_of<measure>(at(v[0]), at(v[1]), at(v[2]), at(v[3])));
         }
       }
@@ -285,14 +285,10 @@ TEST_CASE("smoothing finds the centre of a regular star") {
   for (local_id i = 0; i < 12; ++i)
     for (local_id j = i + 1; j < 12; ++j)
       for (local_id k = j + 1; k < 12; ++k) {
-        const auto near = [&](local_id a, local_id b) {
-          return distance(p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)]) < 2.1;
-        };
+        const auto near = [&](local_id a, local_id b) { return distance(p[a], p[b]) < 2.1; };
         if (!near(i, j) || !near(j, k) || !near(k, i))
           continue;
-        const bool outwards =
-            dovetail::signed_volume({0, 0, 0}, p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>(j)],
-                                    p[static_cast<std::size_t>(k)]) > 0;
+        const bool outwards = dovetail::signed_volume({0, 0, 0}, p[i], p[j], p[k]) > 0;
         mesh.elements.push_back(outwards ? simplex<3>{12, i, j, k} : simplex<3>{12, i, k, j});
       }
   REQUIRE(mesh.elements.size() == 20);

@@ -207,7 +207,7 @@ TEST_CASE("sheets that meet in a line keep it") {
     }
     for (simplex<2> triangle : square.elements) {
       for (local_id& v : triangle)
-        v = number[static_cast<std::size_t>(v)];
+        v = number[v];
       mesh.elements.push_back(triangle);
     }
   }
@@ -228,8 +228,7 @@ TEST_CASE("edges stay in the stated band around the sizing field") {
   const auto range = [](const mesh_type& m) {
     std::array<double, 2> found{1e300, 0};
     for (const auto& side : dovetail::build_sides(m).vertices) {
-      const double length =
-          distance(m.points[static_cast<std::size_t>(side[0])], m.points[static_cast<std::size_t>(side[1])]);
+      const double length = distance(m.points[side[0]], m.points[side[1]]);
       found = {std::min(found[0], length), std::max(found[1], length)};
     }
     return found;

@@ -93,8 +93,8 @@ TEST_CASE("a tag chooses the face, and its parameters are carried along") {
   REQUIRE(corner_uv.size() == result.elements.size());
   for (std::size_t t = 0; t < corner_uv.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      CHECK(distance(at(result.tags[t], corner_uv[t][k]).point,
-                     result.points[static_cast<std::size_t>(result.elements[t][k])]) < 1e-12);
+      CHECK(distance(at(result.tags[t], corner_uv[t][k]).point, result.points[result.elements[t][k]]) <
+            1e-12);
 }
 
 TEST_CASE("a host that fails somewhere is left alone there") {

@@ -20,15 +20,14 @@ std::set<local_id> limiting_vertices(const mesh_type& mesh) {
     for (const auto& local : dovetail::numbering::sides<3>) {
       std::array<local_id, 3> v{};
       for (std::size_t k = 0; k < 3; ++k)
-        v[k] = element[static_cast<std::size_t>(local[k])];
+        v[k] = element[local[k]];
       std::sort(v.begin(), v.end());
       ++uses[v];
     }
     const auto angles = dovetail::dihedral_angles(dovetail::corners(std::span(mesh.points), element));
     for (std::size_t k = 0; k < 6; ++k) {
       const auto& local = dovetail::numbering::ridges<3>[k];
-      const local_id a = element[static_cast<std::size_t>(local[0])],
-                     b = element[static_cast<std::size_t>(local[1])];
+      const local_id a = element[local[0]], b = element[local[1]];
       dihedral[{std::min(a, b), std::max(a, b)}] += angles[k];
     }
   }
@@ -38,7 +37,7 @@ std::set<local_id> limiting_vertices(const mesh_type& mesh) {
       continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const local_id a = side[k], b = side[(k + 1) % 3], c = side[(k + 2) % 3];
-      const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+      const auto at = [&](local_id v) { return mesh.points[v]; };
       const vec3 s = at(b) - at(a), t = at(c) - at(a);
       if (std::acos(dot(s, t) / (norm(s) * norm(t))) * 180 / std::numbers::pi < 20)
         limiting.insert(side.begin(), side.end());

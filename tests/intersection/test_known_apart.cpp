@@ -26,7 +26,7 @@ std::size_t crossings(const known_apart& known) {
 box3 box_around(const fine_skeleton& skeleton, std::size_t triangle) {
   box3 box;
   for (const local_id v : skeleton.sides[triangle])
-    box.include(skeleton.points[static_cast<std::size_t>(v)]);
+    box.include(skeleton.points[v]);
   return box;
 }
 

@@ -103,8 +103,7 @@ struct rough_sheet {
     const auto count = static_cast<local_id>(triangles.size());
     for (local_id i = 0; i < count; ++i)
       for (local_id j = i + 1; j < count; ++j)
-        if (triangles_cross(points, triangles[static_cast<std::size_t>(i)],
-                            triangles[static_cast<std::size_t>(j)]))
+        if (triangles_cross(points, triangles[i], triangles[j]))
           found.push_back({i, j});
     return found;
   }
@@ -192,8 +191,7 @@ TEST_CASE("the octree finds the pairs that testing all pairs finds") {
   std::vector<triangle_pair> expected;
   for (local_id i = 0; i < 1500; ++i)
     for (local_id j = i + 1; j < 1500; ++j)
-      if (!odd_with_odd(i, j) && triangles_cross(points, triangles[static_cast<std::size_t>(i)],
-                                                 triangles[static_cast<std::size_t>(j)]))
+      if (!odd_with_odd(i, j) && triangles_cross(points, triangles[i], triangles[j]))
         expected.emplace_back(i, j);
   REQUIRE(expected.size() > 100);
   CHECK(crossing_triangles(points, triangles, odd_with_odd, serial_run{}) == expected);
@@ -338,6 +336,5 @@ TEST_CASE("neighbours in a smooth surface are separated by a plane; crossing tri
   const auto crossing = folded.pairs_by_testing_all();
   REQUIRE(crossing.size() > 20);
   for (const auto& [i, j] : crossing)
-    REQUIRE_FALSE(separated_by_a_plane(folded.points, folded.triangles[static_cast<std::size_t>(i)],
-                                       folded.triangles[static_cast<std::size_t>(j)]));
+    REQUIRE_FALSE(separated_by_a_plane(folded.points, folded.triangles[i], folded.triangles[j]));
 }

@@ -38,7 +38,7 @@ void check_sides(const simplicial_mesh<D>& mesh) {
     for (std::size_t i = 0; i <= D; ++i) {
       const auto side = sides.of_element[e][i];
       const auto vertices = detail::pick(mesh.elements[e], numbering::sides<D>[i]);
-      REQUIRE(sorted_vertices(sides.vertices[static_cast<std::size_t>(side)]) == sorted_vertices(vertices));
+      REQUIRE(sorted_vertices(sides.vertices[side]) == sorted_vertices(vertices));
       const auto& both = expected.at(sorted_vertices(vertices));
       const local_id self = static_cast<local_id>(e);
       const local_id other = both.size() == 2 ? (both[0] == self ? both[1] : both[0]) : no_id;
@@ -57,15 +57,12 @@ void check_ridges(const simplicial_mesh<D>& mesh) {
       REQUIRE(!codes.empty());
       const auto side = [&](std::uint32_t code, std::size_t end) {
         const dihedral w = ridge_table<D>::decode(code);
-        return adj.sides
-            .of_element[static_cast<std::size_t>(w.element)][static_cast<std::size_t>(w.sides[end])];
+        return adj.sides.of_element[w.element][w.sides[end]];
       };
       for (std::size_t k = 0; k < codes.size(); ++k) {
         const dihedral w = ridge_table<D>::decode(codes[k]);
         REQUIRE(seen.insert({w.element, w.ridge}).second);
-        REQUIRE(
-            adj.ridges.of_element[static_cast<std::size_t>(w.element)][static_cast<std::size_t>(w.ridge)] ==
-            static_cast<local_id>(r));
+        REQUIRE(adj.ridges.of_element[w.element][w.ridge] == static_cast<local_id>(r));
         if (k + 1 < codes.size()) {
           REQUIRE(side(codes[k], 1) == side(codes[k + 1], 0));
           REQUIRE(adj.sides.is_interior(side(codes[k], 1)));
@@ -112,11 +109,11 @@ TEST_CASE("sides of the first element point outwards") {
   const auto sides = build_sides(mesh);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto& v = sides.vertices[s];
-    const auto& tet = mesh.elements[static_cast<std::size_t>(sides.elements[s][0])];
+    const auto& tet = mesh.elements[sides.elements[s][0]];
     vec3 center{};
     for (const local_id p : tet)
-      center += 0.25 * mesh.points[static_cast<std::size_t>(p)];
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(v[k])]; };
+      center += 0.25 * mesh.points[p];
+    const auto at = [&](std::size_t k) { return mesh.points[v[k]]; };
     CHECK(signed_volume(at(0), at(1), at(2), center) < 0);
   }
 }

@@ -55,8 +55,7 @@ simplicial_mesh<3> wedge(double height) {
 simplicial_mesh<3> slab(double thickness) {
   auto mesh = dovetail_test::jittered_cubes(5, 0);
   std::erase_if(mesh.elements, [&](const simplex<3>& element) {
-    return std::any_of(element.begin(), element.end(),
-                       [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)].z > 0.3; });
+    return std::any_of(element.begin(), element.end(), [&](local_id v) { return mesh.points[v].z > 0.3; });
   });
   for (vec3& p : mesh.points)
     p.z *= 5 * thickness;

@@ -18,10 +18,10 @@ const simplicial_mesh<3> regular{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 
 double dihedral_by_projection(const std::array<vec3, 4>& p, std::size_t ridge) {
   const auto& edge = numbering::ridges<3>[ridge];
   const auto& opposite = numbering::sides_of_ridge<3>[ridge]; // side i is opposite vertex i
-  const vec3 a = p[static_cast<std::size_t>(edge[0])];
-  const vec3 axis = normalized(p[static_cast<std::size_t>(edge[1])] - a);
+  const vec3 a = p[edge[0]];
+  const vec3 axis = normalized(p[edge[1]] - a);
   const auto across = [&](int v) {
-    const vec3 d = p[static_cast<std::size_t>(v)] - a;
+    const vec3 d = p[v] - a;
     return d - dot(d, axis) * axis;
   };
   return degrees_per_radian * angle_between(across(opposite[0]), across(opposite[1]));
@@ -82,9 +82,7 @@ TEST_CASE("statistics are those of every angle by itself, and of flat elements t
     smallest.add(*std::min_element(angles.begin(), angles.end()));
     largest.add(*std::max_element(angles.begin(), angles.end()));
     for (const auto& side : numbering::sides<3>)
-      for (const double degrees : dihedral_angles(std::array<vec3, 3>{at[static_cast<std::size_t>(side[0])],
-                                                                      at[static_cast<std::size_t>(side[1])],
-                                                                      at[static_cast<std::size_t>(side[2])]}))
+      for (const double degrees : dihedral_angles(std::array<vec3, 3>{at[side[0]], at[side[1]], at[side[2]]}))
         min_face = std::min(min_face, degrees);
   }
   CHECK(statistics.min_dihedrals.bins == smallest.bins);

@@ -30,10 +30,10 @@ simplicial_mesh<2> cube_surface(int n) {
     if (sides.is_boundary(static_cast<local_id>(s))) {
       simplex<2> triangle = sides.vertices[s];
       for (local_id& v : triangle) {
-        auto& to = number[static_cast<std::size_t>(v)];
+        auto& to = number[v];
         if (to == no_id) {
           to = static_cast<local_id>(surface.points.size());
-          surface.points.push_back(cubes.points[static_cast<std::size_t>(v)]);
+          surface.points.push_back(cubes.points[v]);
         }
         v = to;
       }

@@ -40,14 +40,12 @@ inline std::string fault_of(const surface& boundary, const dovetail::simplicial_
   for (const auto& e : mesh.elements) {
     std::array<vec3, 4> p;
     for (std::size_t k = 0; k < 4; ++k)
-      p[k] = mesh.points[static_cast<std::size_t>(e[k])];
+      p[k] = mesh.points[e[k]];
     if (!(dovetail::orient3d(p[0], p[1], p[2], p[3]) > 0))
       return "an element is not positive";
     volume += dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
     for (const auto& local : dovetail::numbering::sides<3>)
-      add({e[static_cast<std::size_t>(local[0])], e[static_cast<std::size_t>(local[1])],
-           e[static_cast<std::size_t>(local[2])]},
-          1);
+      add({e[local[0]], e[local[1]], e[local[2]]}, 1);
   }
   std::sort(sides.begin(), sides.end());
   const auto count = [&](const std::pair<simplex<2>, int>& side) {

@@ -31,8 +31,8 @@ inline std::vector<std::array<local_id, 2>> unique_edges(const simplicial_mesh<3
   std::vector<std::array<local_id, 2>> edges;
   for (const auto& element : mesh.elements)
     for (const auto& r : numbering::ridges<3>) {
-      const local_id a = element[static_cast<std::size_t>(r[0])];
-      const local_id b = element[static_cast<std::size_t>(r[1])];
+      const local_id a = element[r[0]];
+      const local_id b = element[r[1]];
       edges.push_back({std::min(a, b), std::max(a, b)});
     }
   std::sort(edges.begin(), edges.end());
@@ -44,7 +44,7 @@ inline double mean_edge(const simplicial_mesh<3>& mesh) {
   const auto edges = unique_edges(mesh);
   double sum = 0;
   for (const auto& [a, b] : edges)
-    sum += distance(mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)]);
+    sum += distance(mesh.points[a], mesh.points[b]);
   return sum / static_cast<double>(edges.size());
 }
 
@@ -134,7 +134,7 @@ inline shapes::surface halves_with_a_wall() {
     simplex<2> copy{};
     bool on_wall = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 p = left.points[static_cast<std::size_t>(t[k])];
+      const vec3 p = left.points[t[k]];
       on_wall = on_wall && p.x == 2;
       const auto same = std::find(halves.points.begin(), halves.points.end(), p);
       copy[k] = static_cast<local_id>(same - halves.points.begin());
@@ -245,8 +245,8 @@ void check_grading(const M& mesher) {
   std::size_t count = 0;
   std::size_t tiny = 0;
   for (const auto& [a, b] : unique_edges(mesh)) {
-    const vec3 p = mesh.points[static_cast<std::size_t>(a)];
-    const vec3 q = mesh.points[static_cast<std::size_t>(b)];
+    const vec3 p = mesh.points[a];
+    const vec3 q = mesh.points[b];
     const double ratio = distance(p, q) / size(midpoint(p, q));
     if (distance(midpoint(p, q), source) > 0.3)
       continue; // the boundary is of another size

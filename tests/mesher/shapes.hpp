@@ -107,8 +107,7 @@ inline surface sphere(int levels, double radius = 1, vec3 center = {}) {
       const auto [it, is_new] =
           middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<local_id>(s.points.size()));
       if (is_new)
-        s.points.push_back(
-            dovetail::midpoint(s.points[static_cast<std::size_t>(a)], s.points[static_cast<std::size_t>(b)]));
+        s.points.push_back(dovetail::midpoint(s.points[a], s.points[b]));
       return it->second;
     };
     for (const auto& [a, b, c] : s.elements) {
@@ -151,8 +150,7 @@ inline double mean_edge(const surface& s) {
   double sum = 0;
   for (const auto& t : s.elements)
     for (std::size_t k = 0; k < 3; ++k)
-      sum += dovetail::distance(s.points[static_cast<std::size_t>(t[k])],
-                                s.points[static_cast<std::size_t>(t[(k + 1) % 3])]);
+      sum += dovetail::distance(s.points[t[k]], s.points[t[(k + 1) % 3]]);
   return sum / (3.0 * static_cast<double>(s.elements.size()));
 }
 

@@ -55,7 +55,7 @@ inline void require_filled(const auto& surface, const patch_boundary& b, const p
   double filled = 0;
   std::map<std::array<local_id, 2>, int> passed;
   for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t k) { return uv[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return uv[t[k]]; };
     REQUIRE(orient2d(at(0), at(1), at(2)) > 0);
     filled += 0.5 * cross(at(1) - at(0), at(2) - at(0));
     for (std::size_t k = 0; k < 3; ++k)
@@ -74,8 +74,7 @@ inline void require_filled(const auto& surface, const patch_boundary& b, const p
     const bool shared = passed.contains({edge[1], edge[0]});
     REQUIRE(shared != lines.contains(edge));
     if (edge[0] < edge[1] || !shared) {
-      length +=
-          distance(points[static_cast<std::size_t>(edge[0])], points[static_cast<std::size_t>(edge[1])]);
+      length += distance(points[edge[0]], points[edge[1]]);
       ++edges;
     }
   }

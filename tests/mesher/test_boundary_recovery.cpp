@@ -216,8 +216,7 @@ TEST_CASE("the point farthest from all planes is found in regions however flat")
     const std::array<vec3, 4> p{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, height}}};
     std::vector<std::array<vec3, 3>> sides;
     for (const auto& local : numbering::sides<3>)
-      sides.push_back({p[static_cast<std::size_t>(local[0])], p[static_cast<std::size_t>(local[1])],
-                       p[static_cast<std::size_t>(local[2])]});
+      sides.push_back({p[local[0]], p[local[1]], p[local[2]]});
     const vec3 middle = detail::point_before_all(sides);
     double least = 1e300, area = 0;
     for (const auto& [a, b, c] : sides) {

@@ -63,7 +63,7 @@ TEST_CASE("two shells with a corner in common") {
   s.points.push_back({0.2, 0.2, 0.5});
   local_id corner = no_id;
   for (local_id v = 0; v < first; ++v)
-    if (s.points[static_cast<std::size_t>(v)] == vec3{0, 0, 0})
+    if (s.points[v] == vec3{0, 0, 0})
       corner = v;
   REQUIRE(corner != no_id);
   const local_id a = first, b = first + 1, c = first + 2;
@@ -84,10 +84,7 @@ TEST_CASE("open edges, and triangles upon each other, are named") {
   // A second lid upon the first one, divided in its middle, shares the edges of the first.
   const simplex<2> lid = s.elements[0];
   const auto middle = static_cast<local_id>(s.points.size());
-  s.points.push_back((s.points[static_cast<std::size_t>(lid[0])] +
-                      s.points[static_cast<std::size_t>(lid[1])] +
-                      2.0 * s.points[static_cast<std::size_t>(lid[2])]) /
-                     4.0);
+  s.points.push_back((s.points[lid[0]] + s.points[lid[1]] + 2.0 * s.points[lid[2]]) / 4.0);
   for (std::size_t k = 0; k < 3; ++k)
     s.elements.push_back({lid[k], lid[(k + 1) % 3], middle});
   CHECK_THROWS_AS(enclosed_regions{s}, geometry_error);

@@ -22,7 +22,7 @@ namespace {
 double distance_to(const simplicial_mesh<2>& boundary, vec3 p) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& t : boundary.elements) {
-    const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return boundary.points[t[k]]; };
     const auto w = nearest_on_triangle(at(0), at(1), at(2), p);
     least = std::min(least, distance(w[0] * at(0) + w[1] * at(1) + w[2] * at(2), p));
   }
@@ -56,7 +56,7 @@ double least_spacing(const std::vector<vec3>& points, const any_sizing& size) {
                       std::size_t) { return distance_squared(box, points[i]) < least * least * h * h; },
                   [&](local_id j) {
                     if (static_cast<std::size_t>(j) != i)
-                      least = std::min(least, distance(points[i], points[static_cast<std::size_t>(j)]) / h);
+                      least = std::min(least, distance(points[i], points[j]) / h);
                   });
   }
   return least;
@@ -274,7 +274,7 @@ TEST_CASE("What is no size is refused") {
     CHECK_THROWS_AS(interior_points(boundary, [bad](vec3 p) { return norm(p) < 0.6 ? bad : 0.2; }),
                     sizing_error);
     const auto& t = boundary.elements[7];
-    const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return boundary.points[t[k]]; };
     const vec3 middle = (at(0) + at(1) + at(2)) / 3.0;
     CHECK_THROWS_AS(interior_points(boundary, [&](vec3 p) { return distance(p, middle) < 1e-6 ? bad : 0.2; }),
                     sizing_error);

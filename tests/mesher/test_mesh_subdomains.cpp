@@ -130,7 +130,7 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
   for (local_id s = 0; s < static_cast<local_id>(piece_count); ++s) {
     const auto input = cube_number(s);
     const auto piece = result.load(s);
-    const auto& summary = result.pieces[static_cast<std::size_t>(s)];
+    const auto& summary = result.pieces[s];
     CHECK(piece.subdomain == s);
     CHECK(piece.material == input.boundary.material);
     CHECK(piece.skeleton_points == input.skeleton_points);
@@ -139,8 +139,7 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
     CHECK(summary.counts.inner_points == 1);
     CHECK(summary.quality.elements == summary.counts.elements);
     CHECK(summary.summary.children.at(1).name == "improver");
-    const auto kept =
-        options.store->value<finished_piece<3>>(result.keys[static_cast<std::size_t>(s)]).summary.summary;
+    const auto kept = options.store->value<finished_piece<3>>(result.keys[s]).summary.summary;
     CHECK(kept.children.at(1).get("frozen points") == static_cast<double>(input.skeleton_points.size()));
     elements += summary.counts.elements;
   }

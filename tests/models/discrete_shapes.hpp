@@ -85,8 +85,7 @@ triangle_soup sheet_soup(int n, Height&& height) {
 inline triangle_soup open_box_soup(vec3 a, vec3 b, int n) {
   triangle_soup soup = box_soup(a, b, n);
   std::erase_if(soup.triangles, [&](const simplex<2>& t) {
-    return std::all_of(t.begin(), t.end(),
-                       [&](local_id v) { return soup.points[static_cast<std::size_t>(v)].z == b.z; });
+    return std::all_of(t.begin(), t.end(), [&](local_id v) { return soup.points[v].z == b.z; });
   });
   soup.groups.resize(soup.triangles.size());
   return soup;
@@ -135,8 +134,7 @@ inline void write_binary_stl(const std::filesystem::path& file, const triangle_s
     std::array<float, 12> numbers{};
     for (std::size_t k = 0; k < 3; ++k)
       for (int axis = 0; axis < 3; ++axis)
-        numbers[3 + 3 * k + static_cast<std::size_t>(axis)] =
-            static_cast<float>(soup.points[static_cast<std::size_t>(t[k])][axis]);
+        numbers[3 + 3 * k + static_cast<std::size_t>(axis)] = static_cast<float>(soup.points[t[k]][axis]);
     out.write(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
     out.write("\0\0", 2);
   }
@@ -149,7 +147,7 @@ inline void write_text_stl(const std::filesystem::path& file, const triangle_sou
   for (const auto& t : soup.triangles) {
     out << " facet normal 0 0 0\n  outer loop\n";
     for (const auto v : t) {
-      const vec3 p = soup.points[static_cast<std::size_t>(v)];
+      const vec3 p = soup.points[v];
       out << "   vertex " << p.x << ' ' << p.y << ' ' << p.z << '\n';
     }
     out << "  endloop\n endfacet\n";

@@ -37,11 +37,11 @@ private:
   }
 
   void check_curve(local_id c) {
-    const auto& curve = topology_.curves[static_cast<std::size_t>(c)];
+    const auto& curve = topology_.curves[c];
     if (!(curve.t[0] < curve.t[1]))
       complain("curve", c, "has an empty parameter range");
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto& vertex = topology_.vertices[static_cast<std::size_t>(curve.vertices[end])];
+      const auto& vertex = topology_.vertices[curve.vertices[end]];
       const double gap = distance(model_.curve_point(c, curve.t[end]), vertex.point);
       if (gap > vertex.tolerance + curve.tolerance + rounding())
         complain("curve", c, "ends " + std::to_string(gap) + " away from its vertex");
@@ -67,11 +67,11 @@ private:
 
   /// The sampled loop; `offset` is the index of its first coedge.
   std::vector<vec2> polygon(local_id f, std::size_t offset, std::size_t count) const {
-    const auto& face = topology_.faces[static_cast<std::size_t>(f)];
+    const auto& face = topology_.faces[f];
     std::vector<vec2> points;
     for (std::size_t k = offset; k < offset + count; ++k) {
       const auto& coedge = face.coedges[k];
-      const auto& curve = topology_.curves[static_cast<std::size_t>(coedge.curve)];
+      const auto& curve = topology_.curves[coedge.curve];
       for (int i = 0; i < samples; ++i)
         points.push_back(
             model_.curve_uv(f, static_cast<int>(k), along(curve, coedge.reversed, double(i) / samples)));
@@ -80,7 +80,7 @@ private:
   }
 
   void check_loops(local_id f) {
-    const auto& face = topology_.faces[static_cast<std::size_t>(f)];
+    const auto& face = topology_.faces[f];
     std::size_t offset = 0;
     int outer = 0;
     std::vector<vec2> all;
@@ -106,15 +106,15 @@ private:
   }
 
   vec2 end_uv(local_id f, std::size_t k, double s) const {
-    const auto& coedge = topology_.faces[static_cast<std::size_t>(f)].coedges[k];
-    const auto& curve = topology_.curves[static_cast<std::size_t>(coedge.curve)];
+    const auto& coedge = topology_.faces[f].coedges[k];
+    const auto& curve = topology_.curves[coedge.curve];
     return model_.curve_uv(f, static_cast<int>(k), along(curve, coedge.reversed, s));
   }
 
   void check_parameter_curves(local_id f) {
-    const auto& face = topology_.faces[static_cast<std::size_t>(f)];
+    const auto& face = topology_.faces[f];
     for (std::size_t k = 0; k < face.coedges.size(); ++k) {
-      const auto& curve = topology_.curves[static_cast<std::size_t>(face.coedges[k].curve)];
+      const auto& curve = topology_.curves[face.coedges[k].curve];
       double worst = 0;
       for (int i = 0; i <= samples; ++i) {
         const double t = parameter(curve, double(i) / samples);
@@ -130,12 +130,12 @@ private:
     }
   }
   double pole_tolerance(const geometry_topology::curve& curve) const {
-    return curve.degenerate ? topology_.vertices[static_cast<std::size_t>(curve.vertices[0])].tolerance : 0;
+    return curve.degenerate ? topology_.vertices[curve.vertices[0]].tolerance : 0;
   }
 
   /// A point of the face is found again from a seed nearby.
   void check_projection(local_id f) {
-    const auto& face = topology_.faces[static_cast<std::size_t>(f)];
+    const auto& face = topology_.faces[f];
     vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
     for (const vec2 p : polygon(f, 0, face.coedges.size())) {
       lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
@@ -166,8 +166,8 @@ private:
           continue;
         for (const auto& coedge : face.coedges) {
           const bool backwards = (coedge.reversed != face.reversed) != (side == 1);
-          balance[static_cast<std::size_t>(coedge.curve)] += backwards ? -1 : 1;
-          passages[static_cast<std::size_t>(coedge.curve)] += 1;
+          balance[coedge.curve] += backwards ? -1 : 1;
+          passages[coedge.curve] += 1;
         }
       }
     }

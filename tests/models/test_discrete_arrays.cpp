@@ -24,7 +24,7 @@ local_id side_of(const std::vector<vec3>& points, const simplex<2>& triangle) {
     for (const double level : {0.0, 1.0}) {
       bool on = true;
       for (const local_id v : triangle)
-        on = on && points[static_cast<std::size_t>(v)][axis] == level;
+        on = on && points[v][axis] == level;
       if (on)
         return static_cast<local_id>(2 * axis + (level > 0 ? 1 : 0));
     }
@@ -43,7 +43,7 @@ TEST_CASE("ids of one's own come back on every triangle of the mesh, and as name
   const auto cube = box_soup({0, 0, 0}, {1, 1, 1}, 2);
   std::vector<local_id> ids;
   for (const auto& triangle : cube.triangles)
-    ids.push_back(own_ids[static_cast<std::size_t>(side_of(cube.points, triangle))]);
+    ids.push_back(own_ids[side_of(cube.points, triangle)]);
   const discrete_model model(cube.points, cube.triangles, ids);
   const auto result = generate<2>(model, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 3}));
   const auto whole = io::gather(result.mesh);
@@ -53,12 +53,12 @@ TEST_CASE("ids of one's own come back on every triangle of the mesh, and as name
     const local_id side = side_of(whole.mesh.points, whole.mesh.elements[t]);
     const local_id face = whole.mesh.tags[t];
     ids_on_side[side].insert(model.face_id(face));
-    const auto group = static_cast<std::size_t>(whole.group_of_face.at(static_cast<std::size_t>(face)));
+    const auto group = static_cast<std::size_t>(whole.group_of_face.at(face));
     names_on_side[side].insert(whole.group_names.at(group));
   }
   REQUIRE(ids_on_side.size() == 6);
   for (const auto& [side, found] : ids_on_side) {
-    const local_id wanted = own_ids.at(static_cast<std::size_t>(side));
+    const local_id wanted = own_ids.at(side);
     CHECK(found == std::set<local_id>{wanted});
     if (wanted != no_id)
       CHECK(names_on_side[side] == std::set<std::string>{std::to_string(wanted)});
@@ -71,7 +71,7 @@ TEST_CASE("an edge between two ids is a feature, though the surface is flat ther
   for (const auto& triangle : cube.triangles) {
     double x = 0;
     for (const local_id v : triangle)
-      x += cube.points[static_cast<std::size_t>(v)].x / 3;
+      x += cube.points[v].x / 3;
     ids.push_back(x < 0.5 ? 1 : 2);
   }
   CHECK(discrete_model(cube.points, cube.triangles).topology().faces.size() == 6);

@@ -17,9 +17,7 @@ namespace {
 double volume(const simplicial_mesh<2>& mesh) {
   double sum = 0;
   for (const auto& t : mesh.elements)
-    sum += signed_volume({}, mesh.points[static_cast<std::size_t>(t[0])],
-                         mesh.points[static_cast<std::size_t>(t[1])],
-                         mesh.points[static_cast<std::size_t>(t[2])]);
+    sum += signed_volume({}, mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
   return sum;
 }
 

@@ -37,9 +37,9 @@ double worst_lift(const discrete_model& model) {
   for (std::size_t t = 0; t < s.mesh.elements.size(); ++t) {
     vec3 p{};
     for (const local_id v : s.mesh.elements[t])
-      p += s.mesh.points[static_cast<std::size_t>(v)] / 3;
+      p += s.mesh.points[v] / 3;
     const local_id f = s.chart_of[t];
-    const vec2 uv = s.frames[static_cast<std::size_t>(f)].flat(p);
+    const vec2 uv = s.frames[f].flat(p);
     worst = std::max(worst, distance(model.face_point(f, uv), p));
     worst = std::max(worst, norm(model.project_to_face(f, p, {}) - uv));
   }
@@ -54,7 +54,7 @@ double smallest_corner(const discrete_model& model) {
     for (const auto& loop : topology.faces[f].loops)
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const auto end_of = [&](const geometry_topology::coedge& e, bool at_start, double away) {
-          const auto& curve = topology.curves[static_cast<std::size_t>(e.curve)];
+          const auto& curve = topology.curves[e.curve];
           const double length = std::min(away, curve.t[1] / 3);
           const vec3 p = model.curve_point(e.curve, at_start != e.reversed ? length : curve.t[1] - length);
           return model.surface().frames[f].flat(p);

@@ -24,9 +24,8 @@ std::string refusal(const std::string& name, const std::string& text) {
 double area(const triangle_soup& soup) {
   double sum = 0;
   for (const auto& t : soup.triangles) {
-    const vec3 a = soup.points[static_cast<std::size_t>(t[0])];
-    sum += 0.5 * norm(cross(soup.points[static_cast<std::size_t>(t[1])] - a,
-                            soup.points[static_cast<std::size_t>(t[2])] - a));
+    const vec3 a = soup.points[t[0]];
+    sum += 0.5 * norm(cross(soup.points[t[1]] - a, soup.points[t[2]] - a));
   }
   return sum;
 }

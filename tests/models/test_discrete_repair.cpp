@@ -15,9 +15,7 @@ double volume_of(const oriented_surfaces& s, local_id solid) {
   for (std::size_t t = 0; t < s.mesh.elements.size(); ++t) {
     const auto& v = s.mesh.elements[t];
     if (s.solid_of[t] == solid)
-      sum += signed_volume({}, s.mesh.points[static_cast<std::size_t>(v[0])],
-                           s.mesh.points[static_cast<std::size_t>(v[1])],
-                           s.mesh.points[static_cast<std::size_t>(v[2])]);
+      sum += signed_volume({}, s.mesh.points[v[0]], s.mesh.points[v[1]], s.mesh.points[v[2]]);
   }
   return sum;
 }
@@ -32,7 +30,7 @@ triangle_soup exploded(const triangle_soup& soup) {
   for (const auto& t : soup.triangles) {
     const auto first = static_cast<local_id>(out.points.size());
     for (const auto v : t)
-      out.points.push_back(soup.points[static_cast<std::size_t>(v)]);
+      out.points.push_back(soup.points[v]);
     out.triangles.push_back({first, first + 1, first + 2});
     out.groups.push_back(no_id);
   }
@@ -91,7 +89,7 @@ TEST_CASE("degenerate and repeated triangles go, and caps are flipped") {
   CHECK(flipped.repairs.get("flipped_caps") == 1);
   CHECK(volume_of(flipped, 0) == doctest::Approx(8.0 / 6));
   for (const auto& t : flipped.mesh.elements) {
-    const auto at = [&](std::size_t i) { return flipped.mesh.points[static_cast<std::size_t>(t[i])]; };
+    const auto at = [&](std::size_t i) { return flipped.mesh.points[t[i]]; };
     CHECK(norm(cross(at(1) - at(0), at(2) - at(0))) > 0.1);
   }
 }

@@ -34,7 +34,7 @@ double rim_length(const discrete_model& model) {
   std::vector<int> passages(model.topology().curves.size(), 0);
   for (const auto& face : model.topology().faces)
     for (const auto& coedge : face.coedges)
-      ++passages[static_cast<std::size_t>(coedge.curve)];
+      ++passages[coedge.curve];
   double sum = 0;
   for (std::size_t c = 0; c < passages.size(); ++c)
     if (passages[c] == 1)
@@ -123,7 +123,7 @@ TEST_CASE("a strongly curved sheet is cut into charts that end at its rim") {
 TEST_CASE("a sheet with a hole, and one with corners that touch") {
   auto soup = sheet_soup(6, [](double x, double) { return 0.2 * x * x; });
   std::erase_if(soup.triangles, [&](const simplex<2>& t) {
-    const auto at = [&](local_id v) { return soup.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return soup.points[v]; };
     const vec3 center = (at(t[0]) + at(t[1]) + at(t[2])) / 3;
     return std::abs(center.x) < 0.33 && std::abs(center.y) < 0.33;
   });

@@ -23,7 +23,7 @@ public:
   }
 
   const triangle_soup& soup() const { return soup_; }
-  vec3 point(local_id v) const { return soup_.points[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) const { return soup_.points[v]; }
   std::size_t size() const { return soup_.triangles.size(); }
   simplex<2> triangle(std::size_t t) const { return soup_.triangles[t]; }
   local_id point_at(vec3 p) const {
@@ -144,7 +144,7 @@ triangle_soup cube_with_a_nick(double radius) {
   };
   std::array<local_id, 8> corner{};
   for (int k = 0; k < 8; ++k)
-    corner[static_cast<std::size_t>(k)] = add({k % 2 * 1.0, k / 2 % 2 * 1.0, k / 4 * 1.0});
+    corner[k] = add({k % 2 * 1.0, k / 2 % 2 * 1.0, k / 4 * 1.0});
   const local_id from = add({1, 0.45, 1}), to = add({1, 0.55, 1});
   std::vector<local_id> arc;
   constexpr int steps = 4;

@@ -25,8 +25,7 @@ double enclosed_volume(const implicit_model& model) {
   const auto& mesh = model.surface().mesh;
   double sum = 0;
   for (const auto& [a, b, c] : mesh.elements)
-    sum += signed_volume({}, mesh.points[static_cast<std::size_t>(a)],
-                         mesh.points[static_cast<std::size_t>(b)], mesh.points[static_cast<std::size_t>(c)]);
+    sum += signed_volume({}, mesh.points[a], mesh.points[b], mesh.points[c]);
   return sum;
 }
 
@@ -39,7 +38,7 @@ void for_each_surface_point(const implicit_model& model, const Visit& visit) {
     vec2 middle;
     const auto& coedges = topology.faces[f].coedges;
     for (std::size_t k = 0; k < coedges.size(); ++k) {
-      const auto& t = topology.curves[static_cast<std::size_t>(coedges[k].curve)].t;
+      const auto& t = topology.curves[coedges[k].curve].t;
       const double t_middle = 0.4 * t[0] + 0.6 * t[1];
       visit(model.curve_point(coedges[k].curve, t_middle), face);
       const vec2 uv = model.curve_uv(face, static_cast<int>(k), t_middle);

@@ -32,7 +32,7 @@ double meshed_volume(const F& body, double half_box, double size, int resolution
   double volume = 0;
   for (std::size_t p = 0; p < result.mesh.counts.size(); ++p) {
     const mesh_piece piece = result.mesh.load(static_cast<local_id>(p));
-    const auto at = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return piece.mesh.points[v]; };
     for (const auto& [a, b, c, d] : piece.mesh.elements)
       volume += signed_volume(at(a), at(b), at(c), at(d));
   }

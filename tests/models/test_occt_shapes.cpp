@@ -216,7 +216,7 @@ TEST_CASE("copies answer alike") {
 TEST_CASE("projection to a periodic face stays near the seed") {
   const occt_model model = occt_shape_from(BRepPrimAPI_MakeCylinder(1.0, 2.0).Shape()).model;
   for (local_id f = 0; f < 3; ++f) {
-    if (model.topology().faces[static_cast<std::size_t>(f)].coedges.size() != 4)
+    if (model.topology().faces[f].coedges.size() != 4)
       continue; // a lid
     const vec3 p = model.face_point(f, {2 * pi - 0.01, 1});
     CHECK(model.project_to_face(f, p, {2 * pi - 0.02, 1}).x == doctest::Approx(2 * pi - 0.01));

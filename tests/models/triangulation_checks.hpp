@@ -17,12 +17,12 @@ inline std::vector<double> enclosed_volumes(const geometry_topology& topology, c
   std::vector<double> volumes(topology.solids.size(), 0.0);
   for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
     const auto& e = surface.mesh.elements[t];
-    const auto corner = [&](std::size_t k) { return surface.mesh.points[static_cast<std::size_t>(e[k])]; };
+    const auto corner = [&](std::size_t k) { return surface.mesh.points[e[k]]; };
     const double volume = signed_volume({0, 0, 0}, corner(0), corner(1), corner(2));
-    const auto& face = topology.faces[static_cast<std::size_t>(surface.mesh.tags[t])];
-    volumes[static_cast<std::size_t>(face.solids[0])] += volume;
+    const auto& face = topology.faces[surface.mesh.tags[t]];
+    volumes[face.solids[0]] += volume;
     if (face.solids[1] != no_id)
-      volumes[static_cast<std::size_t>(face.solids[1])] -= volume;
+      volumes[face.solids[1]] -= volume;
   }
   return volumes;
 }
@@ -33,7 +33,7 @@ inline int open_edges(const geometry_topology& topology, const surface_mesh& sur
   for (std::size_t solid = 0; solid < topology.solids.size(); ++solid) {
     std::map<std::array<local_id, 2>, int> balance;
     for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
-      const auto& sides = topology.faces[static_cast<std::size_t>(surface.mesh.tags[t])].solids;
+      const auto& sides = topology.faces[surface.mesh.tags[t]].solids;
       const int inside = sides[0] == static_cast<local_id>(solid) ? 1 : 0;
       const int outside = sides[1] == static_cast<local_id>(solid) ? 1 : 0;
       const auto& e = surface.mesh.elements[t];

@@ -41,7 +41,7 @@ inline void check_order(any_communicator all) {
     std::vector<int> next(static_cast<std::size_t>(all.size()), tag == even ? 0 : 1);
     for (int k = 0; k < 50 * (all.size() - 1); ++k) {
       const auto message = all.await(tag);
-      int& expected = next[static_cast<std::size_t>(message.peer)];
+      int& expected = next[message.peer];
       REQUIRE(byte_reader(message.bytes).value<int>() == expected);
       expected += 2;
     }
@@ -59,7 +59,7 @@ inline void check_collectives(any_communicator all) {
   const auto gathered = all.all_gather(bytes_of(all.rank(), static_cast<std::size_t>(100 * all.rank())));
   REQUIRE(gathered.size() == static_cast<std::size_t>(size));
   for (int r = 0; r < size; ++r)
-    CHECK(gathered[static_cast<std::size_t>(r)] == bytes_of(r, static_cast<std::size_t>(100 * r)));
+    CHECK(gathered[r] == bytes_of(r, static_cast<std::size_t>(100 * r)));
 
   const auto sums = all.exclusive_scan(std::int64_t{10000000000} + all.rank());
   CHECK(sums.before == std::int64_t{10000000000} * all.rank() + all.rank() * (all.rank() - 1) / 2);

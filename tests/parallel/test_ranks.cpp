@@ -38,7 +38,7 @@ TEST_CASE("Each task is run once, on whichever rank is free") {
     CHECK(run.network().leads() == (rank == 0));
     run.run(100, [&](std::size_t i) {
       ++times[i];
-      ++by_rank[static_cast<std::size_t>(rank)];
+      ++by_rank[rank];
       std::this_thread::sleep_for(std::chrono::milliseconds(rank == 1 ? 40 : 1));
       return byte_buffer{};
     });
@@ -115,7 +115,7 @@ TEST_CASE("Ranks that do not work get no task, and wait until all is done") {
         }
         network.wait(std::chrono::milliseconds(1));
       }
-      const bool works = workers[static_cast<std::size_t>(network.rank())] > 0;
+      const bool works = workers[network.rank()] > 0;
       CHECK(feed.finished_places().empty() == !works);
       if (!works)
         CHECK(done == tasks);

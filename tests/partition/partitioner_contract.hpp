@@ -36,7 +36,7 @@ dovetail::csr_graph element_graph(const dovetail::simplicial_mesh<D>& mesh, std:
   for (const auto& element : mesh.elements) {
     dovetail::vec3 center;
     for (const auto v : element)
-      center += mesh.points[static_cast<std::size_t>(v)] / (D + 1.0);
+      center += mesh.points[v] / (D + 1.0);
     graph.positions.push_back(center);
   }
   return graph;

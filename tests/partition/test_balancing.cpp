@@ -57,26 +57,25 @@ move best_move(const csr_graph& graph, const std::vector<local_id>& part, const 
                const std::vector<double>& limits, local_id from) {
   move best;
   for (local_id v = 0; v < graph.node_count(); ++v) {
-    const double w = graph.node_weights[at(v)];
-    if (part[at(v)] != from || w <= 0)
+    const double w = graph.node_weights[v];
+    if (part[v] != from || w <= 0)
       continue;
     for (local_id to = 0; at(to) < weights.size(); ++to) {
       double inside = 0;
       double outside = 0;
       bool is_beside = false;
       for (std::size_t k = 0; k < graph.row(v).size(); ++k) {
-        const local_id p = part[at(graph.row(v)[k])];
-        const double edge = graph.edge_weights[static_cast<std::size_t>(graph.offsets[at(v)]) + k];
+        const local_id p = part[graph.row(v)[k]];
+        const double edge = graph.edge_weights[static_cast<std::size_t>(graph.offsets[v]) + k];
         inside += p == from ? edge : 0;
         outside += p == to ? edge : 0;
         is_beside = is_beside || p == to;
       }
-      const bool fits =
-          (weights[at(to)] + w) / limits[at(to)] < weights[at(from)] / limits[at(from)] * (1 - 1e-12);
+      const bool fits = (weights[to] + w) / limits[to] < weights[from] / limits[from] * (1 - 1e-12);
       if (to == from || !is_beside || !fits)
         continue;
       const move m{v, to, (outside - inside) / w};
-      const auto key = [&](const move& x) { return std::tuple(-x.gain, weights[at(x.to)], x.to); };
+      const auto key = [&](const move& x) { return std::tuple(-x.gain, weights[x.to], x.to); };
       if (best.node == no_id || key(m) < key(best))
         best = m;
     }
@@ -88,7 +87,7 @@ void balance_slowly(const csr_graph& graph, std::vector<local_id>& part, const s
   const auto parts = static_cast<int>(limits.size());
   auto weights = part_weights(graph, part, parts);
   while (true) {
-    const auto relative = [&](local_id p) { return weights[at(p)] / limits[at(p)]; };
+    const auto relative = [&](local_id p) { return weights[p] / limits[p]; };
     local_id heaviest = 0;
     for (local_id p = 1; p < parts; ++p)
       if (relative(p) > relative(heaviest))
@@ -98,9 +97,9 @@ void balance_slowly(const csr_graph& graph, std::vector<local_id>& part, const s
     const move best = best_move(graph, part, weights, limits, heaviest);
     if (best.node == no_id)
       return;
-    part[at(best.node)] = best.to;
-    weights[at(heaviest)] -= graph.node_weights[at(best.node)];
-    weights[at(best.to)] += graph.node_weights[at(best.node)];
+    part[best.node] = best.to;
+    weights[heaviest] -= graph.node_weights[best.node];
+    weights[best.to] += graph.node_weights[best.node];
   }
 }
 
@@ -166,7 +165,7 @@ TEST_CASE("every empty part gets the heaviest node of the heaviest part that has
       const auto weights = part_weights(graph, expected, 12);
       local_id donor = no_id;
       for (local_id p = 0; p < 12; ++p)
-        if (count(p) > 1 && (donor == no_id || weights[at(p)] > weights[at(donor)] + 1e-12))
+        if (count(p) > 1 && (donor == no_id || weights[p] > weights[donor] + 1e-12))
           donor = p;
       std::size_t given = 40;
       for (std::size_t v = 0; v < 40; ++v)

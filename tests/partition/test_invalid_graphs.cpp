@@ -87,7 +87,7 @@ TEST_CASE("valid graphs pass: edges added up in another order, no edges, one nod
   auto graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(3), 7);
   require_valid_graph(graph);
   for (local_id v = 0; v < graph.node_count(); ++v) { // rows in any order
-    const auto first = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
+    const auto first = static_cast<std::size_t>(graph.offsets[v]);
     if (graph.row(v).size() > 1) {
       std::swap(graph.neighbours[first], graph.neighbours[first + 1]);
       std::swap(graph.edge_weights[first], graph.edge_weights[first + 1]);

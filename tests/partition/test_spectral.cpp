@@ -24,8 +24,8 @@ TEST_CASE("the Fiedler vector of a path is a half wave") {
   double length = 0;
   for (int v = 0; v < nodes; ++v) {
     const double wave = std::cos(std::numbers::pi * (v + 0.5) / nodes) * std::sqrt(2.0 / nodes);
-    along += wave * x[static_cast<std::size_t>(v)];
-    length += x[static_cast<std::size_t>(v)] * x[static_cast<std::size_t>(v)];
+    along += wave * x[v];
+    length += x[v] * x[v];
   }
   CHECK(std::abs(along) / std::sqrt(length) > 0.99999);
 }

@@ -39,7 +39,7 @@ inline whole_mesh whole(const distributed_simplicial_mesh<2>& mesh) {
       for (std::size_t k = 0; k < 3; ++k) {
         const local_id v = piece.mesh.elements[e][k];
         triangle[k] = io::global_point(piece, numbers, v);
-        all.points[triangle[k]] = piece.mesh.points[static_cast<std::size_t>(v)];
+        all.points[triangle[k]] = piece.mesh.points[v];
       }
       all.triangles.push_back(triangle);
       all.faces.push_back(piece.mesh.tags[e]);

@@ -9,7 +9,7 @@ namespace dovetail::testing {
 
 inline double volume_of(const simplicial_mesh<3>& mesh) {
   double sum = 0;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   for (const auto& [a, b, c, d] : mesh.elements)
     sum += signed_volume(at(a), at(b), at(c), at(d));
   return sum;

@@ -36,7 +36,7 @@ auto by_tetgen(int subdomains = 4) {
 }
 
 vec3 point(const simplicial_mesh<3>& mesh, local_id v) {
-  return mesh.points[static_cast<std::size_t>(v)];
+  return mesh.points[v];
 }
 
 std::map<local_id, double> volume_by_material(const simplicial_mesh<3>& mesh) {
@@ -180,9 +180,7 @@ TEST_CASE("triangles are adapted by the same template, with their ids") {
   const auto area_of = [](const simplicial_mesh<2>& mesh) {
     std::map<local_id, double> area;
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      const auto at = [&](std::size_t k) {
-        return mesh.points[static_cast<std::size_t>(mesh.elements[e][k])];
-      };
+      const auto at = [&](std::size_t k) { return mesh.points[mesh.elements[e][k]]; };
       area[mesh.tags[e]] += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
     }
     return area;
@@ -199,15 +197,14 @@ TEST_CASE("edges of triangles keep their ids, and ids end where they did") {
   // The bottom has two ids that meet in its middle, the right side one, the rest none.
   adaptable_mesh<2> old{whole.mesh, whole.sides};
   for (const auto& [a, b] : whole.sides) {
-    const vec3 at = midpoint(whole.mesh.points[static_cast<std::size_t>(a)],
-                             whole.mesh.points[static_cast<std::size_t>(b)]);
+    const vec3 at = midpoint(whole.mesh.points[a], whole.mesh.points[b]);
     old.side_ids.push_back(at.y < 1e-9 ? (at.x < 0.5 ? 7 : 8) : at.x > 1 - 1e-9 ? 9 : no_id);
   }
   const auto length_by_id = [](const adaptable_mesh<2>& mesh) {
     std::map<local_id, double> length;
     for (std::size_t s = 0; s < mesh.sides.size(); ++s)
-      length[mesh.side_ids[s]] += distance(mesh.mesh.points[static_cast<std::size_t>(mesh.sides[s][0])],
-                                           mesh.mesh.points[static_cast<std::size_t>(mesh.sides[s][1])]);
+      length[mesh.side_ids[s]] +=
+          distance(mesh.mesh.points[mesh.sides[s][0]], mesh.mesh.points[mesh.sides[s][1]]);
     return length;
   };
   const auto made = adapt<2>(old, uniform_size(0.09), parameters<>{});
@@ -223,7 +220,7 @@ TEST_CASE("edges of triangles keep their ids, and ids end where they did") {
   local_id inner = 0;
   while (sides.is_boundary(inner))
     ++inner;
-  old.sides.push_back(sides.vertices[static_cast<std::size_t>(inner)]);
+  old.sides.push_back(sides.vertices[inner]);
   old.side_ids.push_back(3);
   CHECK(adapt<2>(old, uniform_size(0.09), parameters<>{}).summary.warnings ==
         std::vector<std::string>{
@@ -281,8 +278,7 @@ TEST_CASE("sides with ids inside a material are passed over, which a warning tel
   const auto sides = build_sides(old.mesh);
   std::size_t inside = 0;
   while (!sides.is_interior(static_cast<local_id>(inside)) ||
-         old.mesh.tags[static_cast<std::size_t>(sides.elements[inside][0])] !=
-             old.mesh.tags[static_cast<std::size_t>(sides.elements[inside][1])])
+         old.mesh.tags[sides.elements[inside][0]] != old.mesh.tags[sides.elements[inside][1]])
     ++inside;
   CHECK(model_of_boundary(old).warnings.empty());
   old.sides.push_back(sides.vertices[inside]);

@@ -46,7 +46,7 @@ occt_model two_bodies(double radius = 0.7) {
 }
 
 double volume_of(const simplicial_mesh<3>& mesh) {
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   double sum = 0;
   for (const auto& [a, b, c, d] : mesh.elements)
     sum += signed_volume(at(a), at(b), at(c), at(d));
@@ -79,9 +79,7 @@ std::map<local_id, double> volumes(const simplicial_mesh<3>& mesh) {
 std::map<local_id, double> areas(const adaptable_mesh<3>& mesh) {
   std::map<local_id, double> sum;
   for (std::size_t s = 0; s < mesh.sides.size(); ++s) {
-    const auto at = [&](std::size_t k) {
-      return mesh.mesh.points[static_cast<std::size_t>(mesh.sides[s][k])];
-    };
+    const auto at = [&](std::size_t k) { return mesh.mesh.points[mesh.sides[s][k]]; };
     sum[mesh.side_ids[s]] += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   }
   return sum;
@@ -160,12 +158,12 @@ TEST_CASE("a model that is not the mesh's, and ids on parts of its faces, are re
   CHECK(has(told(two_bodies(2.0), mesh), "the mesh is not one of the model"));
   auto parts = mesh;
   for (std::size_t s = 0; s < parts.sides.size(); ++s)
-    if (parts.mesh.points[static_cast<std::size_t>(parts.sides[s][0])].z > 1)
+    if (parts.mesh.points[parts.sides[s][0]].z > 1)
       parts.side_ids[s] += 50;
   CHECK(has(told(model, parts), "a whole face has one id: adapt without the model"));
   auto materials = mesh;
   for (std::size_t e = 0; e < materials.mesh.elements.size(); ++e)
-    if (materials.mesh.points[static_cast<std::size_t>(materials.mesh.elements[e][0])].z > 1)
+    if (materials.mesh.points[materials.mesh.elements[e][0]].z > 1)
       materials.mesh.tags[e] = 9;
   CHECK(has(told(model, materials), "a whole solid has one material"));
   auto inverted = mesh;

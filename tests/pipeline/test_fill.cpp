@@ -42,7 +42,7 @@ surface joined(const surface& s) {
   std::vector<simplex<2>> known;
   for (simplex<2> t : s.elements) {
     for (local_id& v : t)
-      v = number[static_cast<std::size_t>(v)];
+      v = number[v];
     if (std::find(known.begin(), known.end(), sorted_vertices(t)) != known.end())
       continue;
     known.push_back(sorted_vertices(t));
@@ -77,7 +77,7 @@ void check_filled(const surface& given, const filled_surface& made, double volum
   double sum = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& v = mesh.elements[e];
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(v[k])]; };
+    const auto at = [&](std::size_t k) { return mesh.points[v[k]]; };
     const double part = signed_volume(at(0), at(1), at(2), at(3));
     CHECK_MESSAGE(part > 0, "element ", e);
     sum += part;

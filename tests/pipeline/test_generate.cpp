@@ -129,13 +129,10 @@ TEST_CASE("two materials share the triangles of their common face, and no subdom
   const fine_skeleton& skeleton = result.mesh.skeleton;
   for (std::size_t t = 0; t < skeleton.sides.size(); ++t) {
     const auto [a, b] = skeleton.subdomains[t];
-    if (b == no_id || result.mesh.counts[static_cast<std::size_t>(a)].material ==
-                          result.mesh.counts[static_cast<std::size_t>(b)].material)
+    if (b == no_id || result.mesh.counts[a].material == result.mesh.counts[b].material)
       continue;
     CHECK(skeleton.side_hosts[t] != no_id);
-    const auto at = [&](std::size_t i) {
-      return skeleton.points[static_cast<std::size_t>(skeleton.sides[t][i])];
-    };
+    const auto at = [&](std::size_t i) { return skeleton.points[skeleton.sides[t][i]]; };
     between_materials += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   }
   CHECK(between_materials == doctest::Approx(0.48).epsilon(1e-9));
@@ -197,7 +194,7 @@ TEST_CASE("points lie on the CAD entities that they are said to lie on") {
     if (skeleton.side_hosts[t] == no_id)
       continue;
     for (const local_id v : skeleton.sides[t]) {
-      const vec3 p = skeleton.points[static_cast<std::size_t>(v)];
+      const vec3 p = skeleton.points[v];
       const double from_axis = std::hypot(p.x - 0.8, p.y - 0.7);
       const bool on_box = std::abs(p.x) < tolerance || std::abs(p.x - 2) < tolerance ||
                           std::abs(p.y) < tolerance || std::abs(p.y - 1.5) < tolerance ||

@@ -90,7 +90,7 @@ constexpr double plate_area = 12 - 0.25 * std::numbers::pi;
 double length_along(const generated<2>& result, vec3 from, vec3 to) {
   const auto& skeleton = result.mesh.skeleton;
   const auto is_on = [&](local_id v) {
-    const vec3 p = skeleton.points[static_cast<std::size_t>(v)];
+    const vec3 p = skeleton.points[v];
     return distance(from, p) + distance(p, to) < distance(from, to) + 1e-9;
   };
   std::set<simplex<1>> edges;
@@ -98,8 +98,7 @@ double length_along(const generated<2>& result, vec3 from, vec3 to) {
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (const auto [a, b] = skeleton.sides[e]; skeleton.side_hosts[e] != no_id && is_on(a) && is_on(b))
       if (edges.insert({std::min(a, b), std::max(a, b)}).second)
-        sum += distance(skeleton.points[static_cast<std::size_t>(a)],
-                        skeleton.points[static_cast<std::size_t>(b)]);
+        sum += distance(skeleton.points[a], skeleton.points[b]);
   return sum;
 }
 

@@ -51,8 +51,7 @@ TEST_CASE("a square with a hole and an inner line: area, hole and line are kept"
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (const auto [a, b] = skeleton.sides[e];
         skeleton.side_hosts[e] >= 8) // the square and the hole have eight
-      along_line += distance(skeleton.points[static_cast<std::size_t>(a)],
-                             skeleton.points[static_cast<std::size_t>(b)]);
+      along_line += distance(skeleton.points[a], skeleton.points[b]);
   CHECK(along_line == doctest::Approx(std::hypot(0.2, 0.5) + std::hypot(0.1, 0.1)));
 }
 

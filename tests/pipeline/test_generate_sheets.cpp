@@ -60,7 +60,7 @@ TEST_CASE("a curved sheet of many charts is remeshed, its rim kept, the same by 
   // The area of the triangles given, but for what chords cut off.
   double area = 0;
   for (const auto& [a, b, c] : saddle.triangles) {
-    const auto at = [&](local_id v) { return saddle.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return saddle.points[v]; };
     area += 0.5 * norm(cross(at(b) - at(a), at(c) - at(a)));
   }
   CHECK(area_of(mesh) == doctest::Approx(area).epsilon(0.01));

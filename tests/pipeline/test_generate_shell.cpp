@@ -194,8 +194,7 @@ struct folding_at_a_place {
                         const any_sizing& size) const {
     patch_mesh made = remesh::patch_remesher{}(surface, boundary, size);
     for (const auto& [a, b] : boundary.segments) {
-      const vec3 from = boundary.points[static_cast<std::size_t>(a)],
-                 to = boundary.points[static_cast<std::size_t>(b)];
+      const vec3 from = boundary.points[a], to = boundary.points[b];
       const double length = distance(from, to);
       if (length < 0.1 || length > 0.3 || distance(midpoint(from, to), place) > 0.3)
         continue;

@@ -486,8 +486,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
     account.merge(part, everything.merges);
     apart = made.patches.keys;
     for (const auto& [i, j] : crossing_triangles(fine.points, fine.sides, {}, parallel::serial{}))
-      apart[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1)] =
-          {};
+      apart[std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1] = {};
     sort_unique(apart);
   }
   CHECK(compared > 0);

@@ -112,9 +112,8 @@ TEST_CASE("a sliver on a sharp edge leaves the volume as it is") {
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     auto v = soup.triangles[t];
     const auto has = [&](local_id p) { return std::find(v.begin(), v.end(), p) != v.end(); };
-    if (!has(a) || !has(b) || soup.points[static_cast<std::size_t>(v[0])].z != 0 ||
-        soup.points[static_cast<std::size_t>(v[1])].z != 0 ||
-        soup.points[static_cast<std::size_t>(v[2])].z != 0)
+    if (!has(a) || !has(b) || soup.points[v[0]].z != 0 || soup.points[v[1]].z != 0 ||
+        soup.points[v[2]].z != 0)
       continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const simplex<2> part{v[i], v[(i + 1) % 3], tip};

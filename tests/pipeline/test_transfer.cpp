@@ -37,10 +37,10 @@ simplicial_mesh<3> box_of_tetrahedra(int n, double side, double jitter) {
           std::array<int, 3> at{i, j, k};
           simplex<3> element{id(i, j, k), 0, 0, 0};
           for (std::size_t step = 0; step < 3; ++step) {
-            ++at[static_cast<std::size_t>(path[step])];
+            ++at[path[step]];
             element[step + 1] = id(at[0], at[1], at[2]);
           }
-          const auto p = [&](std::size_t c) { return mesh.points[static_cast<std::size_t>(element[c])]; };
+          const auto p = [&](std::size_t c) { return mesh.points[element[c]]; };
           if (signed_volume(p(0), p(1), p(2), p(3)) < 0)
             std::swap(element[2], element[3]);
           mesh.elements.push_back(element);
@@ -68,7 +68,7 @@ template <int D>
 std::vector<double> measures(const simplicial_mesh<D>& mesh) {
   std::vector<double> result;
   for (const auto& e : mesh.elements) {
-    const auto p = [&](std::size_t c) { return mesh.points[static_cast<std::size_t>(e[c])]; };
+    const auto p = [&](std::size_t c) { return mesh.points[e[c]]; };
     if constexpr (D == 3)
       result.push_back(signed_volume(p(0), p(1), p(2), p(3)));
     else
@@ -197,8 +197,7 @@ TEST_CASE("fields that do not fit a mesh are refused") {
   CHECK_THROWS_AS(transferred_to_points<3>(mesh, std::vector<double>(mesh.points.size()), nowhere),
                   mesh_error);
   auto flat = mesh;
-  flat.points[static_cast<std::size_t>(flat.elements[3][0])] =
-      flat.points[static_cast<std::size_t>(flat.elements[3][1])];
+  flat.points[flat.elements[3][0]] = flat.points[flat.elements[3][1]];
   CHECK_THROWS_WITH_AS(transferred_to_elements<3>(mesh, std::vector<double>(48), flat),
                        doctest::Contains("is flat"), mesh_error);
 }

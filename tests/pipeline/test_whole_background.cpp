@@ -33,7 +33,7 @@ void check_from_mesh_3(const TopoDS_Shape& shape, double h, double volume) {
   for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
       REQUIRE(distance(model.face_point(surface.mesh.tags[t], surface.corner_uv[t][k]),
-                       surface.mesh.points[static_cast<std::size_t>(surface.mesh.elements[t][k])]) < 1e-6);
+                       surface.mesh.points[surface.mesh.elements[t][k]]) < 1e-6);
 
   const auto result = generate_from_background<3>(model, std::move(background), given);
   CHECK(result.failures.empty());

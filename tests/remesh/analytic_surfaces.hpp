@@ -78,8 +78,8 @@ patch_boundary seam_rectangle(const S& s, double width, double low, double high,
   add_line(b, s, {width, low}, {width, high}, m, seam, 1);
   add_line(b, s, {width, high}, {0, high}, n, above, pole_above ? 0 : 1);
   add_line(b, s, {0, high}, {0, low}, m, seam + m, -1);
-  b.labels[static_cast<std::size_t>(n)] = 0;             // the seam starts at the first point
-  b.labels[static_cast<std::size_t>(2 * n + m)] = above; // and ends where the upper side does
+  b.labels[n] = 0;             // the seam starts at the first point
+  b.labels[2 * n + m] = above; // and ends where the upper side does
   close_loop(b);
   return b;
 }
@@ -88,9 +88,7 @@ patch_boundary seam_rectangle(const S& s, double width, double low, double high,
 /// numbers).
 inline std::map<std::array<local_id, 2>, int> edge_counts(const patch_boundary& b, const patch_mesh& mesh) {
   const auto frozen = static_cast<local_id>(b.uv.size());
-  const auto name = [&](local_id v) {
-    return v < frozen ? b.labels[static_cast<std::size_t>(v)] : frozen - v - 1;
-  };
+  const auto name = [&](local_id v) { return v < frozen ? b.labels[v] : frozen - v - 1; };
   std::map<std::array<local_id, 2>, int> counts;
   for (const auto& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) {

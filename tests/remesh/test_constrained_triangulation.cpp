@@ -26,7 +26,7 @@ void add_loop(std::vector<vec2>& all, segment_list& segments, const std::vector<
 double area_of(const std::vector<vec2>& points, const segment_list& segments) {
   double twice = 0;
   for (const auto& [a, b] : segments)
-    twice += cross(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
+    twice += cross(points[a], points[b]);
   return 0.5 * twice;
 }
 
@@ -36,18 +36,16 @@ double checked_area(const std::vector<vec2>& points, const corner_table& table) 
   for (local_id t = 0; t < table.triangle_slots(); ++t) {
     if (!table.alive(t))
       continue;
-    const auto xy = [&](local_id i) {
-      return points[static_cast<std::size_t>(table.vertex[static_cast<std::size_t>(3 * t + i)])];
-    };
+    const auto xy = [&](local_id i) { return points[table.vertex[3 * t + i]]; };
     CHECK(orient2d(xy(0), xy(1), xy(2)) > 0);
     area += 0.5 * cross(xy(1) - xy(0), xy(2) - xy(0));
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
-      const local_id d = table.twin[static_cast<std::size_t>(c)];
+      const local_id d = table.twin[c];
       if (d == no_id) {
-        CHECK(table.constraint[static_cast<std::size_t>(c)] != no_id);
+        CHECK(table.constraint[c] != no_id);
         continue;
       }
-      CHECK(table.twin[static_cast<std::size_t>(d)] == c);
+      CHECK(table.twin[d] == c);
       CHECK(table.tail(d) == table.head(c));
       CHECK(table.head(d) == table.tail(c));
     }
@@ -59,7 +57,7 @@ double checked_area(const std::vector<vec2>& points, const corner_table& table) 
 std::set<std::array<local_id, 2>> sides_of(const corner_table& table) {
   std::set<std::array<local_id, 2>> sides;
   for (local_id c = 0; c < static_cast<local_id>(table.vertex.size()); ++c)
-    if (table.vertex[static_cast<std::size_t>(c)] != no_id)
+    if (table.vertex[c] != no_id)
       sides.insert({std::min(table.tail(c), table.head(c)), std::max(table.tail(c), table.head(c))});
   return sides;
 }
@@ -85,8 +83,7 @@ TEST_CASE("random loops are triangulated exactly or reported") {
     CHECK(checked_area(points, made.table) == doctest::Approx(area_of(points, segments)).epsilon(1e-12));
     const auto sides = sides_of(made.table);
     for (const auto& [a, b] : segments) {
-      const local_id x = made.same_as[static_cast<std::size_t>(a)],
-                     y = made.same_as[static_cast<std::size_t>(b)];
+      const local_id x = made.same_as[a], y = made.same_as[b];
       CHECK(sides.contains({std::min(x, y), std::max(x, y)}));
     }
   }
@@ -107,12 +104,11 @@ TEST_CASE("holes stay empty and every triangle is locally Delaunay") {
   const loop_triangulation made = triangulate_loops(points, segments);
   REQUIRE(made.valid());
   CHECK(checked_area(points, made.table) == doctest::Approx(area_of(points, segments)).epsilon(1e-12));
-  const auto xy = [&](local_id v) { return points[static_cast<std::size_t>(v)]; };
+  const auto xy = [&](local_id v) { return points[v]; };
   const corner_table& t = made.table;
   for (local_id c = 0; c < static_cast<local_id>(t.vertex.size()); ++c)
-    if (t.vertex[static_cast<std::size_t>(c)] != no_id && t.free_side(c))
-      CHECK(in_circle(xy(t.vertex[static_cast<std::size_t>(c)]), xy(t.tail(c)), xy(t.head(c)),
-                      xy(t.vertex[static_cast<std::size_t>(t.twin[static_cast<std::size_t>(c)])])) <= 0);
+    if (t.vertex[c] != no_id && t.free_side(c))
+      CHECK(in_circle(xy(t.vertex[c]), xy(t.tail(c)), xy(t.head(c)), xy(t.vertex[t.twin[c]])) <= 0);
 }
 
 TEST_CASE("crossing, touching and overlapping segments are reported as pairs") {

@@ -292,7 +292,7 @@ TEST_CASE("regions are joined by their labels, along the face") {
   double area = 0;
   for (std::size_t r = 0; r < 2; ++r)
     append_region(made.list.regions[r], made.meshes[r], points, [&](const simplex<2>& t, const auto& uv) {
-      const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(t[k])]; };
+      const auto at = [&](std::size_t k) { return points[t[k]]; };
       const double twice = cross(at(1) - at(0), at(2) - at(0)).z;
       CHECK((r == 0 ? twice > 0 : twice < 0)); // the second is reversed
       area += twice / 2;

@@ -49,7 +49,7 @@ void check_patch(const S& s, const patch_boundary& b, const patch_mesh& mesh, do
     CHECK(distance(s.frame(mesh.inner_uv[i]).point, mesh.inner_points[i]) < 1e-12);
   std::map<std::array<local_id, 2>, int> expected;
   for (const auto& [p, q] : b.segments) {
-    const local_id x = b.labels[static_cast<std::size_t>(p)], y = b.labels[static_cast<std::size_t>(q)];
+    const local_id x = b.labels[p], y = b.labels[q];
     if (x != y)
       ++expected[{std::min(x, y), std::max(x, y)}];
   }
@@ -102,15 +102,15 @@ TEST_CASE("a graded size is followed from a fine to a coarse side") {
   add_line(b, s, {0, 0}, {1, 0}, 24, 0, 1);
   for (int i = 0; i < 24; ++i) { // the points of one side where the size asks for them
     const double x = 0.1 * (std::pow(11, i / 24.0) - 1);
-    b.uv[static_cast<std::size_t>(i)] = {x, 0};
-    b.points[static_cast<std::size_t>(i)] = {x, 0, 0};
+    b.uv[i] = {x, 0};
+    b.points[i] = {x, 0, 0};
   }
   add_line(b, s, {1, 0}, {1, 1}, 9, 100, 1);
   add_line(b, s, {1, 1}, {0, 1}, 24, 200, 1);
   for (int i = 0; i < 24; ++i) {
     const double x = 0.1 * (std::pow(11, (24 - i) / 24.0) - 1);
-    b.uv[static_cast<std::size_t>(33 + i)] = {x, 1};
-    b.points[static_cast<std::size_t>(33 + i)] = {x, 1, 0};
+    b.uv[33 + i] = {x, 1};
+    b.points[33 + i] = {x, 1, 0};
   }
   add_line(b, s, {0, 1}, {0, 0}, 100, 300, 1);
   close_loop(b);
@@ -171,7 +171,7 @@ TEST_CASE("a torus with two seams is closed") {
   const int n = 32, m = 14;
   patch_boundary b = seam_rectangle(s, 2 * pi, 0, 2 * pi, n, m, false, false);
   for (int i = 0; i <= n; ++i) // the upper side is the lower one, passed backwards
-    b.labels[static_cast<std::size_t>(n + m + i)] = (n - i) % n;
+    b.labels[n + m + i] = (n - i) % n;
   const auto mesh = remesh::patch_remesher{}(s, b, uniform(0.18));
   check_patch(s, b, mesh, 49);
   CHECK(area_of(b, mesh) == doctest::Approx(4 * pi * pi * 0.4).epsilon(2e-2));

@@ -33,13 +33,12 @@ std::vector<naive_dihedral> remaining_dihedrals(const dovetail::simplicial_mesh<
       const dihedral w = ridge_table<D>::decode(code);
       const auto e = static_cast<std::size_t>(w.element);
       const auto angles = dihedral_angles(corners(std::span(mesh.points), mesh.elements[e]));
-      parts.push_back({angles[static_cast<std::size_t>(w.ridge)],
-                       adj.sides.of_element[e][static_cast<std::size_t>(w.sides[0])],
-                       adj.sides.of_element[e][static_cast<std::size_t>(w.sides[1])]});
+      parts.push_back(
+          {angles[w.ridge], adj.sides.of_element[e][w.sides[0]], adj.sides.of_element[e][w.sides[1]]});
     }
     if (adj.ridges.closed[f]) { // start behind a remaining side
       std::size_t start = 0;
-      while (start < parts.size() && gone[static_cast<std::size_t>(parts[start].from)])
+      while (start < parts.size() && gone[parts[start].from])
         ++start;
       if (start == parts.size())
         continue;
@@ -47,7 +46,7 @@ std::vector<naive_dihedral> remaining_dihedrals(const dovetail::simplicial_mesh<
     }
     naive_dihedral run = parts[0];
     for (std::size_t k = 1; k < parts.size(); ++k)
-      if (gone[static_cast<std::size_t>(run.to)]) {
+      if (gone[run.to]) {
         run.angle += parts[k].angle;
         run.to = parts[k].to;
       } else {
@@ -76,8 +75,8 @@ naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
   std::iota(super.begin(), super.end(), 0);
   std::vector<bool> refused(adj.sides.size(), false);
   const auto ends = [&](local_id s) {
-    const auto [a, b] = adj.sides.elements[static_cast<std::size_t>(s)];
-    return std::pair(super[static_cast<std::size_t>(a)], super[static_cast<std::size_t>(b)]);
+    const auto [a, b] = adj.sides.elements[s];
+    return std::pair(super[a], super[b]);
   };
   const auto weight = [&](local_id label) {
     double total = 0;
@@ -88,16 +87,14 @@ naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
   const auto contract = [&](local_id s) {
     const auto [a, b] = ends(s);
     if (a != b && weight(a) + weight(b) > bound) {
-      refused[static_cast<std::size_t>(s)] = true;
+      refused[s] = true;
       return;
     }
     for (local_id& label : super)
       if (label == std::max(a, b))
         label = std::min(a, b);
   };
-  const auto internal = [&](local_id s) {
-    return !fixed[static_cast<std::size_t>(s)] && ends(s).first == ends(s).second;
-  };
+  const auto internal = [&](local_id s) { return !fixed[s] && ends(s).first == ends(s).second; };
 
   std::vector<std::pair<double, local_id>> bad;
   for (std::size_t s = 0; s < adj.sides.size(); ++s)
@@ -113,16 +110,13 @@ naive_result<D> naive_simplify(const dovetail::simplicial_mesh<D>& mesh,
       gone[s] = internal(static_cast<local_id>(s));
     naive_dihedral worst{dihedral_threshold, no_id, no_id};
     for (const naive_dihedral& w : remaining_dihedrals(mesh, adj, gone)) {
-      const bool stuck = (fixed[static_cast<std::size_t>(w.from)] && fixed[static_cast<std::size_t>(w.to)]) ||
-                         refused[static_cast<std::size_t>(w.from)] || refused[static_cast<std::size_t>(w.to)];
+      const bool stuck = (fixed[w.from] && fixed[w.to]) || refused[w.from] || refused[w.to];
       if (!stuck && w.angle < worst.angle)
         worst = w;
     }
     if (worst.from == no_id)
       break;
-    const auto key = [&](local_id s) {
-      return std::tuple(fixed[static_cast<std::size_t>(s)], shapes[static_cast<std::size_t>(s)], s);
-    };
+    const auto key = [&](local_id s) { return std::tuple(fixed[s], shapes[s], s); };
     contract(key(worst.from) < key(worst.to) ? worst.from : worst.to);
   }
 

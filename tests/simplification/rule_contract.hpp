@@ -30,7 +30,7 @@ dovetail::side_judgement checked_judgement(const dovetail::simplicial_mesh<D>& m
     CHECK(dovetail::wanted_angles_of<D>(rule).dihedral_deg == judged.wanted_angle_deg);
   for (dovetail::local_id s = 1; s < static_cast<dovetail::local_id>(sides.size()); ++s) {
     const dovetail::dihedral_side a{s - 1, judged.quality[static_cast<std::size_t>(s) - 1], 2};
-    const dovetail::dihedral_side b{s, judged.quality[static_cast<std::size_t>(s)], 3};
+    const dovetail::dihedral_side b{s, judged.quality[s], 3};
     REQUIRE(rule.prefer_removal(a, b) != rule.prefer_removal(b, a));
   }
   for (const double value : {0.0, 0.3, 0.9})
@@ -58,8 +58,8 @@ void check_wishes(const dovetail::simplicial_mesh<D>& mesh, const dovetail::side
   for (const naive_dihedral& w : remaining_dihedrals(mesh, adj, gone)) {
     if (!(w.angle < judged.wanted_angle_deg))
       continue;
-    const auto from = result.side_states[static_cast<std::size_t>(w.from)];
-    const auto to = result.side_states[static_cast<std::size_t>(w.to)];
+    const auto from = result.side_states[w.from];
+    const auto to = result.side_states[w.to];
     const bool both_fixed = from == side_state::fixed && to == side_state::fixed;
     REQUIRE((both_fixed || from == side_state::refused || to == side_state::refused));
     forced += both_fixed ? 1 : 0;
@@ -76,13 +76,11 @@ void check_contraction(const dovetail::simplicial_mesh<D>& mesh, const dovetail:
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = sides.elements[s];
     const bool inside = sides.is_interior(static_cast<local_id>(s));
-    const bool changes = inside && !mesh.tags.empty() &&
-                         mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)];
+    const bool changes = inside && !mesh.tags.empty() && mesh.tags[a] != mesh.tags[b];
     fixed[s] = changes ? 1 : 0;
     REQUIRE((result.side_states[s] == side_state::fixed) == (!inside || changes));
     if (inside && !changes) {
-      const bool one = result.super_of_element[static_cast<std::size_t>(a)] ==
-                       result.super_of_element[static_cast<std::size_t>(b)];
+      const bool one = result.super_of_element[a] == result.super_of_element[b];
       REQUIRE(one == (result.side_states[s] == side_state::removed));
     }
   }

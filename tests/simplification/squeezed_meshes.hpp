@@ -37,7 +37,7 @@ void give_two_tags(dovetail::simplicial_mesh<D>& mesh) {
   for (const auto& element : mesh.elements) {
     double x = 0;
     for (const dovetail::local_id v : element)
-      x += mesh.points[static_cast<std::size_t>(v)].x / (D + 1);
+      x += mesh.points[v].x / (D + 1);
     mesh.tags.push_back(x < 0.5 ? 7 : 3);
   }
 }

@@ -33,10 +33,8 @@ struct sectors {
     const auto n = static_cast<local_id>(angle.size());
     return {(spoke + n - 1) % n, spoke};
   }
-  bool is_fixed(local_id spoke) const { return fixed_spoke[static_cast<std::size_t>(spoke)] != 0; }
-  double side_weight(local_id spoke) const {
-    return spoke_weight.empty() ? 1.0 : spoke_weight[static_cast<std::size_t>(spoke)];
-  }
+  bool is_fixed(local_id spoke) const { return fixed_spoke[spoke] != 0; }
+  double side_weight(local_id spoke) const { return spoke_weight.empty() ? 1.0 : spoke_weight[spoke]; }
   const std::vector<double>& angles() const { return angle; }
   std::array<local_id, 2> sides(dihedral_id k) const {
     return {static_cast<local_id>(k), static_cast<local_id>((k + 1) % angle.size())};
@@ -207,7 +205,7 @@ TEST_CASE("the joints of a mesh's side-dual graph are its dihedrals around ridge
   local_id inner = 0;
   while (!sides.is_interior(inner))
     ++inner;
-  const auto edge = sides.vertices[static_cast<std::size_t>(inner)];
+  const auto edge = sides.vertices[inner];
   squares.elements.push_back({edge[0], edge[1], static_cast<local_id>(squares.points.size())});
   squares.points.push_back({0.5, 0.5, 1});
   check_joints(squares); // three triangles at an edge: no edge of the graphs

@@ -165,8 +165,7 @@ TEST_CASE("along a flow, what crosses it goes") {
   CHECK(result.summary.get("removed_sides") > 50);
   CHECK(result.summary.get("kept_sides") > 50);
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    const vec3 along = mesh.points[static_cast<std::size_t>(sides.vertices[s][1])] -
-                       mesh.points[static_cast<std::size_t>(sides.vertices[s][0])];
+    const vec3 along = mesh.points[sides.vertices[s][1]] - mesh.points[sides.vertices[s][0]];
     const bool crosses = std::abs(along.y) < 0.5 * norm(along); // more than 60 degrees from the y axis
     if (result.side_states[s] != side_state::fixed && crosses)
       CHECK(result.side_states[s] == side_state::removed);

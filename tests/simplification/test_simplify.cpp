@@ -22,9 +22,8 @@ std::vector<bool> fixed_sides(const simplicial_mesh<D>& mesh, const side_table<D
   std::vector<bool> fixed(sides.size());
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const auto [a, b] = sides.elements[s];
-    fixed[s] = !sides.is_interior(static_cast<local_id>(s)) ||
-               (!mesh.tags.empty() &&
-                mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)]);
+    fixed[s] =
+        !sides.is_interior(static_cast<local_id>(s)) || (!mesh.tags.empty() && mesh.tags[a] != mesh.tags[b]);
   }
   return fixed;
 }
@@ -76,8 +75,7 @@ void simplify_and_partition(const simplicial_mesh<D>& mesh) {
   for (std::size_t s = 0; s < duals.sides().size(); ++s)
     if (simplified.side_states[s] == side_state::removed) {
       const auto [a, b] = duals.sides().elements[s];
-      CHECK(pieces.part_of_element[static_cast<std::size_t>(a)] ==
-            pieces.part_of_element[static_cast<std::size_t>(b)]);
+      CHECK(pieces.part_of_element[a] == pieces.part_of_element[b]);
     }
   // Its element-dual graph is a graph like any other.
   const auto part = partition::greedy{}(duals.elements(), 4);
@@ -143,7 +141,7 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
   REQUIRE(result.refused.size() > 0);
   std::vector<double> node_weights(static_cast<std::size_t>(result.super_count), 0.0);
   for (std::size_t e = 0; e < weights.size(); ++e)
-    node_weights[static_cast<std::size_t>(result.super_of_element[e])] += weights[e];
+    node_weights[result.super_of_element[e]] += weights[e];
   CHECK(result.graph.node_weights == node_weights);
   const double bound = result.summary.get("weight_bound");
   for (const double w : node_weights)
@@ -156,8 +154,8 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
   for (std::size_t s = 0; s < sides.size(); ++s) {
     if (!sides.is_interior(static_cast<local_id>(s)))
       continue;
-    local_id a = result.super_of_element[static_cast<std::size_t>(sides.elements[s][0])];
-    local_id b = result.super_of_element[static_cast<std::size_t>(sides.elements[s][1])];
+    local_id a = result.super_of_element[sides.elements[s][0]];
+    local_id b = result.super_of_element[sides.elements[s][1]];
     if (a == b)
       continue;
     double weight = 1;
@@ -173,7 +171,7 @@ TEST_CASE("weights of the contracted graph: merged elements and merged sides, re
   for (local_id v = 0; v < result.graph.node_count(); ++v) {
     const auto row = result.graph.row(v);
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const auto slot = static_cast<std::size_t>(result.graph.offsets[static_cast<std::size_t>(v)]) + k;
+      const auto slot = static_cast<std::size_t>(result.graph.offsets[v]) + k;
       CHECK(result.graph.edge_weights[slot] ==
             doctest::Approx(expected.at({std::min(v, row[k]), std::max(v, row[k])})));
       ++edges;

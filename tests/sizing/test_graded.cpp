@@ -169,8 +169,7 @@ TEST_CASE("a background field interpolates linearly and extends by the nearest p
     const double sum = w[0] + w[1] + w[2] + w[3];
     vec3 p{};
     for (std::size_t k = 0; k < 4; ++k)
-      p += (w[k] / sum) *
-           mesh.points[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(i % 2)][k])];
+      p += (w[k] / sum) * mesh.points[mesh.elements[i % 2][k]];
     CHECK(h(p) == doctest::Approx(linear(p)).epsilon(1e-12));
     const vec3 a = random_point(random, -1, 3);
     const box3 box{a, a + vec3{0.4, 0.4, 0.4}};

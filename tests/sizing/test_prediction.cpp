@@ -31,7 +31,7 @@ simplicial_mesh<3> box_mesh(vec3 lower, vec3 upper, int n) {
           simplex<3> tet;
           tet[0] = id(at[0], at[1], at[2]);
           for (std::size_t s = 0; s < 3; ++s) {
-            ++at[static_cast<std::size_t>(axes[s])];
+            ++at[axes[s]];
             tet[s + 1] = id(at[0], at[1], at[2]);
           }
           mesh.elements.push_back(tet);

@@ -27,7 +27,7 @@ inline background_mesh cube(int n) {
           std::array<int, 3> at{i, j, k};
           simplex<3> element{id(i, j, k), 0, 0, 0};
           for (std::size_t step = 0; step < 3; ++step) {
-            ++at[static_cast<std::size_t>(axis_orders[order][step])];
+            ++at[axis_orders[order][step]];
             element[step + 1] = id(at[0], at[1], at[2]);
           }
           if (order >= 3) // odd permutations of the axes are mirrored
@@ -42,9 +42,7 @@ inline background_mesh cube(int n) {
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (sides.is_boundary(static_cast<local_id>(s))) {
       const auto& t = sides.vertices[s];
-      const auto at = [&](std::size_t corner) {
-        return surface.mesh.points[static_cast<std::size_t>(t[corner])];
-      };
+      const auto at = [&](std::size_t corner) { return surface.mesh.points[t[corner]]; };
       local_id face = 0;
       for (int axis = 0; axis < 3; ++axis)
         for (const double wall : {0.0, 1.0})
@@ -57,7 +55,7 @@ inline background_mesh cube(int n) {
   const auto edges = build_sides(surface.mesh);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges.elements[e];
-    if (surface.mesh.tags[static_cast<std::size_t>(a)] != surface.mesh.tags[static_cast<std::size_t>(b)])
+    if (surface.mesh.tags[a] != surface.mesh.tags[b])
       surface.curve_edges.push_back({edges.vertices[e], 0, {0, 1}});
   }
   return mesh;

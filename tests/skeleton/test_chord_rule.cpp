@@ -35,7 +35,7 @@ struct cut_cube {
   double height(const simplex<2>& triangle) const {
     double sum = 0;
     for (const local_id v : triangle)
-      sum += mesh.volume.points[static_cast<std::size_t>(v)].z / 3;
+      sum += mesh.volume.points[v].z / 3;
     return sum;
   }
   local_id region_on(local_id face) const {

@@ -15,7 +15,7 @@ std::vector<local_id> split_by_x(const background_mesh& mesh, double x) {
   for (const auto& element : mesh.volume.elements) {
     double mean = 0;
     for (const local_id v : element)
-      mean += mesh.volume.points[static_cast<std::size_t>(v)].x / 4;
+      mean += mesh.volume.points[v].x / 4;
     part.push_back(mean < x ? 0 : 1);
   }
   return part;
@@ -31,14 +31,11 @@ TEST_CASE("two halves of a cube share the faces of the cut, once, oriented outwa
   for (const skeleton_face& face : skeleton.faces) {
     CHECK(face.subdomains == std::array<local_id, 2>{0, 1});
     CHECK(face.vertices[0] == *std::min_element(face.vertices.begin(), face.vertices.end()));
-    const auto at = [&](std::size_t i) {
-      return mesh.volume.points[static_cast<std::size_t>(face.vertices[i])];
-    };
+    const auto at = [&](std::size_t i) { return mesh.volume.points[face.vertices[i]]; };
     const vec3 normal = cross(at(1) - at(0), at(2) - at(0));
     CHECK(at(0).x == 0.5);
     CHECK(normal.x > 0); // subdomain 0 is at smaller x
-    CHECK(sorted_vertices(sides.vertices[static_cast<std::size_t>(face.side)]) ==
-          sorted_vertices(face.vertices));
+    CHECK(sorted_vertices(sides.vertices[face.side]) == sorted_vertices(face.vertices));
     std::size_t on_walls = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const vec3 middle = midpoint(at(i), at((i + 1) % 3));
@@ -69,7 +66,7 @@ TEST_CASE("every edge of an interface face and every curve edge is a line with t
   const auto skeleton = extract_skeleton(mesh, build_sides(mesh.volume), split_by_x(mesh, 0.5));
   std::array<int, 4> of_dimension{};
   for (const skeleton_line& line : skeleton.lines)
-    ++of_dimension[static_cast<std::size_t>(line.on.dimension)];
+    ++of_dimension[line.on.dimension];
   CHECK(of_dimension[1] == 12 * 4);              // the cube's edges
   CHECK(of_dimension[2] == 4 * 4);               // the outline of the cut on four faces
   CHECK(of_dimension[3] == 3 * 16 + 2 * 4 - 16); // the cut's edges but its outline
@@ -89,7 +86,7 @@ TEST_CASE("a subdomain that touches the surface in a point only keeps that point
     const auto& element = mesh.volume.elements[e];
     int at_wall = 0;
     for (const local_id v : element)
-      at_wall += mesh.volume.points[static_cast<std::size_t>(v)].z == 0;
+      at_wall += mesh.volume.points[v].z == 0;
     if (at_wall == 1 && std::find(element.begin(), element.end(), on_wall) != element.end())
       part[e] = 1;
   }

@@ -68,7 +68,7 @@ TEST_CASE("Patches fit together, and what lies inside has the solid of the subdo
   bool in_order = true;
   for (std::size_t s = 0; s < alone.sides.size(); ++s) {
     const auto [a, b, c] = alone.sides[s];
-    const auto at = [&](local_id v) { return alone.points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return alone.points[v]; };
     area += 0.5 * norm(cross(at(b) - at(a), at(c) - at(a)));
     longest = std::max({longest, distance(at(a), at(b)), distance(at(b), at(c)), distance(at(c), at(a))});
     const bool in_third = (at(a).x + at(b).x + at(c).x) / 3 > 1;

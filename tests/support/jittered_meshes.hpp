@@ -61,7 +61,7 @@ inline dovetail::simplicial_mesh<3> jittered_cubes(int n, double jitter = 0.15, 
           std::array<int, 3> corner{i, j, k};
           dovetail::simplex<3> tet{id(i, j, k), 0, 0, 0};
           for (std::size_t step = 0; step < 3; ++step) {
-            ++corner[static_cast<std::size_t>(orders[t][step])];
+            ++corner[orders[t][step]];
             tet[step + 1] = id(corner[0], corner[1], corner[2]);
           }
           if (t >= 3) // odd orders are left-handed
@@ -119,11 +119,11 @@ dovetail::simplicial_mesh<D> shuffled(const dovetail::simplicial_mesh<D>& mesh, 
   const auto new_element = permutation(mesh.elements.size());
   dovetail::simplicial_mesh<D> result = mesh;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    result.points[static_cast<std::size_t>(new_point[v])] = mesh.points[v];
+    result.points[new_point[v]] = mesh.points[v];
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto to = static_cast<std::size_t>(new_element[e]);
     for (std::size_t k = 0; k < mesh.elements[e].size(); ++k)
-      result.elements[to][k] = new_point[static_cast<std::size_t>(mesh.elements[e][k])];
+      result.elements[to][k] = new_point[mesh.elements[e][k]];
     if (!mesh.tags.empty())
       result.tags[to] = mesh.tags[e];
   }

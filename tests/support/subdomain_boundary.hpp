@@ -29,7 +29,7 @@ template <int D>
 subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                                                std::span<const local_id> part_of_element) {
   subdomain_boundary_sides<D> found;
-  const auto part = [&](local_id e) { return part_of_element[static_cast<std::size_t>(e)]; };
+  const auto part = [&](local_id e) { return part_of_element[e]; };
   const auto add = [&](const simplex<D - 1>& vertices, std::array<local_id, 2> both, local_id side,
                        bool fixed) {
     found.sides.push_back(vertices);
@@ -42,12 +42,12 @@ subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, c
     const auto [first, second] = sides.elements[s];
     if (!sides.is_interior(side)) {
       for (const local_id e : sides.all_elements(side)) {
-        const auto& of_element = sides.of_element[static_cast<std::size_t>(e)];
+        const auto& of_element = sides.of_element[e];
         std::size_t local = 0;
         while (of_element[local] != side)
           ++local;
-        add(dovetail::detail::pick(mesh.elements[static_cast<std::size_t>(e)], numbering::sides<D>[local]),
-            {part(e), no_id}, side, true);
+        add(dovetail::detail::pick(mesh.elements[e], numbering::sides<D>[local]), {part(e), no_id}, side,
+            true);
       }
       continue;
     }
@@ -57,8 +57,7 @@ subdomain_boundary_sides<D> subdomain_boundary(const simplicial_mesh<D>& mesh, c
     const bool swap = part(second) < part(first);
     if (swap)
       std::swap(vertices[0], vertices[1]);
-    const bool material = !mesh.tags.empty() && mesh.tags[static_cast<std::size_t>(first)] !=
-                                                    mesh.tags[static_cast<std::size_t>(second)];
+    const bool material = !mesh.tags.empty() && mesh.tags[first] != mesh.tags[second];
     add(vertices, swap ? std::array{part(second), part(first)} : std::array{part(first), part(second)}, side,
         material);
   }

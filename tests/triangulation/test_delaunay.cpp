@@ -197,9 +197,8 @@ TEST_CASE("the same points give the same triangulation; elements list neighbours
   for (std::size_t e = 0; e < first.elements.size(); ++e)
     for (const local_id n : first.neighbours[e]) {
       hull += n == no_id;
-      faults +=
-          n != no_id && std::count(first.neighbours[detail::at(n)].begin(),
-                                   first.neighbours[detail::at(n)].end(), static_cast<local_id>(e)) != 1;
+      faults += n != no_id && std::count(first.neighbours[n].begin(), first.neighbours[n].end(),
+                                         static_cast<local_id>(e)) != 1;
     }
   CHECK(faults == 0);
   CHECK(hull == check_structure(triangulate_points<3>(points).triangulation));

@@ -57,8 +57,8 @@ std::size_t check_structure(const triangulation<D>& t) {
       // The neighbour with its own corner in place of this one's: the same vertices, in the other
       // orientation.
       auto mine = cell.vertices, theirs = t[n].vertices;
-      mine[detail::at(i)] = -5;
-      theirs[detail::at(mesh::place_of(other))] = -5;
+      mine[i] = -5;
+      theirs[mesh::place_of(other)] = -5;
       int exchanges = 0;
       for (std::size_t k = 0; k < mine.size(); ++k) {
         const auto found = std::find(theirs.begin() + static_cast<std::ptrdiff_t>(k), theirs.end(), mine[k]);
@@ -88,7 +88,7 @@ void check_locally_delaunay(const triangulation<D>& t) {
     for (local_id i = 0; i <= D; ++i) {
       const local_id other = t.across(mesh::side_of(e, i));
       const local_id n = mesh::element_of(other);
-      const local_id apex = t[n].vertices[detail::at(mesh::place_of(other))];
+      const local_id apex = t[n].vertices[mesh::place_of(other)];
       if (apex == mesh::infinite)
         continue;
       if (!t.is_ghost(e)) {
@@ -123,7 +123,7 @@ void check_vertices(const point_triangulation_result<D>& made) {
     if (t.is_alive(e))
       for (const local_id v : t[e].vertices)
         if (v >= 0)
-          used[detail::at(v)] = 1;
+          used[v] = 1;
   std::size_t faults = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
     const auto same = detail::at(made.same_as[v]);

@@ -82,16 +82,14 @@ public:
       vertices_.resize(num_vertices(viewed));
       const auto number = get(boost::vertex_index, viewed);
       for (auto [v, end] = vertices(viewed); v != end; ++v)
-        vertices_[static_cast<std::size_t>(get(number, *v))] = *v;
+        vertices_[get(number, *v)] = *v;
     }
   }
   template <class... Given>
   explicit boost_view(const BoostGraph&&, const Given&...) = delete; // it would be gone
 
   std::size_t node_count() const { return num_vertices(*graph_); }
-  double node_weight(local_id node) const {
-    return node_weights_.empty() ? 1.0 : node_weights_[static_cast<std::size_t>(node)];
-  }
+  double node_weight(local_id node) const { return node_weights_.empty() ? 1.0 : node_weights_[node]; }
   template <class Visit>
   void for_each_neighbour(local_id node, const Visit& visit) const {
     visit_edges(node, [&](local_id other, const auto&) { visit(other); });
@@ -111,7 +109,7 @@ private:
     if constexpr (is_numbered)
       return static_cast<vertex>(node);
     else
-      return vertices_[static_cast<std::size_t>(node)];
+      return vertices_[node];
   }
   template <class Visit>
   void visit_edges(local_id node, const Visit& visit) const {

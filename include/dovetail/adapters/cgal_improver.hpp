@@ -76,7 +76,7 @@ inline simplicial_mesh<3> remesh_with_cgal(const cgal& parameters, const library
       continue;
     simplex<3> element;
     for (int k = 0; k < 4; ++k)
-      element[static_cast<std::size_t>(k)] = number.at(cell->vertex(k));
+      element[k] = number.at(cell->vertex(k));
     made.elements.push_back(element);
   }
   return made;

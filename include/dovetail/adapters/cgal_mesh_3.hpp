@@ -151,7 +151,7 @@ inline simplicial_mesh<3> from_mesh_3(const mesh_3_types::complex& made) {
       const auto [at, is_new] = number.try_emplace(vertex, static_cast<local_id>(mesh.points.size()));
       if (is_new)
         mesh.points.push_back({vertex->point().x(), vertex->point().y(), vertex->point().z()});
-      element[static_cast<std::size_t>(k)] = at->second;
+      element[k] = at->second;
     }
     mesh.elements.push_back(element);
   }

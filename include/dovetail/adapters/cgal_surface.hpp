@@ -78,7 +78,7 @@ private:
       hint = at[v]->face();
     }
     for (const auto& [a, b] : boundary_.segments) {
-      const vertex from = at[static_cast<std::size_t>(a)], to = at[static_cast<std::size_t>(b)];
+      const vertex from = at[a], to = at[b];
       mesh_.insert_constraint(from, to);
       starts_.emplace_back(from, to);
     }

@@ -23,7 +23,7 @@ DOVETAIL_INLINE simplicial_mesh<3> with_given_points_first(const std::vector<vec
   const auto less = [](vec3 a, vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::vector<local_id> sorted(given.size());
   std::iota(sorted.begin(), sorted.end(), local_id{0});
-  const auto at = [&](local_id v) { return given[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return given[v]; };
   std::sort(sorted.begin(), sorted.end(), [&](local_id a, local_id b) { return less(at(a), at(b)); });
   for (std::size_t k = 1; k < sorted.size(); ++k)
     if (at(sorted[k - 1]) == at(sorted[k]))
@@ -45,7 +45,7 @@ DOVETAIL_INLINE simplicial_mesh<3> with_given_points_first(const std::vector<vec
   }
   for (auto& element : mesh.elements)
     for (local_id& v : element)
-      v = number[static_cast<std::size_t>(v)];
+      v = number[v];
   return mesh;
 }
 

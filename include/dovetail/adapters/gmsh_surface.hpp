@@ -38,7 +38,7 @@ struct sorted_segments {
     std::map<local_id, std::vector<local_id>> ends; // by start
     std::vector<segment> all;
     for (const auto& [a, b] : segments)
-      all.push_back({same_as[static_cast<std::size_t>(a)], same_as[static_cast<std::size_t>(b)]});
+      all.push_back({same_as[a], same_as[b]});
     std::sort(all.begin(), all.end());
     for (const auto& [a, b] : all)
       if (!std::binary_search(all.begin(), all.end(), segment{b, a}))
@@ -51,7 +51,7 @@ struct sorted_segments {
     const auto area = [&](const std::vector<segment>& loop) {
       double sum = 0;
       for (const auto& [a, b] : loop)
-        sum += cross(xy[static_cast<std::size_t>(a)], xy[static_cast<std::size_t>(b)]);
+        sum += cross(xy[a], xy[b]);
       return std::abs(sum);
     };
     std::stable_sort(loops.begin(), loops.end(),
@@ -192,7 +192,7 @@ private:
 
   /// Counter-clockwise, and left out when two corners are the same point of a pole.
   void add_triangle(simplex<2> t, const std::vector<vec2>& xy, patch_mesh& mesh) const {
-    const auto at = [&](std::size_t k) { return xy[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return xy[t[k]]; };
     if (orient2d(at(0), at(1), at(2)) < 0)
       std::swap(t[1], t[2]);
     if (!(orient2d(at(0), at(1), at(2)) > 0))

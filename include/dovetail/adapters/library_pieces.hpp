@@ -50,11 +50,10 @@ public:
   simplicial_mesh<3> result();
 
 private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
   local_id tag(std::size_t e) const { return mesh_.tags.empty() ? 0 : mesh_.tags[e]; }
   void fix(const simplex<2>& side) {
     for (const local_id v : side)
-      is_fixed_[at(v)] = true;
+      is_fixed_[v] = true;
   }
 
   const simplicial_mesh<3>& mesh_;

@@ -50,7 +50,7 @@ inline void require_tetrahedra(const simplicial_mesh<3>& mesh, const side_table<
 /// is missing.
 inline bool restore_fixed_points(const library_piece& piece, simplicial_mesh<3>& made) {
   const auto less = [](vec3 a, vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-  const auto fixed_point = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
+  const auto fixed_point = [&](local_id v) { return piece.mesh.points[v]; };
   std::vector<local_id> sorted(piece.fixed_points);
   for (std::size_t v = 0; v < sorted.size(); ++v)
     sorted[v] = static_cast<local_id>(v);
@@ -59,7 +59,7 @@ inline bool restore_fixed_points(const library_piece& piece, simplicial_mesh<3>&
   std::vector<bool> is_used(made.points.size(), false);
   for (const auto& element : made.elements)
     for (const local_id v : element)
-      is_used[static_cast<std::size_t>(v)] = true;
+      is_used[v] = true;
   std::vector<vec3> points(piece.mesh.points.begin(),
                            piece.mesh.points.begin() + static_cast<std::ptrdiff_t>(piece.fixed_points));
   std::vector<local_id> number(made.points.size(), no_id);
@@ -82,7 +82,7 @@ inline bool restore_fixed_points(const library_piece& piece, simplicial_mesh<3>&
   made.points = std::move(points);
   for (auto& element : made.elements)
     for (local_id& v : element)
-      v = number[static_cast<std::size_t>(v)];
+      v = number[v];
   return true;
 }
 
@@ -122,8 +122,7 @@ DOVETAIL_INLINE double mean_edge_length(const simplicial_mesh<3>& mesh) {
   double sum = 0;
   for (const auto& element : mesh.elements)
     for (const auto& edge : numbering::ridges<3>)
-      sum += distance(mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[0])])],
-                      mesh.points[static_cast<std::size_t>(element[static_cast<std::size_t>(edge[1])])]);
+      sum += distance(mesh.points[element[edge[0]]], mesh.points[element[edge[1]]]);
   return mesh.elements.empty() ? 0 : sum / (6 * static_cast<double>(mesh.elements.size()));
 }
 
@@ -133,9 +132,9 @@ DOVETAIL_INLINE piece_cutter::piece_cutter(const simplicial_mesh<3>& mesh, const
   require_tetrahedra(mesh, sides, frozen);
   for (const auto& element : mesh.elements)
     for (const local_id v : element)
-      is_fixed_[at(v)] = v < frozen.points;
+      is_fixed_[v] = v < frozen.points;
   for (std::size_t s = 0; s < sides.size(); ++s)
-    if (const auto [e, f] = sides.elements[s]; f == no_id || tag(at(e)) != tag(at(f)))
+    if (const auto [e, f] = sides.elements[s]; f == no_id || tag(e) != tag(f))
       fix(sides.vertices[s]);
   for (const auto& side : frozen.sides)
     fix(side);
@@ -147,37 +146,36 @@ DOVETAIL_INLINE library_piece piece_cutter::cut(const std::vector<local_id>& ele
   library_piece piece;
   std::vector<local_id> used;
   for (const local_id e : elements)
-    for (const local_id v : mesh_.elements[at(e)])
-      if (new_id_[at(v)] == no_id) {
-        new_id_[at(v)] = 0;
+    for (const local_id v : mesh_.elements[e])
+      if (new_id_[v] == no_id) {
+        new_id_[v] = 0;
         used.push_back(v);
       }
-  std::sort(used.begin(), used.end(), [this](local_id a, local_id b) {
-    return is_fixed_[at(a)] != is_fixed_[at(b)] ? is_fixed_[at(a)] : a < b;
-  });
+  std::sort(used.begin(), used.end(),
+            [this](local_id a, local_id b) { return is_fixed_[a] != is_fixed_[b] ? is_fixed_[a] : a < b; });
   for (std::size_t k = 0; k < used.size(); ++k) {
-    new_id_[at(used[k])] = static_cast<local_id>(k);
-    piece.mesh.points.push_back(mesh_.points[at(used[k])]);
-    if (is_fixed_[at(used[k])])
+    new_id_[used[k]] = static_cast<local_id>(k);
+    piece.mesh.points.push_back(mesh_.points[used[k]]);
+    if (is_fixed_[used[k]])
       piece.point_in_whole.push_back(used[k]);
   }
   piece.fixed_points = piece.point_in_whole.size();
   for (const local_id e : elements) {
-    simplex<3> element = mesh_.elements[at(e)];
+    simplex<3> element = mesh_.elements[e];
     for (local_id& v : element)
-      v = new_id_[at(v)];
+      v = new_id_[v];
     piece.mesh.elements.push_back(element);
   }
   frozen_sides_.clear();
   for (simplex<2> side : frozen_.sides) {
     for (local_id& v : side)
-      v = new_id_[at(v)];
+      v = new_id_[v];
     side = sorted_vertices(side);
     if (side[0] != no_id)
       frozen_sides_.push_back(side);
   }
   for (const local_id v : used)
-    new_id_[at(v)] = no_id;
+    new_id_[v] = no_id;
   const side_table<3> sides = build_sides(piece.mesh);
   for (std::size_t s = 0; s < sides.size(); ++s)
     if (sides.is_boundary(static_cast<local_id>(s)))
@@ -194,8 +192,9 @@ DOVETAIL_INLINE void piece_cutter::add(local_id tag, const library_piece& piece,
   for (simplex<3> element : made.elements) {
     // Free points are negative until they get numbers: -1 - index.
     for (local_id& v : element)
-      v = at(v) < piece.fixed_points ? piece.point_in_whole[at(v)]
-                                     : -1 - (first + v - static_cast<local_id>(piece.fixed_points));
+      v = static_cast<std::size_t>(v) < piece.fixed_points
+              ? piece.point_in_whole[v]
+              : -1 - (first + v - static_cast<local_id>(piece.fixed_points));
     elements_.push_back(element);
     tags_.push_back(tag);
   }
@@ -206,11 +205,11 @@ DOVETAIL_INLINE simplicial_mesh<3> piece_cutter::result() {
   simplicial_mesh<3> whole{mesh_.points, std::move(elements_), {}};
   whole.points.resize(numbers.size);
   for (std::size_t k = 0; k < free_points_.size(); ++k)
-    whole.points[at(numbers.of_free[k])] = free_points_[k];
+    whole.points[numbers.of_free[k]] = free_points_[k];
   for (auto& element : whole.elements)
     for (local_id& v : element)
       if (v < 0)
-        v = numbers.of_free[at(-1 - v)];
+        v = numbers.of_free[-1 - v];
   fill_gaps(numbers, whole);
   if (!mesh_.tags.empty())
     whole.tags = std::move(tags_);

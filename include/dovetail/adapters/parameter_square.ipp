@@ -30,8 +30,7 @@ DOVETAIL_INLINE parameter_square::parameter_square(const any_surface& surface,
     xy.push_back({uv.x * scale.x - lower.x, uv.y * scale.y - lower.y});
   join_touching_vertices(boundary, xy);
   for (const auto& [a, b] : boundary.segments)
-    if (const local_id label = boundary.labels[static_cast<std::size_t>(a)];
-        label == boundary.labels[static_cast<std::size_t>(b)])
+    if (const local_id label = boundary.labels[a]; label == boundary.labels[b])
       poles_.push_back(label);
   sort_unique(poles_);
 }
@@ -39,9 +38,8 @@ DOVETAIL_INLINE parameter_square::parameter_square(const any_surface& surface,
 DOVETAIL_INLINE bool parameter_square::vanishes(const simplex<2>& t, const patch_boundary& boundary) const {
   const auto pole = [&](local_id v) {
     return v < static_cast<local_id>(boundary.labels.size()) &&
-                   std::binary_search(poles_.begin(), poles_.end(),
-                                      boundary.labels[static_cast<std::size_t>(v)])
-               ? boundary.labels[static_cast<std::size_t>(v)]
+                   std::binary_search(poles_.begin(), poles_.end(), boundary.labels[v])
+               ? boundary.labels[v]
                : no_id;
   };
   const std::array<local_id, 3> at{pole(t[0]), pole(t[1]), pole(t[2])};

@@ -37,14 +37,13 @@ public:
     const double total = std::accumulate(graph.node_weights.begin(), graph.node_weights.end(), 0.0);
     const double least = total > 0 ? 1e-3 * total / static_cast<double>(n) : 1.0;
     for (Eigen::Index v = 0; v < n; ++v)
-      scale_[v] = 1 / std::sqrt(std::max(least, graph.node_weights[static_cast<std::size_t>(v)]));
+      scale_[v] = 1 / std::sqrt(std::max(least, graph.node_weights[v]));
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
     for (Eigen::Index v = 0; v < n; ++v)
-      for (std::int64_t k = graph.offsets[static_cast<std::size_t>(v)];
-           k < graph.offsets[static_cast<std::size_t>(v) + 1]; ++k) {
-        const Eigen::Index w = graph.neighbours[static_cast<std::size_t>(k)];
-        const double weight = graph.edge_weights[static_cast<std::size_t>(k)] * scale_[v];
+      for (std::int64_t k = graph.offsets[v]; k < graph.offsets[static_cast<std::size_t>(v) + 1]; ++k) {
+        const Eigen::Index w = graph.neighbours[k];
+        const double weight = graph.edge_weights[k] * scale_[v];
         diagonal[v] += weight * scale_[v];
         entries.emplace_back(v, w, -weight * scale_[w]);
       }
@@ -148,7 +147,7 @@ private:
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     const double width = std::max(*most - *least, 1e-300);
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      keys[static_cast<std::size_t>(nodes[k])] += 0.9 * ((values[k] - *least) / width - 0.5);
+      keys[nodes[k]] += 0.9 * ((values[k] - *least) / width - 0.5);
   }
 };
 

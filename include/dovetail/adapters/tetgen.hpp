@@ -127,7 +127,7 @@ public:
     const boundary_sides sides(boundary.elements); // lists a two-sided triangle once
     for (std::size_t t = 0; t < boundary.elements.size(); ++t) {
       const auto match = sides.find(boundary.elements[t]);
-      const auto& listed = sides.entries()[static_cast<std::size_t>(match.entry)].listed;
+      const auto& listed = sides.entries()[match.entry].listed;
       if (listed[0] == no_id || listed[1] == no_id ||
           std::min(listed[0], listed[1]) == static_cast<local_id>(t))
         corners_.insert(corners_.end(), boundary.elements[t].begin(), boundary.elements[t].end());

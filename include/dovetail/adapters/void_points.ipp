@@ -39,11 +39,11 @@ DOVETAIL_INLINE std::vector<vec3> points_in_voids(const simplicial_mesh<2>& boun
   const boundary_sides sides(boundary.elements);
   std::vector<simplex<2>> to_outside;
   for (const auto& triangle : boundary.elements) {
-    const auto& listed = sides.entries()[static_cast<std::size_t>(sides.find(triangle).entry)].listed;
+    const auto& listed = sides.entries()[sides.find(triangle).entry].listed;
     if (listed[0] == no_id || listed[1] == no_id)
       to_outside.push_back(triangle);
   }
-  const auto at = [&](local_id v) { return boundary.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return boundary.points[v]; };
   std::vector<vec3> points;
   for (const auto& shell : edge_connected_shells(to_outside, boundary.points.size())) {
     if (!(enclosed_volume(boundary.points, shell) < 0))

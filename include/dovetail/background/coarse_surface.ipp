@@ -60,8 +60,6 @@ public:
 private:
   using intervals = std::vector<std::array<local_id, 2>>; ///< of curves: curve, index of the interval
 
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-
   /// At the sizes refined so far.
   coarse_surface_result make() {
     curves_ = space_curves(model_, size_.everywhere(), parameters_.turn, parameters_.smallest_fraction);
@@ -147,9 +145,9 @@ private:
     const patch_mesh& mesh = meshes_[f];
     for (const auto& [a, b] : mesh.crossings)
       for (const local_id s : {a, b})
-        halved.push_back(origins_[f][at(s)]);
+        halved.push_back(origins_[f][s]);
     for (const local_id s : mesh.misplaced)
-      halved.push_back(origins_[f][at(s)]);
+      halved.push_back(origins_[f][s]);
     if (!mesh.crossings.empty() || !mesh.misplaced.empty())
       return;
     halve_at_folds(f, halved);
@@ -162,7 +160,7 @@ private:
     const patch_mesh& mesh = meshes_[f];
     std::set<local_id> touched;
     for (const local_id t : mesh.folded)
-      touched.insert(mesh.triangles[at(t)].begin(), mesh.triangles[at(t)].end());
+      touched.insert(mesh.triangles[t].begin(), mesh.triangles[t].end());
     for (std::size_t s = 0; s < origins_[f].size(); ++s) {
       const auto& [a, b] = regions_[f].boundary.segments[s];
       if (touched.contains(a) || touched.contains(b))
@@ -181,7 +179,7 @@ private:
         if (std::any_of(triangle.begin(), triangle.end(), [&](local_id v) { return v >= frozen; }))
           continue;
         for (local_id& v : triangle)
-          v = labels[at(v)];
+          v = labels[v];
         if (!triangles.insert(sorted_vertices(triangle)).second)
           append(halved, origins_[f]);
       }
@@ -203,8 +201,7 @@ private:
       const local_id s = mesh.crossings.empty() ? mesh.misplaced[0] : mesh.crossings[0][0];
       const local_id r = mesh.crossings.empty() ? s : mesh.crossings[0][1];
       throw geometry_error(start + "its boundary crosses itself in the parameter plane at curves " +
-                           std::to_string(origins_[f][at(s)][0]) + " and " +
-                           std::to_string(origins_[f][at(r)][0]) +
+                           std::to_string(origins_[f][s][0]) + " and " + std::to_string(origins_[f][r][0]) +
                            ", also when refined; repair the face in the CAD system");
     }
     if (!mesh.folded.empty())

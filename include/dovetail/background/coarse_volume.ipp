@@ -45,7 +45,7 @@ inline oriented_boundary orient_boundary(const surface_mesh& surface, const geom
   for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
     const auto& [a, b, c] = surface.mesh.elements[t];
     const local_id f = surface.mesh.tags[t];
-    const auto& face = topology.faces[static_cast<std::size_t>(f)];
+    const auto& face = topology.faces[f];
     if (face.solids[0] == no_id && face.solids[1] == no_id)
       throw geometry_error(name_of("face", f, face.name) + " bounds no solid; remove it from the model");
     if (face.solids[0] != no_id)
@@ -85,10 +85,8 @@ inline void require_closed(const oriented_boundary& boundary, const geometry_top
       balance += passages[last].direction;
     if (balance != 0) {
       const auto& [solid, edge, direction, face] = passages[first];
-      throw geometry_error("the surface of " +
-                           name_of("solid", solid, topology.solids[static_cast<std::size_t>(solid)].name) +
-                           " is open at an edge of " +
-                           name_of("face", face, topology.faces[static_cast<std::size_t>(face)].name));
+      throw geometry_error("the surface of " + name_of("solid", solid, topology.solids[solid].name) +
+                           " is open at an edge of " + name_of("face", face, topology.faces[face].name));
     }
     first = last;
   }
@@ -103,7 +101,7 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
   for (std::size_t t = 0; t < boundary.triangles.size(); ++t)
     if (belongs(t))
       for (const local_id v : boundary.triangles[t])
-        number[static_cast<std::size_t>(v)] = 0;
+        number[v] = 0;
   for (std::size_t v = 0; v < number.size(); ++v)
     if (number[v] != no_id) {
       number[v] = static_cast<local_id>(piece.skeleton_points.size());
@@ -114,7 +112,7 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
     if (belongs(t)) {
       simplex<2> triangle = boundary.triangles[t];
       for (local_id& v : triangle)
-        v = number[static_cast<std::size_t>(v)];
+        v = number[v];
       piece.boundary.boundary.elements.push_back(triangle);
     }
   piece.boundary.material = solid == no_id ? 0 : solid;
@@ -124,9 +122,8 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
 [[noreturn]] inline void throw_failed(const std::vector<piece_failure>& failures,
                                       const geometry_topology& topology) {
   const piece_failure& first = failures.front();
-  std::string text =
-      name_of("solid", first.subdomain, topology.solids[static_cast<std::size_t>(first.subdomain)].name) +
-      " could not be filled with a coarse mesh: " + joined_reasons(first.reasons);
+  std::string text = name_of("solid", first.subdomain, topology.solids[first.subdomain].name) +
+                     " could not be filled with a coarse mesh: " + joined_reasons(first.reasons);
   if (first.crossing_facets > 0)
     text += "; " + std::to_string(first.crossing_facets) + " of its surface triangles cross others";
   if (!first.facets.empty())
@@ -194,7 +191,7 @@ solids_beside_surface(const surface_mesh& surface, const geometry_topology& topo
   std::vector<std::array<local_id, 2>> solids;
   solids.reserve(surface.mesh.elements.size());
   for (const local_id face : surface.mesh.tags)
-    solids.push_back(topology.faces[static_cast<std::size_t>(face)].solids);
+    solids.push_back(topology.faces[face].solids);
   return solids;
 }
 

@@ -23,13 +23,13 @@ struct curve_points {
 
   /// The surface point of the i-th parameter of curve c.
   local_id point_id(const geometry_topology& topology, local_id c, std::size_t i) const {
-    const auto& curve = topology.curves[static_cast<std::size_t>(c)];
-    const auto& parameters = t[static_cast<std::size_t>(c)];
+    const auto& curve = topology.curves[c];
+    const auto& parameters = t[c];
     if (i == 0 || curve.degenerate)
       return curve.vertices[0];
     if (i + 1 == parameters.size())
       return curve.vertices[1];
-    return first_inner[static_cast<std::size_t>(c)] + static_cast<local_id>(i) - 1;
+    return first_inner[c] + static_cast<local_id>(i) - 1;
   }
 
   /// Numbers the points, after their parameters `t` were set.
@@ -48,7 +48,7 @@ struct curve_points {
 inline void halve_intervals(curve_points& points, std::vector<std::array<local_id, 2>> intervals) {
   sort_unique(intervals);
   for (std::size_t k = intervals.size(); k-- > 0;) { // from behind: indices stay valid
-    auto& t = points.t[static_cast<std::size_t>(intervals[k][0])];
+    auto& t = points.t[intervals[k][0]];
     const auto i = static_cast<std::size_t>(intervals[k][1]);
     t.insert(t.begin() + static_cast<std::ptrdiff_t>(i) + 1, 0.5 * (t[i] + t[i + 1]));
   }
@@ -71,9 +71,7 @@ inline void separate_parallel_curves(const geometry_topology& topology, const st
   for (auto& [ends, curves] : single) {
     if (curves.size() < 2)
       continue;
-    stable_sort_all(curves, [&](local_id a, local_id b) {
-      return lengths[static_cast<std::size_t>(a)] < lengths[static_cast<std::size_t>(b)];
-    });
+    stable_sort_all(curves, [&](local_id a, local_id b) { return lengths[a] < lengths[b]; });
     for (std::size_t i = 1; i < curves.size(); ++i)
       intervals.push_back({curves[i], 0});
   }
@@ -91,12 +89,12 @@ inline std::vector<int> least_segments(const geometry_topology& topology) {
       least[c] = 3;
   for (const auto& face : topology.faces) {
     const bool has_pole = std::any_of(face.coedges.begin(), face.coedges.end(), [&](const auto& coedge) {
-      return topology.curves[static_cast<std::size_t>(coedge.curve)].degenerate;
+      return topology.curves[coedge.curve].degenerate;
     });
     std::map<local_id, int> passages;
     for (const auto& coedge : face.coedges)
       if (++passages[coedge.curve] > 1 && has_pole)
-        least[static_cast<std::size_t>(coedge.curve)] = 3;
+        least[coedge.curve] = 3;
   }
   return least;
 }

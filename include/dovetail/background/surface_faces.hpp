@@ -25,7 +25,7 @@ inline void append_coedge(const any_geometry& model, local_id f, int k,
                           const geometry_topology::coedge& coedge, const curve_points& curves,
                           face_patch& made) {
   const geometry_topology& topology = model.topology();
-  const auto& t = curves.t[static_cast<std::size_t>(coedge.curve)];
+  const auto& t = curves.t[coedge.curve];
   const std::size_t count = t.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t j = coedge.reversed ? count - i : i;
@@ -33,7 +33,7 @@ inline void append_coedge(const any_geometry& model, local_id f, int k,
     made.boundary.uv.push_back(model.curve_uv(f, k, t[j]));
     made.boundary.labels.push_back(id);
     made.boundary.points.push_back(static_cast<std::size_t>(id) < topology.vertices.size()
-                                       ? topology.vertices[static_cast<std::size_t>(id)].point
+                                       ? topology.vertices[id].point
                                        : model.curve_point(coedge.curve, t[j]));
     made.origin.push_back({coedge.curve, static_cast<local_id>(coedge.reversed ? j - 1 : j)});
   }
@@ -51,8 +51,8 @@ inline vec2 parameter_extent(const any_geometry& model, local_id f) {
   const geometry_topology& topology = model.topology();
   vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
   int k = 0;
-  for (const auto& coedge : topology.faces[static_cast<std::size_t>(f)].coedges) {
-    const auto& t = topology.curves[static_cast<std::size_t>(coedge.curve)].t;
+  for (const auto& coedge : topology.faces[f].coedges) {
+    const auto& t = topology.curves[coedge.curve].t;
     for (int i = 0; i <= 4; ++i) {
       const vec2 uv = model.curve_uv(f, k, t[0] + 0.25 * i * (t[1] - t[0]));
       lower = {std::min(lower.x, uv.x), std::min(lower.y, uv.y)};
@@ -72,10 +72,10 @@ inline face_patch make_face_patch(const any_geometry& model, local_id f, const c
   face_patch made;
   patch_boundary& b = made.boundary;
   int k = 0;
-  for (const auto& loop : topology.faces[static_cast<std::size_t>(f)].loops) {
+  for (const auto& loop : topology.faces[f].loops) {
     const auto first = static_cast<local_id>(b.uv.size());
     for (const auto& coedge : loop) {
-      const auto& curve = topology.curves[static_cast<std::size_t>(coedge.curve)];
+      const auto& curve = topology.curves[coedge.curve];
       if (!detail::is_point_in_plane(model, f, k, curve, extent))
         detail::append_coedge(model, f, k, coedge, curves, made);
       ++k;

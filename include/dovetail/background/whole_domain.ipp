@@ -28,9 +28,9 @@ DOVETAIL_INLINE std::vector<std::vector<vec3>> lines_on_curves(const surface_mes
   local_id curve = no_id;
   for (const auto& edge : surface.curve_edges) { // those of a curve follow each other, in its direction
     if (edge.curve != curve)
-      lines.push_back({surface.mesh.points[static_cast<std::size_t>(edge.vertices[0])]});
+      lines.push_back({surface.mesh.points[edge.vertices[0]]});
     curve = edge.curve;
-    lines.back().push_back(surface.mesh.points[static_cast<std::size_t>(edge.vertices[1])]);
+    lines.back().push_back(surface.mesh.points[edge.vertices[1]]);
   }
   return lines;
 }
@@ -75,7 +75,7 @@ public:
   void curves_at(vec3 p, double reach, Visit&& visit) const {
     edges_.for_each([&](const box3& box, std::size_t) { return distance_squared(box, p) <= reach * reach; },
                     [&](local_id e) {
-                      const auto& edge = surface_.curve_edges[static_cast<std::size_t>(e)];
+                      const auto& edge = surface_.curve_edges[e];
                       const vec3 a = point(edge.vertices[0]), b = point(edge.vertices[1]);
                       const auto weights = nearest_on_segment(a, b, p);
                       if (norm(weights[0] * a + weights[1] * b - p) <= reach)
@@ -84,7 +84,7 @@ public:
   }
 
 private:
-  vec3 point(local_id v) const { return surface_.mesh.points[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) const { return surface_.mesh.points[v]; }
 
   template <class Simplices>
   std::vector<box3> boxes_of(const Simplices& simplices) const {
@@ -125,8 +125,6 @@ public:
   }
 
 private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-
   static std::vector<simplex<2>> hull_of(const simplicial_mesh<3>& volume) {
     const auto sides = build_sides(volume);
     std::vector<simplex<2>> hull;
@@ -141,7 +139,7 @@ private:
   }
 
   std::string name_of(local_id curve) const {
-    const std::string& name = topology_.curves[at(curve)].name;
+    const std::string& name = topology_.curves[curve].name;
     return "curve " + std::to_string(curve) + (name.empty() ? "" : " '" + name + "'");
   }
 
@@ -153,7 +151,7 @@ private:
     for (const auto& t : hull_)
       points.insert(t.begin(), t.end());
     for (const local_id v : points) {
-      const vec3 p = volume_.points[at(v)];
+      const vec3 p = volume_.points[v];
       bool is_vertex = false;
       for (std::size_t i = 0; i < topology_.vertices.size(); ++i)
         if (distance(topology_.vertices[i].point, p) <= reach_) {
@@ -162,7 +160,7 @@ private:
         }
       if (!is_vertex)
         locate_.curves_at(p, reach_, [&](local_id curve, double t) {
-          auto& found = on_curve[at(curve)];
+          auto& found = on_curve[curve];
           if (found.empty() || found.back().second != v) // else two of its edges meet here
             found.emplace_back(t, v);
         });
@@ -175,8 +173,8 @@ private:
       if (curve.degenerate)
         continue;
       auto& found = on_curve[c];
-      found.emplace_back(curve.t[0], of_vertex[at(curve.vertices[0])]);
-      found.emplace_back(curve.t[1], of_vertex[at(curve.vertices[1])]);
+      found.emplace_back(curve.t[0], of_vertex[curve.vertices[0]]);
+      found.emplace_back(curve.t[1], of_vertex[curve.vertices[1]]);
       std::sort(found.begin(), found.end());
       curves_.t[c].clear();
       for (const auto& [t, v] : found) {
@@ -208,8 +206,8 @@ private:
   void number_points() {
     number_.assign(volume_.points.size(), no_id);
     surface_mesh& surface = made_.surface;
-    surface.mesh.points.resize(at(curves_.count));
-    surface.vertex_hosts.resize(at(curves_.count));
+    surface.mesh.points.resize(curves_.count);
+    surface.vertex_hosts.resize(curves_.count);
     for (std::size_t v = 0; v < topology_.vertices.size(); ++v) {
       surface.mesh.points[v] = topology_.vertices[v].point;
       surface.vertex_hosts[v] = {0, static_cast<local_id>(v)};
@@ -218,13 +216,13 @@ private:
       const auto curve = static_cast<local_id>(c);
       for (std::size_t i = 0; i < chains_[c].size(); ++i) {
         const local_id id = curves_.point_id(topology_, curve, i);
-        number_[at(chains_[c][i])] = id;
+        number_[chains_[c][i]] = id;
         if (i == 0)
           continue;
         const double t = curves_.t[c][i];
         if (i + 1 < chains_[c].size()) {
-          surface.mesh.points[at(id)] = model_.curve_point(curve, t);
-          surface.vertex_hosts[at(id)] = {1, curve};
+          surface.mesh.points[id] = model_.curve_point(curve, t);
+          surface.vertex_hosts[id] = {1, curve};
         }
         surface.curve_edges.push_back(
             {{curves_.point_id(topology_, curve, i - 1), id}, curve, {curves_.t[c][i - 1], t}});
@@ -248,23 +246,23 @@ private:
       seen[first] = 1;
       std::map<local_id, std::size_t> votes;
       for (std::size_t i = 0; i < part.size(); ++i) {
-        const simplex<2> t = hull_[at(part[i])];
-        ++votes[reference_.mesh.tags[at(locate_.nearest(center(t), no_id).triangle)]];
+        const simplex<2> t = hull_[part[i]];
+        ++votes[reference_.mesh.tags[locate_.nearest(center(t), no_id).triangle]];
         for (std::size_t k = 0; k < 3; ++k)
           for (const local_id next : triangles_at[edge_of(t, k)])
-            if (!seen[at(next)]) {
-              seen[at(next)] = 1;
+            if (!seen[next]) {
+              seen[next] = 1;
               part.push_back(next);
             }
       }
       const auto most = std::max_element(votes.begin(), votes.end(),
                                          [](const auto& a, const auto& b) { return a.second < b.second; });
       for (const local_id t : part)
-        face_[at(t)] = most->first;
+        face_[t] = most->first;
     }
   }
   vec3 center(const simplex<2>& t) const {
-    return (volume_.points[at(t[0])] + volume_.points[at(t[1])] + volume_.points[at(t[2])]) / 3.0;
+    return (volume_.points[t[0]] + volume_.points[t[1]] + volume_.points[t[2]]) / 3.0;
   }
 
   void make_triangles() {
@@ -278,17 +276,17 @@ private:
     }
     for (std::size_t i = 0; i < hull_.size(); ++i) {
       const local_id f = face_[i];
-      const auto& face = topology_.faces[at(f)];
+      const auto& face = topology_.faces[f];
       simplex<2> t = hull_[i];
       if (face.solids[0] == no_id) // the solid lies in front of the face
         std::swap(t[1], t[2]);
       const vec2 near = locate_.nearest(center(t), f).uv;
       std::array<vec2, 3> uv;
       for (std::size_t k = 0; k < 3; ++k) {
-        local_id& v = number_[at(t[k])];
+        local_id& v = number_[t[k]];
         if (v == no_id) {
           v = static_cast<local_id>(surface.mesh.points.size());
-          const vec3 p = volume_.points[at(t[k])];
+          const vec3 p = volume_.points[t[k]];
           inner_uv[v] = model_.project_to_face(f, p, locate_.nearest(p, f).uv);
           surface.mesh.points.push_back(model_.face_point(f, inner_uv[v]));
           surface.vertex_hosts.push_back({2, f});
@@ -324,15 +322,15 @@ private:
     out.points = made_.surface.mesh.points;
     for (simplex<3> element : volume_.elements) {
       for (local_id& v : element) {
-        local_id& id = number_[at(v)];
+        local_id& id = number_[v];
         if (id == no_id) {
           id = static_cast<local_id>(out.points.size());
-          out.points.push_back(volume_.points[at(v)]);
+          out.points.push_back(volume_.points[v]);
         }
         v = id;
       }
       const auto& [a, b, c, d] = element;
-      if (!(signed_volume(out.points[at(a)], out.points[at(b)], out.points[at(c)], out.points[at(d)]) > 0))
+      if (!(signed_volume(out.points[a], out.points[b], out.points[c], out.points[d]) > 0))
         throw mesher_error("an element of the background mesh is inverted when its boundary points move to "
                            "the CAD surface; give a smaller coarse size");
       out.elements.push_back(element);

@@ -69,7 +69,7 @@ public:
     std::vector<Item> ordered;
     ordered.reserve(items.size());
     for (const local_id item : items_)
-      ordered.push_back(std::move(items[static_cast<std::size_t>(item)]));
+      ordered.push_back(std::move(items[item]));
     items = std::move(ordered);
     std::iota(items_.begin(), items_.end(), local_id{0});
   }

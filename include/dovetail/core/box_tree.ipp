@@ -28,7 +28,7 @@ DOVETAIL_INLINE void box_tree::build(const std::vector<box3>& boxes, std::size_t
   box3 box;
   box3 centers;
   for (std::size_t i = begin; i < end; ++i) {
-    const box3& item = boxes[static_cast<std::size_t>(items_[i])];
+    const box3& item = boxes[items_[i]];
     box = united(box, item);
     centers.include(item.center());
   }
@@ -40,7 +40,7 @@ DOVETAIL_INLINE void box_tree::build(const std::vector<box3>& boxes, std::size_t
   }
   const vec3 extent = centers.upper - centers.lower;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  const auto key = [&](local_id item) { return boxes[static_cast<std::size_t>(item)].center()[axis]; };
+  const auto key = [&](local_id item) { return boxes[item].center()[axis]; };
   const std::size_t middle = begin + (end - begin) / 2;
   std::nth_element(items_.data() + begin, items_.data() + middle, items_.data() + end,
                    [&](local_id a, local_id b) {

@@ -40,8 +40,7 @@ compressed_rows<Item> sorted_into_rows(std::size_t rows, const ForEachItem& for_
     sorted.begins[r + 1] += sorted.begins[r];
   sorted.items.resize(sorted.begins[rows]);
   std::vector<std::size_t> next(sorted.begins.begin(), sorted.begins.end() - 1);
-  for_each_item(
-      [&](auto row, const Item& item) { sorted.items[next[static_cast<std::size_t>(row)]++] = item; });
+  for_each_item([&](auto row, const Item& item) { sorted.items[next[row]++] = item; });
   return sorted;
 }
 

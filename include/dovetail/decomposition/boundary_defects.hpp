@@ -54,13 +54,13 @@ public:
     for (std::size_t s = 0; s < sides.size(); ++s)
       if (!sides.is_interior(static_cast<local_id>(s)))
         for (const local_id v : sides.vertices[s])
-          on_boundary_[static_cast<std::size_t>(v)] = 1;
+          on_boundary_[v] = 1;
   }
 
   /// The elements around each point.
   const compressed_rows<local_id>& around() const { return around_; }
   /// Is there a side at the point that bounds some part, whatever the parts are?
-  bool is_on_boundary(local_id point) const { return on_boundary_[static_cast<std::size_t>(point)] != 0; }
+  bool is_on_boundary(local_id point) const { return on_boundary_[point] != 0; }
 
   /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
   template <class PartOf>
@@ -99,17 +99,17 @@ private:
   void collect_boundary(local_id point, const PartOf& part_of) {
     sides_here_.clear();
     for (const local_id e : around_[point]) {
-      const auto& vertices = mesh_.elements[static_cast<std::size_t>(e)];
+      const auto& vertices = mesh_.elements[e];
       const local_id own = part_of(e);
       for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i) {
         if (vertices[i] == point)
           continue; // the side opposite the point
-        const local_id other = sides_.across(sides_.of_element[static_cast<std::size_t>(e)][i], e);
+        const local_id other = sides_.across(sides_.of_element[e][i], e);
         if (other != no_id && part_of(other) == own)
           continue;
         link_side side{own, no_id, no_id};
         for (const int local : numbering::sides<D>[i])
-          if (const local_id v = vertices[static_cast<std::size_t>(local)]; v != point)
+          if (const local_id v = vertices[local]; v != point)
             (side.a == no_id ? side.a : side.b) = v;
         sides_here_.push_back(side);
       }
@@ -149,7 +149,7 @@ private:
 
   /// Counts one more side at a point of the link; returns the root of what it is connected with.
   std::size_t end_of_side(local_id point, int& components) {
-    auto& [link, place] = place_in_link_[static_cast<std::size_t>(point)];
+    auto& [link, place] = place_in_link_[point];
     if (link != link_) {
       link = link_;
       place = static_cast<std::uint32_t>(ends_.size());

@@ -48,11 +48,7 @@ private:
   };
   static constexpr double rounding = 1e-9;
 
-  template <class Id>
-  static std::size_t index(Id id) {
-    return static_cast<std::size_t>(id);
-  }
-  double weight_of(local_id super) const { return parts_.graph().node_weights[index(super)]; }
+  double weight_of(local_id super) const { return parts_.graph().node_weights[super]; }
 
   bool is_harmless(const move& m) {
     const std::array<local_id, 1> supers{m.super};
@@ -71,13 +67,13 @@ private:
       on_progress_.stop_if_requested();
       local_id heaviest = no_id;
       for (const local_id part : parts_.overweight())
-        if (!stuck[index(part)] &&
+        if (!stuck[part] &&
             (heaviest == no_id || parts_.weight_of_part(part) > parts_.weight_of_part(heaviest)))
           heaviest = part;
       if (heaviest == no_id)
         break;
       if (!relieve(heaviest))
-        stuck[index(heaviest)] = true;
+        stuck[heaviest] = true;
     }
   }
 

@@ -37,11 +37,7 @@ private:
     bool is_complete() const { return next == members.size(); }
   };
 
-  template <class Id>
-  static std::size_t index(Id id) {
-    return static_cast<std::size_t>(id);
-  }
-  double weight(local_id super) const { return graph_.node_weights[index(super)]; }
+  double weight(local_id super) const { return graph_.node_weights[super]; }
 
   /// One component for each neighbour of those that leave; returns how many these are.
   std::size_t plant(std::span<const local_id> leaving);

@@ -42,16 +42,16 @@ DOVETAIL_INLINE std::vector<local_id> cut_off_components::cut_off_by(std::span<c
 }
 
 DOVETAIL_INLINE std::size_t cut_off_components::plant(std::span<const local_id> leaving) {
-  part_searched_ = part_[index(leaving[0])];
+  part_searched_ = part_[leaving[0]];
   left_ = next_mark_;
   for (const local_id s : leaving)
-    mark_[index(s)] = left_;
+    mark_[s] = left_;
   seeds_.clear();
   for (const local_id s : leaving)
     for (const local_id other : graph_.row(s))
-      if (part_[index(other)] == part_searched_ && mark_[index(other)] < left_) {
+      if (part_[other] == part_searched_ && mark_[other] < left_) {
         seeds_.push_back(other);
-        mark_[index(other)] = left_ + seeds_.size();
+        mark_[other] = left_ + seeds_.size();
       }
   next_mark_ += seeds_.size() + 1;
   leader_.resize(seeds_.size());
@@ -85,8 +85,8 @@ DOVETAIL_INLINE std::size_t cut_off_components::search_next(std::size_t k) {
   growing_component& component = components_[k];
   const local_id from = component.members[component.next++];
   for (const local_id other : graph_.row(from)) {
-    std::size_t& mark = mark_[index(other)];
-    if (part_[index(other)] != part_searched_ || mark == left_)
+    std::size_t& mark = mark_[other];
+    if (part_[other] != part_searched_ || mark == left_)
       continue;
     if (mark < left_) {
       mark = left_ + 1 + k;
@@ -117,17 +117,17 @@ DOVETAIL_INLINE std::vector<local_id> cut_off_components::members_but_of(std::si
                                                                          std::span<const local_id> leaving) {
   const std::size_t seen = next_mark_++;
   for (const local_id s : leaving)
-    mark_[index(s)] = seen;
+    mark_[s] = seen;
   std::vector<local_id> members;
   for (std::size_t k = 0; k < seeds_.size(); ++k) {
-    if (leader(k) == heaviest || mark_[index(seeds_[k])] == seen)
+    if (leader(k) == heaviest || mark_[seeds_[k]] == seen)
       continue;
-    mark_[index(seeds_[k])] = seen;
+    mark_[seeds_[k]] = seen;
     members.push_back(seeds_[k]);
     for (std::size_t m = members.size() - 1; m < members.size(); ++m)
       for (const local_id other : graph_.row(members[m]))
-        if (part_[index(other)] == part_searched_ && mark_[index(other)] != seen) {
-          mark_[index(other)] = seen;
+        if (part_[other] == part_searched_ && mark_[other] != seen) {
+          mark_[other] = seen;
           members.push_back(other);
         }
   }

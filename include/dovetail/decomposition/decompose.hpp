@@ -120,7 +120,7 @@ std::vector<local_id> partition_components(const graph_to_partition& whole, cons
     const auto local =
         checked_partition(partitioner, graph_of_nodes(whole.graph, nodes_of[c]), whole.parts[c]);
     for (std::size_t k = 0; k < local.size(); ++k)
-      part[static_cast<std::size_t>(nodes_of[c][k])] = first_part + local[k];
+      part[nodes_of[c][k]] = first_part + local[k];
     first_part += whole.parts[c];
   }
   return part;

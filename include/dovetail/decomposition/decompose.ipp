@@ -33,9 +33,9 @@ inline csr_graph within_materials(const csr_graph& graph, std::span<const local_
   filtered.node_weights = graph.node_weights;
   for (local_id v = 0; v < graph.node_count(); ++v) {
     const auto row = graph.row(v);
-    const auto begin = static_cast<std::size_t>(graph.offsets[static_cast<std::size_t>(v)]);
+    const auto begin = static_cast<std::size_t>(graph.offsets[v]);
     for (std::size_t k = 0; k < row.size(); ++k)
-      if (material[static_cast<std::size_t>(v)] == material[static_cast<std::size_t>(row[k])]) {
+      if (material[v] == material[row[k]]) {
         filtered.neighbours.push_back(row[k]);
         filtered.edge_weights.push_back(graph.edge_weights[begin + k]);
       }
@@ -53,7 +53,7 @@ std::vector<vec3> centres_of_supers(const simplicial_mesh<D>& mesh,
   for (std::size_t e = 0; e < super_of_element.size(); ++e) {
     const auto super = static_cast<std::size_t>(super_of_element[e]);
     for (const local_id v : mesh.elements[e])
-      sums[super] += mesh.points[static_cast<std::size_t>(v)] / (D + 1.0);
+      sums[super] += mesh.points[v] / (D + 1.0);
     counts[super] += 1;
   }
   for (std::size_t s = 0; s < supers; ++s)
@@ -117,14 +117,14 @@ graph_to_partition graph_within_materials(const simplicial_mesh<D>& mesh, const 
   whole.material_of_super.assign(super_graph.node_weights.size(), 0);
   if (!material.empty())
     for (std::size_t e = 0; e < super_of_element.size(); ++e)
-      whole.material_of_super[static_cast<std::size_t>(super_of_element[e])] = material[e];
+      whole.material_of_super[super_of_element[e]] = material[e];
   whole.graph = within_materials(super_graph, whole.material_of_super);
   whole.graph.positions = centres_of_supers<D>(mesh, super_of_element, whole.graph.node_weights.size());
   whole.components = components_within(whole.graph, whole.material_of_super);
   whole.weights = part_weights(whole.graph, whole.components.of_node, whole.components.count);
   std::vector<local_id> nodes(whole.weights.size(), 0);
   for (const local_id c : whole.components.of_node)
-    ++nodes[static_cast<std::size_t>(c)];
+    ++nodes[c];
   whole.parts = apportion_parts(whole.weights, nodes, parts);
   return whole;
 }
@@ -155,11 +155,11 @@ decomposition decomposition_into(const simplicial_mesh<D>& mesh, const side_tabl
 
   result.part_of_element.resize(mesh.elements.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-    result.part_of_element[e] = result.part_of_super[static_cast<std::size_t>(super_of_element[e])];
+    result.part_of_element[e] = result.part_of_super[super_of_element[e]];
   result.part_weights = part_weights(graph, result.part_of_super, result.parts);
   result.material_of_part.assign(static_cast<std::size_t>(result.parts), 0);
   for (std::size_t s = 0; s < whole.material_of_super.size(); ++s)
-    result.material_of_part[static_cast<std::size_t>(result.part_of_super[s])] = whole.material_of_super[s];
+    result.material_of_part[result.part_of_super[s]] = whole.material_of_super[s];
 
   result.super_of_element.assign(super_of_element.begin(), super_of_element.end());
 

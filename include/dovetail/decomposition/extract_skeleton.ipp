@@ -37,7 +37,7 @@ public:
         throw mesh_error("curve " + std::to_string(edge.curve) + ": the coarse edge " +
                          std::to_string(edge.vertices[0]) + "-" + std::to_string(edge.vertices[1]) +
                          " is not an edge of the coarse surface mesh");
-      curve_edge_of_[static_cast<std::size_t>(side)] = static_cast<local_id>(i);
+      curve_edge_of_[side] = static_cast<local_id>(i);
     }
   }
 
@@ -49,7 +49,7 @@ public:
     skeleton_line result;
     result.vertices = sorted_vertices(sides_.vertices[side]);
     if (on_curve(side)) {
-      const auto& edge = surface_.curve_edges[static_cast<std::size_t>(curve_edge_of_[side])];
+      const auto& edge = surface_.curve_edges[curve_edge_of_[side]];
       result.on = {1, edge.curve};
       result.t = edge.vertices == result.vertices ? edge.t : std::array{edge.t[1], edge.t[0]};
       return result;
@@ -64,8 +64,7 @@ public:
 private:
   vec2 corner_uv(std::size_t triangle, local_id vertex) const {
     const auto& corners = surface_.mesh.elements[triangle];
-    return surface_.corner_uv[triangle][static_cast<std::size_t>(
-        std::find(corners.begin(), corners.end(), vertex) - corners.begin())];
+    return surface_.corner_uv[triangle][std::find(corners.begin(), corners.end(), vertex) - corners.begin()];
   }
 
   const surface_mesh& surface_;
@@ -97,12 +96,12 @@ inline std::vector<skeleton_region> connected_regions(const surface_mesh& surfac
     region.triangles.push_back(static_cast<local_id>(start));
     for (std::size_t next = 0; next < region.triangles.size(); ++next) {
       const local_id triangle = region.triangles[next];
-      for (const local_id side : edges.sides().of_element[static_cast<std::size_t>(triangle)]) {
-        if (is_line[static_cast<std::size_t>(side)])
+      for (const local_id side : edges.sides().of_element[triangle]) {
+        if (is_line[side])
           continue;
         const local_id across = edges.sides().across(side, triangle);
-        if (!seen[static_cast<std::size_t>(across)]) {
-          seen[static_cast<std::size_t>(across)] = true;
+        if (!seen[across]) {
+          seen[across] = true;
           region.triangles.push_back(across);
         }
       }
@@ -121,7 +120,7 @@ inline void find_fixed_points(std::vector<skeleton_region>& regions, const surfa
   std::vector<bool> on_line(surface.mesh.points.size(), false), on_face(surface.mesh.points.size(), false);
   const auto mark = [&](std::vector<bool>& flags, local_id v) {
     if (static_cast<std::size_t>(v) < flags.size())
-      flags[static_cast<std::size_t>(v)] = true;
+      flags[v] = true;
   };
   for (const skeleton_line& line : lines)
     if (line.on.dimension < 3)
@@ -132,8 +131,8 @@ inline void find_fixed_points(std::vector<skeleton_region>& regions, const surfa
       mark(on_face, v);
   for (skeleton_region& region : regions) {
     for (const local_id triangle : region.triangles)
-      for (const local_id v : surface.mesh.elements[static_cast<std::size_t>(triangle)])
-        if (on_face[static_cast<std::size_t>(v)] && !on_line[static_cast<std::size_t>(v)])
+      for (const local_id v : surface.mesh.elements[triangle])
+        if (on_face[v] && !on_line[v])
           region.fixed_points.push_back(v);
     sort_unique(region.fixed_points);
   }
@@ -188,11 +187,9 @@ DOVETAIL_INLINE std::vector<skeleton_face> interface_faces(const background_mesh
     const auto [first, second] = sides.elements[side];
     if (second == no_id)
       continue;
-    const local_id a = subdomain_of_element[static_cast<std::size_t>(first)];
-    const local_id b = subdomain_of_element[static_cast<std::size_t>(second)];
-    const bool one_material =
-        mesh.volume.tags.empty() || mesh.volume.tags[static_cast<std::size_t>(first)] ==
-                                        mesh.volume.tags[static_cast<std::size_t>(second)];
+    const local_id a = subdomain_of_element[first];
+    const local_id b = subdomain_of_element[second];
+    const bool one_material = mesh.volume.tags.empty() || mesh.volume.tags[first] == mesh.volume.tags[second];
     if (a == b || !one_material)
       continue;
     simplex<2> outwards_of_a = sides.vertices[side];
@@ -214,8 +211,8 @@ DOVETAIL_INLINE elements_at_triangles elements_beside_surface(const background_m
     if (side == no_id)
       throw mesh_error("surface triangle " + std::to_string(beside.size()) +
                        " is not a side of the coarse volume mesh");
-    const auto& [first, second] = sides.elements[static_cast<std::size_t>(side)];
-    const bool first_is_behind = same_turn(triangle, sides.vertices[static_cast<std::size_t>(side)]);
+    const auto& [first, second] = sides.elements[side];
+    const bool first_is_behind = same_turn(triangle, sides.vertices[side]);
     beside.push_back(first_is_behind ? std::array{first, second} : std::array{second, first});
   }
   return beside;
@@ -225,9 +222,7 @@ DOVETAIL_INLINE triangle_subdomains induced_subdomains(const elements_at_triangl
                                                        const std::vector<local_id>& subdomain_of_element) {
   triangle_subdomains subdomains;
   subdomains.reserve(beside.size());
-  const auto subdomain = [&](local_id e) {
-    return e == no_id ? no_id : subdomain_of_element[static_cast<std::size_t>(e)];
-  };
+  const auto subdomain = [&](local_id e) { return e == no_id ? no_id : subdomain_of_element[e]; };
   for (const auto& [behind, in_front] : beside)
     subdomains.push_back({subdomain(behind), subdomain(in_front)});
   return subdomains;
@@ -269,7 +264,7 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
   for (skeleton_face& face : faces)
     for (std::size_t i = 0; i < 3; ++i) {
       const local_id line = find_line(skeleton.lines, face.vertices[i], face.vertices[(i + 1) % 3]);
-      face.is_curved = face.is_curved || skeleton.lines[static_cast<std::size_t>(line)].on.dimension < 3;
+      face.is_curved = face.is_curved || skeleton.lines[line].on.dimension < 3;
     }
   skeleton.faces = std::move(faces);
   return skeleton;

@@ -48,9 +48,8 @@ public:
   }
 
 private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  vec3 point(local_id v) const { return cad_.points[at(v)]; }
-  bool is_near(local_id v) const { return near_[at(v)] != 0; }
+  vec3 point(local_id v) const { return cad_.points[v]; }
+  bool is_near(local_id v) const { return near_[v] != 0; }
 
   /// A CAD triangle at an edge.
   struct edge_of_triangle {
@@ -74,16 +73,16 @@ private:
     for (const angle_violation& v : angles.violations)
       if (v.is_dihedral())
         for (const local_id end : v.edge)
-          near_[at(end)] = 1;
+          near_[end] = 1;
       else
-        for (const local_id corner : triangles_[at(v.sides[0])])
-          near_[at(corner)] = 1;
+        for (const local_id corner : triangles_[v.sides[0]])
+          near_[corner] = 1;
   }
 
   void collect_curves() {
     for (std::size_t e = 0; e < cad_.curve_edges.size(); ++e) {
       const auto& [a, b] = cad_.curve_edges[e];
-      const std::size_t curve = at(cad_.curves[e]);
+      const std::size_t curve = cad_.curves[e];
       length_of_curve_.resize(std::max(length_of_curve_.size(), curve + 1), 0);
       length_of_curve_[curve] += distance(point(a), point(b));
       if (is_near(a) || is_near(b))
@@ -184,7 +183,7 @@ private:
     const vec3 middle = midpoint(point(side[0]), point(side[1]));
     const double least = 2 * std::sin(0.5 * wanted_.face_deg / degrees_per_radian) * size_(middle);
     if (const local_id curve = curve_at(side); curve != no_id) {
-      if (length_of_curve_[at(curve)] < least)
+      if (length_of_curve_[curve] < least)
         forcing.push_back({1, curve});
       return;
     }
@@ -196,7 +195,7 @@ private:
 
   /// The corner with a triangle's smallest angle, and the side opposite to it.
   std::pair<local_id, simplex<1>> corner_of(const angle_violation& violation) const {
-    const simplex<2>& t = triangles_[at(violation.sides[0])];
+    const simplex<2>& t = triangles_[violation.sides[0]];
     const auto angles = dihedral_angles(corners(cad_.points, t));
     const auto least =
         static_cast<std::size_t>(std::min_element(angles.begin(), angles.end()) - angles.begin());
@@ -214,7 +213,7 @@ private:
       add(violation.edge);
     else
       for (std::size_t i = 0; i < 3; ++i)
-        add(pick(triangles_[at(violation.sides[0])], numbering::sides<2>[i]));
+        add(pick(triangles_[violation.sides[0]], numbering::sides<2>[i]));
     return faces;
   }
 

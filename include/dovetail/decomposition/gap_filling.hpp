@@ -52,7 +52,7 @@ private:
   std::vector<gap> gaps_at(local_id point) const {
     std::vector<local_id> others; // the far ends of the point's edges
     for (const local_id e : parts_.elements_at(point))
-      for (const local_id v : parts_.mesh().elements[static_cast<std::size_t>(e)])
+      for (const local_id v : parts_.mesh().elements[e])
         if (v != point)
           others.push_back(v);
     sort_unique(others);
@@ -68,7 +68,7 @@ private:
     std::vector<local_id> around;
     std::vector<local_id> labels;
     for (const local_id e : parts_.elements_at(a)) {
-      const auto& vertices = parts_.mesh().elements[static_cast<std::size_t>(e)];
+      const auto& vertices = parts_.mesh().elements[e];
       if (std::find(vertices.begin(), vertices.end(), b) != vertices.end()) {
         around.push_back(e);
         labels.push_back(part_of_element(e));
@@ -100,7 +100,7 @@ private:
       std::vector<local_id> run{around[k]};
       seen[k] = true;
       for (std::size_t r = 0; r < run.size(); ++r)
-        for (const local_id side : parts_.sides().of_element[static_cast<std::size_t>(run[r])]) {
+        for (const local_id side : parts_.sides().of_element[run[r]]) {
           const auto other =
               std::find(around.begin(), around.end(), parts_.sides().across(side, run[r])) - around.begin();
           const auto j = static_cast<std::size_t>(other);

@@ -111,16 +111,15 @@ public:
   }
 
 private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  local_id part(local_id element) const { return in_.part_of_element[at(element)]; }
+  local_id part(local_id element) const { return in_.part_of_element[element]; }
   bool changes_tag(local_id a, local_id b) const {
-    return !in_.mesh.tags.empty() && in_.mesh.tags[at(a)] != in_.mesh.tags[at(b)];
+    return !in_.mesh.tags.empty() && in_.mesh.tags[a] != in_.mesh.tags[b];
   }
-  bool is_fixed(local_id side) const { return is_fixed_[at(side)]; }
+  bool is_fixed(local_id side) const { return is_fixed_[side]; }
   /// Whether a dihedral ends at the side.
-  bool is_end(local_id side) const { return is_fixed_[at(side)] || is_interface_[at(side)]; }
+  bool is_end(local_id side) const { return is_fixed_[side] || is_interface_[side]; }
   violation_cause cause_at(local_id side) const {
-    return !in_.side_states.empty() && in_.side_states[at(side)] == side_state::refused
+    return !in_.side_states.empty() && in_.side_states[side] == side_state::refused
                ? violation_cause::refused
                : violation_cause::remeshing;
   }
@@ -133,21 +132,21 @@ private:
 
   passage decoded(std::uint32_t code) const {
     const dihedral w = ridge_table<D>::decode(code);
-    const auto& sides = in_.sides.of_element[at(w.element)];
-    const auto angles = dihedral_angles(corners(span_of(in_.mesh.points), in_.mesh.elements[at(w.element)]));
-    return {w.element, sides[at(w.sides[0])], sides[at(w.sides[1])], angles[at(w.ridge)]};
+    const auto& sides = in_.sides.of_element[w.element];
+    const auto angles = dihedral_angles(corners(span_of(in_.mesh.points), in_.mesh.elements[w.element]));
+    return {w.element, sides[w.sides[0]], sides[w.sides[1]], angles[w.ridge]};
   }
 
   /// Adds up the angles of a fan from one side where dihedrals end to the next.
   void measure_fan(const simplex<D - 2>& ridge, std::span<const std::uint32_t> codes, bool is_closed) {
     const auto has = [&](std::uint32_t code, auto is_wanted) {
       const dihedral w = ridge_table<D>::decode(code);
-      return is_wanted(in_.sides.of_element[at(w.element)][at(w.sides[0])]);
+      return is_wanted(in_.sides.of_element[w.element][w.sides[0]]);
     };
     const auto first = [&](auto is_wanted) {
       return std::find_if(codes.begin(), codes.end(), [&](auto code) { return has(code, is_wanted); });
     };
-    if (first([&](local_id side) { return is_interface_[at(side)]; }) == codes.end())
+    if (first([&](local_id side) { return is_interface_[side]; }) == codes.end())
       return;                   // nor is the last side of an open fan one: it is fixed
     auto begin = codes.begin(); // of an open fan a fixed side
     if (is_closed) {
@@ -186,14 +185,14 @@ private:
       return;
     std::array<local_id, 2> edge{no_id, no_id};
     std::copy(ridge.begin(), ridge.end(), edge.begin());
-    const vec3 place = midpoint(in_.mesh.points[at(ridge.front())], in_.mesh.points[at(ridge.back())]);
+    const vec3 place = midpoint(in_.mesh.points[ridge.front()], in_.mesh.points[ridge.back()]);
     const bool is_refused =
         cause_at(run.from) == violation_cause::refused || cause_at(run.to) == violation_cause::refused;
     const bool is_small = collector_.add_dihedral(
         {angle_of(run, edge[0]), {run.from, run.to}, edge}, is_fixed(run.from) || is_fixed(run.to),
         is_refused ? violation_cause::refused : violation_cause::remeshing, part(run.element), place);
     if (D == 2 && is_small && !in_.mesh.tags.empty())
-      collector_.found.violations.back().cad = {{2, in_.mesh.tags[at(run.element)]}};
+      collector_.found.violations.back().cad = {{2, in_.mesh.tags[run.element]}};
   }
 
   double angle_of(const passage& run, local_id vertex) const {
@@ -282,7 +281,7 @@ private:
   void require_flaps(const std::array<local_id, 2>& edge) const {
     constexpr double rounding = 1e-9;
     const std::size_t count = flaps_.size();
-    const auto points = [&](const flap& f) { return fine_.sides[static_cast<std::size_t>(f.triangle)]; };
+    const auto points = [&](const flap& f) { return fine_.sides[f.triangle]; };
     for (std::size_t k = 0; k < count; ++k) {
       const flap& before = flaps_[(k + count - 1) % count];
       const flap& here = flaps_[k];
@@ -305,15 +304,14 @@ private:
   }
 
   bool is_fixed(local_id t) const {
-    const auto [behind, front] = fine_.subdomains[static_cast<std::size_t>(t)];
-    return fine_.side_hosts[static_cast<std::size_t>(t)] != no_id || front == no_id || front == behind;
+    const auto [behind, front] = fine_.subdomains[t];
+    return fine_.side_hosts[t] != no_id || front == no_id || front == behind;
   }
   violation_cause cause_of(local_id a, local_id b) const {
-    const bool is_refused = !refused_.empty() && (refused_[static_cast<std::size_t>(a)] != 0 ||
-                                                  refused_[static_cast<std::size_t>(b)] != 0);
+    const bool is_refused = !refused_.empty() && (refused_[a] != 0 || refused_[b] != 0);
     return is_refused ? violation_cause::refused : violation_cause::remeshing;
   }
-  vec3 at(local_id v) const { return fine_.points[static_cast<std::size_t>(v)]; }
+  vec3 at(local_id v) const { return fine_.points[v]; }
 
   void measure_dihedrals(const std::array<local_id, 2>& edge, std::span<const std::uint32_t> half_edges) {
     const bool all_fixed = std::all_of(half_edges.begin(), half_edges.end(), [&](std::uint32_t h) {

@@ -36,7 +36,7 @@ public:
     sort_unique(places_);
     std::vector<local_id> part(pieces_.graph.node_weights.size());
     for (std::size_t e = 0; e < part_of_element.size(); ++e)
-      part[index(super_of(e))] = part_of_element[e];
+      part[super_of(e)] = part_of_element[e];
     std::vector<double> limits = part_weights(pieces_.graph, part, parts);
     for (double& limit : limits)
       limit *= growth;
@@ -47,7 +47,7 @@ public:
       if (!is_avoided(place, reassignable))
         avoid(place, reassignable, repair);
     for (std::size_t e = 0; e < part_of_element.size(); ++e)
-      part_of_element[e] = part[index(super_of(e))];
+      part_of_element[e] = part[super_of(e)];
     return reassignable.assignments();
   }
 
@@ -66,17 +66,13 @@ private:
   };
 
   template <class Id>
-  static std::size_t index(Id id) {
-    return static_cast<std::size_t>(id);
-  }
-  template <class Id>
   local_id super_of(Id element) const {
-    return pieces_.super_of_element[index(element)];
+    return pieces_.super_of_element[element];
   }
 
   bool is_avoided(const std::vector<local_id>& place, const reassignable_parts<D>& parts) const {
     return std::any_of(place.begin(), place.end(), [&](local_id side) {
-      const auto& [a, b] = sides_.elements[index(side)];
+      const auto& [a, b] = sides_.elements[side];
       return parts.part_of(super_of(a)) == parts.part_of(super_of(b));
     });
   }
@@ -88,11 +84,11 @@ private:
   void avoid(const std::vector<local_id>& place, reassignable_parts<D>& parts, manifold_repair<D>& repair) {
     std::vector<move> single, several;
     for (const local_id side : place) {
-      const auto& [a, b] = sides_.elements[index(side)];
+      const auto& [a, b] = sides_.elements[side];
       for (const auto& [super, to] : {std::pair(super_of(a), parts.part_of(super_of(b))),
                                       std::pair(super_of(b), parts.part_of(super_of(a)))}) {
         single.push_back({{super}, to});
-        const auto& points = sides_.vertices[index(side)];
+        const auto& points = sides_.vertices[side];
         for (const local_id& point : points)
           several.push_back({cluster_at({&point, 1}, super, parts), to});
         several.push_back({cluster_at(points, super, parts), to});

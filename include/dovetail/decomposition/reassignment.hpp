@@ -72,7 +72,7 @@ public:
         points_(points_of_supers()), counted_(mesh.points.size()), is_counted_(mesh.points.size(), 0),
         components_(graph, part) {
     for (local_id s = 0; s < super_count(); ++s) {
-      ++sizes_[index(part_of(s))];
+      ++sizes_[part_of(s)];
       join_border_if_there(s);
     }
     for (std::size_t p = 0; p < limits_.size(); ++p)
@@ -85,29 +85,29 @@ public:
   /// The elements around a point.
   std::span<const local_id> elements_at(local_id point) const { return defects_.around()[point]; }
   /// The super-element that an element is in.
-  local_id super_of(local_id element) const { return super_[index(element)]; }
+  local_id super_of(local_id element) const { return super_[element]; }
   std::size_t point_count() const { return mesh_.points.size(); } ///< points of the mesh
   local_id super_count() const { return graph_.node_count(); }    ///< how many super-elements there are
   /// The part that a super-element is in now.
-  local_id part_of(local_id super) const { return part_[index(super)]; }
+  local_id part_of(local_id super) const { return part_[super]; }
   /// The part that each super-element is in now.
   std::span<const local_id> part_of_supers() const { return part_; }
   std::size_t part_count() const { return weights_.size(); } ///< how many parts there are
   /// The sum of its elements' weights.
-  double weight_of_part(local_id part) const { return weights_[index(part)]; }
+  double weight_of_part(local_id part) const { return weights_[part]; }
   /// Above it a part is overweight.
-  double limit_of_part(local_id part) const { return limits_[index(part)]; }
+  double limit_of_part(local_id part) const { return limits_[part]; }
   /// May super-elements of this weight be moved just because something else cuts them off?
   bool is_light(double weight, local_id part) const {
     constexpr double light_fraction = 0.1;
     return weight <= light_fraction * limit_of_part(part);
   }
   /// Whether a part is overweight.
-  bool is_over_limit(local_id part) const { return weights_[index(part)] > limits_[index(part)]; }
+  bool is_over_limit(local_id part) const { return weights_[part] > limits_[part]; }
   /// The parts over their limits.
   const std::set<local_id>& overweight() const { return overweight_; }
   /// The super-elements of a part that have neighbours in other parts, in no order.
-  std::span<const local_id> border_of(local_id part) const { return span_of(borders_[index(part)]); }
+  std::span<const local_id> border_of(local_id part) const { return span_of(borders_[part]); }
 
   /// Gives super-elements of one part to another.
   void assign(std::span<const local_id> supers, local_id to) {
@@ -140,17 +140,17 @@ public:
     partition_standing now = standing_;
     now.excess = 0;
     for (const local_id p : overweight_)
-      now.excess += weights_[index(p)] - limits_[index(p)];
+      now.excess += weights_[p] - limits_[p];
     return now;
   }
 
   /// Boundary defects at a point, or at several.
   defect_count defects_at(local_id point) {
-    if (is_counted_[index(point)] == 0) {
-      counted_[index(point)] = count_at(point);
-      is_counted_[index(point)] = 1;
+    if (is_counted_[point] == 0) {
+      counted_[point] = count_at(point);
+      is_counted_[point] = 1;
     }
-    return counted_[index(point)];
+    return counted_[point];
   }
   defect_count defects_at(std::span<const local_id> points) {
     defect_count total;
@@ -168,11 +168,11 @@ public:
     if (!is_enough(removed))
       return removed;
     for (const local_id s : supers)
-      part_[index(s)] = to;
+      part_[s] = to;
     for (std::size_t k = 0; k < points.size() && is_enough(removed); ++k)
       removed = removed - count_at(points[k]);
     for (const local_id s : supers)
-      part_[index(s)] = from;
+      part_[s] = from;
     return removed;
   }
 
@@ -189,7 +189,7 @@ public:
   std::vector<local_id> supers_at(local_id point) const {
     std::vector<local_id> supers;
     for (const local_id e : defects_.around()[point])
-      supers.push_back(super_[index(e)]);
+      supers.push_back(super_[e]);
     sort_unique(supers);
     return supers;
   }
@@ -209,7 +209,7 @@ public:
     double added = 0;
     for (const local_id s : supers) {
       const auto row = graph_.row(s);
-      const auto begin = index(graph_.offsets[index(s)]);
+      const std::size_t begin = graph_.offsets[s];
       for (std::size_t k = 0; k < row.size(); ++k) {
         if (std::find(supers.begin(), supers.end(), row[k]) != supers.end())
           continue;
@@ -224,14 +224,14 @@ public:
   double weight_of(std::span<const local_id> supers) const {
     double total = 0;
     for (const local_id s : supers)
-      total += graph_.node_weights[index(s)];
+      total += graph_.node_weights[s];
     return total;
   }
 
   /// Does the part of these super-elements (which are all of one part) stay connected and non-empty without
   /// them? Mostly a few steps.
   bool keeps_connected(std::span<const local_id> supers) {
-    return sizes_[index(part_of(supers[0]))] > supers.size() && components_.stays_connected(supers);
+    return sizes_[part_of(supers[0])] > supers.size() && components_.stays_connected(supers);
   }
   /// What the part of these super-elements falls into without them, but for its heaviest component.
   std::vector<local_id> components_cut_off_by(std::span<const local_id> supers) {
@@ -239,11 +239,6 @@ public:
   }
 
 private:
-  template <class Id>
-  static std::size_t index(Id id) {
-    return static_cast<std::size_t>(id);
-  }
-
   /// The points of each super-element, growing, where others meet it or the mesh ends: at all others no
   /// partition has a defect.
   compressed_rows<local_id> points_of_supers() const {
@@ -262,31 +257,31 @@ private:
   }
 
   defect_count count_at(local_id point) {
-    return defects_.count_at(point, [this](local_id e) { return part_[index(super_[index(e)])]; });
+    return defects_.count_at(point, [this](local_id e) { return part_[super_[e]]; });
   }
 
   void put(local_id super, local_id to) {
     const local_id from = part_of(super);
-    const double weight = graph_.node_weights[index(super)];
+    const double weight = graph_.node_weights[super];
     leave_border(super);
-    part_[index(super)] = to;
-    --sizes_[index(from)];
-    ++sizes_[index(to)];
+    part_[super] = to;
+    --sizes_[from];
+    ++sizes_[to];
     change_weight(from, -weight);
     change_weight(to, weight);
     for (const local_id other : graph_.row(super)) {
       const local_id p = part_of(other);
-      if (p == from && foreign_neighbours_[index(other)]++ == 0)
+      if (p == from && foreign_neighbours_[other]++ == 0)
         join_border(other);
-      else if (p == to && --foreign_neighbours_[index(other)] == 0)
+      else if (p == to && --foreign_neighbours_[other] == 0)
         leave_border(other);
     }
     join_border_if_there(super);
     for (const local_id v : points_[super])
-      is_counted_[index(v)] = 0;
+      is_counted_[v] = 0;
   }
   void change_weight(local_id part, double by) {
-    weights_[index(part)] += by;
+    weights_[part] += by;
     if (is_over_limit(part))
       overweight_.insert(part);
     else
@@ -295,23 +290,23 @@ private:
 
   void join_border_if_there(local_id super) {
     const auto row = graph_.row(super);
-    foreign_neighbours_[index(super)] = static_cast<local_id>(std::count_if(
+    foreign_neighbours_[super] = static_cast<local_id>(std::count_if(
         row.begin(), row.end(), [&](local_id other) { return part_of(other) != part_of(super); }));
-    if (foreign_neighbours_[index(super)] > 0)
+    if (foreign_neighbours_[super] > 0)
       join_border(super);
   }
   void join_border(local_id super) {
-    auto& border = borders_[index(part_of(super))];
-    place_in_border_[index(super)] = static_cast<local_id>(border.size());
+    auto& border = borders_[part_of(super)];
+    place_in_border_[super] = static_cast<local_id>(border.size());
     border.push_back(super);
   }
   void leave_border(local_id super) {
-    local_id& place = place_in_border_[index(super)];
+    local_id& place = place_in_border_[super];
     if (place == no_id)
       return;
-    auto& border = borders_[index(part_of(super))];
-    place_in_border_[index(border.back())] = place;
-    border[index(place)] = border.back();
+    auto& border = borders_[part_of(super)];
+    place_in_border_[border.back()] = place;
+    border[place] = border.back();
     border.pop_back();
     place = no_id;
   }

@@ -46,7 +46,7 @@ private:
     for (const local_id q : rank) {
       if (q < 0 || q >= ranks)
         refuse("gave a piece to rank " + std::to_string(q) + " of " + std::to_string(ranks));
-      has_piece[static_cast<std::size_t>(q)] = true;
+      has_piece[q] = true;
     }
     if (const auto at = std::find(has_piece.begin(), has_piece.end(), false);
         at != has_piece.end() && pieces >= has_piece.size())

@@ -70,12 +70,12 @@ inline void join_strays_within(const csr_graph& graph, const labelled_components
     shares.try_emplace({part[v], components.of_node[v]}, static_cast<local_id>(shares.size()));
   std::vector<local_id> share(part.size()), part_of_share(shares.size());
   for (const auto& [key, number] : shares)
-    part_of_share[static_cast<std::size_t>(number)] = key.first;
+    part_of_share[number] = key.first;
   for (std::size_t v = 0; v < part.size(); ++v)
     share[v] = shares.at({part[v], components.of_node[v]});
   join_stray_components(graph, share, static_cast<int>(shares.size()));
   for (std::size_t v = 0; v < part.size(); ++v)
-    part[v] = part_of_share[static_cast<std::size_t>(share[v])];
+    part[v] = part_of_share[share[v]];
 }
 
 /// Makes parts connected where the graph is, as even as wanted where that can be.
@@ -122,7 +122,6 @@ public:
   }
 
 private:
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   std::size_t old_pieces() const { return mesh_.counts.size(); }
 
   void simplify_pieces() {
@@ -168,7 +167,7 @@ private:
     const auto for_each_super = [&](const auto& visit) {
       for (std::size_t p = 0; p < old_pieces(); ++p)
         for (local_id s = joined_.first_of_piece[p]; s < joined_.first_of_piece[p + 1]; ++s)
-          visit(p, index(s));
+          visit(p, static_cast<std::size_t>(s));
     };
     std::map<std::pair<local_id, local_id>, local_id> labels; // of rank and material
     std::vector<local_id> label(rank_of_super_.size());
@@ -190,7 +189,7 @@ private:
     sources_.resize(materials_.size());
     for_each_super([&](std::size_t p, std::size_t s) {
       const local_id to = piece_of_super_[s] = numbers[{rank_of_super_[s], material_of(p), parts.of_node[s]}];
-      if (auto& from = sources_[index(to)]; from.empty() || from.back() != static_cast<local_id>(p))
+      if (auto& from = sources_[to]; from.empty() || from.back() != static_cast<local_id>(p))
         from.push_back(static_cast<local_id>(p));
     });
     summary_.children.push_back({"partition", clock.seconds(), {}, {}, {}});
@@ -198,9 +197,9 @@ private:
 
   /// In a task: where the elements of an old piece go.
   moves_of_piece moves_of(local_id p) const {
-    auto supers = store_->template value<elements_of_supers>(keys_[index(p)]);
+    auto supers = store_->template value<elements_of_supers>(keys_[p]);
     for (local_id& at : supers.super_of_element)
-      at = piece_of_super_[index(joined_.first_of_piece[index(p)] + at)];
+      at = piece_of_super_[joined_.first_of_piece[p] + at];
     return {std::move(supers.super_of_element), std::move(supers.refused)};
   }
 
@@ -210,11 +209,11 @@ private:
     moves.sources = sources_;
     moves.sizes.assign(materials_.size(), 0);
     for (std::size_t s = 0; s < piece_of_super_.size(); ++s)
-      moves.sizes[index(piece_of_super_[s])] += static_cast<global_id>(joined_.graph.node_weights[s]);
+      moves.sizes[piece_of_super_[s]] += static_cast<global_id>(joined_.graph.node_weights[s]);
     moves.beside = joined_.at_side;
     for (auto& pair : moves.beside)
       for (local_id& at : pair)
-        at = at == no_id ? no_id : piece_of_super_[index(at)];
+        at = at == no_id ? no_id : piece_of_super_[at];
     moves.penalty_of_side = joined_.penalty_of_side;
     moves.of_piece = [this](local_id p) { return moves_of(p); };
     key_maker all;
@@ -238,7 +237,7 @@ private:
         components_within(joined_.graph, std::vector<local_id>(rank_of_super_.size(), 0));
     std::vector<std::set<std::array<local_id, 2>>> shares(static_cast<std::size_t>(ranks_));
     for (std::size_t s = 0; s < rank_of_super_.size(); ++s)
-      shares[index(rank_of_super_[s])].insert({of_all.of_node[s], of_ranks.of_node[s]});
+      shares[rank_of_super_[s]].insert({of_all.of_node[s], of_ranks.of_node[s]});
     auto counts = described.template as<redistribution_counts>();
     counts.disconnected_ranks = std::count_if(shares.begin(), shares.end(), [](const auto& of_rank) {
       return std::adjacent_find(of_rank.begin(), of_rank.end(),

@@ -24,7 +24,7 @@ public:
         members_(static_cast<std::size_t>(parts)) {
     allowed_ = imbalance * std::accumulate(weights_.begin(), weights_.end(), 0.0) / parts;
     for (std::size_t v = 0; v < part.size(); ++v)
-      members_[index(part[v])].push_back(static_cast<local_id>(v));
+      members_[part[v]].push_back(static_cast<local_id>(v));
   }
 
   void run() {
@@ -32,8 +32,8 @@ public:
       changed = false;
       std::vector<local_id> order(weights_.size());
       std::iota(order.begin(), order.end(), local_id{0});
-      stable_sort_all(order, [&](local_id a, local_id b) { return weights_[index(a)] > weights_[index(b)]; });
-      if (weights_[index(order.front())] <= allowed_)
+      stable_sort_all(order, [&](local_id a, local_id b) { return weights_[a] > weights_[b]; });
+      if (weights_[order.front()] <= allowed_)
         return;
       for (std::size_t i = 0; !changed && i < order.size(); ++i)
         changed = relieve(order[i]);
@@ -47,13 +47,11 @@ private:
     local_id to = no_id;
     local_id back = no_id; ///< what comes in exchange, or no_id
   };
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
-  double weight(local_id node) const { return graph_.node_weights[index(node)]; }
+  double weight(local_id node) const { return graph_.node_weights[node]; }
 
   bool is_beside(local_id node, local_id part, local_id without = no_id) const {
     const auto row = graph_.row(node);
-    return std::any_of(row.begin(), row.end(),
-                       [&](local_id w) { return w != without && part_[index(w)] == part; });
+    return std::any_of(row.begin(), row.end(), [&](local_id w) { return w != without && part_[w] == part; });
   }
 
   std::size_t components_of(std::vector<local_id> nodes) const {
@@ -70,7 +68,7 @@ private:
   }
   /// Whether a part is left with a node, and no more in pieces, when `out` has gone and `in` has come.
   bool stays_whole(local_id part, local_id out, local_id in) const {
-    auto nodes = members_[index(part)];
+    auto nodes = members_[part];
     const std::size_t before = components_of(nodes);
     std::erase(nodes, out);
     if (in != no_id)
@@ -86,20 +84,20 @@ private:
     std::vector<step> steps;
     const auto offer = [&](local_id out, local_id to, local_id back) {
       const double by = weight(out) - (back == no_id ? 0 : weight(back));
-      const double gain = by * (weights_[index(from)] - weights_[index(to)] - by);
+      const double gain = by * (weights_[from] - weights_[to] - by);
       if (by > 0 && gain > 1e-9 * allowed_ * allowed_)
         steps.push_back({gain, out, to, back});
     };
     std::vector<local_id> targets;
-    for (const local_id v : members_[index(from)]) {
+    for (const local_id v : members_[from]) {
       targets.clear();
       for (const local_id w : graph_.row(v))
-        if (const local_id p = part_[index(w)]; p != from && weights_[index(p)] < weights_[index(from)])
+        if (const local_id p = part_[w]; p != from && weights_[p] < weights_[from])
           targets.push_back(p);
       sort_unique(targets);
       for (const local_id to : targets) {
         offer(v, to, no_id);
-        for (const local_id back : members_[index(to)])
+        for (const local_id back : members_[to])
           if (is_beside(back, from, v))
             offer(v, to, back);
       }
@@ -118,11 +116,11 @@ private:
   }
 
   void move(local_id node, local_id from, local_id to) {
-    std::erase(members_[index(from)], node);
-    members_[index(to)].push_back(node);
-    weights_[index(from)] -= weight(node);
-    weights_[index(to)] += weight(node);
-    part_[index(node)] = to;
+    std::erase(members_[from], node);
+    members_[to].push_back(node);
+    weights_[from] -= weight(node);
+    weights_[to] += weight(node);
+    part_[node] = to;
   }
 
   const csr_graph& graph_;

@@ -65,7 +65,7 @@ std::vector<piece_cut<D>> cut_old_pieces(const distributed_simplicial_mesh<D>& m
                                          const std::vector<local_id>& to_cut, const kept_tasks& tasks) {
   std::vector<global_id> sizes;
   for (const local_id p : to_cut)
-    sizes.push_back(mesh.counts[static_cast<std::size_t>(p)].elements);
+    sizes.push_back(mesh.counts[p].elements);
   std::vector<piece_cut<D>> cuts(mesh.counts.size());
   tasks.run(
       "cutting pieces", sizes,
@@ -77,7 +77,7 @@ std::vector<piece_cut<D>> cut_old_pieces(const distributed_simplicial_mesh<D>& m
         const auto on_skeleton = find_skeleton_sides<D>(piece, table, mesh.skeleton, sides[p]);
         return cut_piece<D>(piece, table, on_skeleton, goes_to.new_piece_of_element, goes_to.refused);
       },
-      [&](std::size_t k, piece_cut<D> cut) { cuts[static_cast<std::size_t>(to_cut[k])] = std::move(cut); });
+      [&](std::size_t k, piece_cut<D> cut) { cuts[to_cut[k]] = std::move(cut); });
   return cuts;
 }
 
@@ -87,8 +87,7 @@ simplicial_piece<D> gather_elements(const distributed_simplicial_mesh<D>& mesh, 
                                     const std::vector<std::vector<local_id>>& own_points, std::size_t n) {
   gathered_piece<D> gathered(static_cast<local_id>(n), moves.materials[n]);
   for (const local_id p : moves.sources[n])
-    gathered.add(io::load_checked(mesh, p), moves.of_piece(p).new_piece_of_element, made,
-                 own_points[static_cast<std::size_t>(p)]);
+    gathered.add(io::load_checked(mesh, p), moves.of_piece(p).new_piece_of_element, made, own_points[p]);
   return gathered.finish(made.fine);
 }
 
@@ -109,7 +108,7 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
   std::vector<int> targets(mesh.counts.size(), 0);
   for (const auto& from : moves.sources)
     for (const local_id p : from)
-      ++targets[static_cast<std::size_t>(p)];
+      ++targets[p];
   std::vector<local_id> to_cut; // the others go to one new piece as they are
   for (std::size_t p = 0; p < targets.size(); ++p)
     if (targets[p] > 1)

@@ -31,7 +31,7 @@ inline void improve_inside(mesh_piece& piece, const fine_skeleton& skeleton, std
   frozen_entities<3> frozen;
   frozen.points = static_cast<local_id>(piece.skeleton_points.size());
   for (const local_id side : find_skeleton_sides<3>(piece, table, skeleton, listed).sides)
-    frozen.sides.push_back(table.vertices[static_cast<std::size_t>(side)]);
+    frozen.sides.push_back(table.vertices[side]);
   improve(piece.mesh, frozen, size);
   piece.mesh.tags.clear(); // the piece's material is that of all its elements
   if (const auto faults = io::check_piece<3>(piece, skeleton, listed); !faults.valid())

@@ -42,10 +42,10 @@ template <int D>
 piece_cut<D> cut_piece(const simplicial_piece<D>& piece, const side_table<D>& table,
                        const sides_of_piece& on_skeleton, std::span<const local_id> new_piece_of_element,
                        std::span<const local_id> refused) {
-  const auto goes_to = [&](local_id e) { return new_piece_of_element[static_cast<std::size_t>(e)]; };
+  const auto goes_to = [&](local_id e) { return new_piece_of_element[e]; };
   std::vector<std::uint8_t> is_old(table.size(), 0);
   for (const local_id s : on_skeleton.sides)
-    is_old[static_cast<std::size_t>(s)] = 1;
+    is_old[s] = 1;
   piece_cut<D> cut;
   std::vector<local_id> hosts_of(piece.mesh.points.size(), no_id); // an element at each own point
   for (std::size_t s = 0; s < table.size(); ++s) {
@@ -57,7 +57,7 @@ piece_cut<D> cut_piece(const simplicial_piece<D>& piece, const side_table<D>& ta
     cut.subdomains.push_back({goes_to(a), goes_to(b)});
     cut.refused.push_back(std::binary_search(refused.begin(), refused.end(), side) ? 1 : 0);
     for (const local_id v : table.vertices[s])
-      hosts_of[static_cast<std::size_t>(v)] = a;
+      hosts_of[v] = a;
   }
   for (std::size_t v = piece.skeleton_points.size(); v < hosts_of.size(); ++v)
     if (hosts_of[v] != no_id) {
@@ -69,7 +69,7 @@ piece_cut<D> cut_piece(const simplicial_piece<D>& piece, const side_table<D>& ta
   for (auto& side : cut.sides)
     for (local_id& v : side)
       v = static_cast<std::size_t>(v) < piece.skeleton_points.size()
-              ? piece.skeleton_points[static_cast<std::size_t>(v)]
+              ? piece.skeleton_points[v]
               : static_cast<local_id>(cut.points.begin() -
                                       std::lower_bound(cut.points.begin(), cut.points.end(), v)) -
                     1;
@@ -99,7 +99,7 @@ new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
   const auto keep = [&](const simplex<D - 1>& side) {
     for (const local_id v : side)
       if (v >= 0)
-        made.number[static_cast<std::size_t>(v)] = 0;
+        made.number[v] = 0;
   };
   std::vector<std::size_t> kept;
   for (std::size_t s = 0; s < old.sides.size(); ++s)
@@ -124,7 +124,7 @@ new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
   const auto add = [&](simplex<D - 1> side, local_id first_own, const std::array<local_id, 2>& subdomains,
                        local_id on, bool avoided) {
     for (local_id& v : side)
-      v = v < 0 ? first_own - v - 1 : made.number[static_cast<std::size_t>(v)];
+      v = v < 0 ? first_own - v - 1 : made.number[v];
     fine.sides.own().push_back(side);
     fine.subdomains.own().push_back(subdomains);
     fine.side_hosts.own().push_back(on);
@@ -140,7 +140,7 @@ new_skeleton<D> join_cuts(const simplicial_skeleton<D>& old,
   for (std::size_t c = 0; c < old.curve_edges.size(); ++c) {
     simplex<1> edge = old.curve_edges[c];
     for (local_id& v : edge)
-      v = made.number[static_cast<std::size_t>(v)];
+      v = made.number[v];
     if (edge[0] == no_id || edge[1] == no_id)
       continue;
     fine.curve_edges.push_back(edge);
@@ -167,13 +167,12 @@ public:
     const auto find_place = [&](std::size_t v) {
       if (v < shared) {
         const local_id before = old.skeleton_points[v];
-        const local_id now = skeleton.number[static_cast<std::size_t>(before)];
+        const local_id now = skeleton.number[before];
         return now != no_id ? -2 - now : add_seam_point(before, old.mesh.points[v]);
       }
       const auto on = std::lower_bound(own.begin(), own.end(), static_cast<local_id>(v));
       if (on != own.end() && *on == static_cast<local_id>(v))
-        return -2 - (skeleton.first_of_cut[static_cast<std::size_t>(old.subdomain)] +
-                     static_cast<local_id>(on - own.begin()));
+        return -2 - (skeleton.first_of_cut[old.subdomain] + static_cast<local_id>(on - own.begin()));
       return add_point(old.mesh.points[v]);
     };
     for (std::size_t e = 0; e < old.mesh.elements.size(); ++e) {
@@ -181,7 +180,7 @@ public:
         continue;
       simplex<D> element = old.mesh.elements[e];
       for (local_id& v : element) {
-        local_id& at = place[static_cast<std::size_t>(v)];
+        local_id& at = place[v];
         if (at == no_id)
           at = find_place(static_cast<std::size_t>(v));
         v = at;
@@ -209,7 +208,7 @@ public:
                       : count + v;
     auto& points = piece_.mesh.points;
     for (const local_id s : shared)
-      points.push_back(skeleton.points[static_cast<std::size_t>(s)]);
+      points.push_back(skeleton.points[s]);
     append(points, own_points_);
     if (piece_.mesh.tags.size() != elements.size())
       piece_.mesh.tags.clear();

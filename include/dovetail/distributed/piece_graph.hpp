@@ -31,14 +31,13 @@ csr_graph piece_graph(const distributed_simplicial_mesh<D>& mesh) {
     const auto [behind, front] = mesh.skeleton.subdomains[s];
     for (const local_id p : {behind, front})
       for (std::size_t k = 0; p != no_id && k < static_cast<std::size_t>(D); ++k) {
-        graph.positions[static_cast<std::size_t>(p)] +=
-            mesh.skeleton.points[static_cast<std::size_t>(mesh.skeleton.sides[s][k])];
-        points[static_cast<std::size_t>(p)] += 1;
+        graph.positions[p] += mesh.skeleton.points[mesh.skeleton.sides[s][k]];
+        points[p] += 1;
       }
     if (front == no_id || front == behind)
       continue;
-    rows[static_cast<std::size_t>(behind)][front] += 1;
-    rows[static_cast<std::size_t>(front)][behind] += 1;
+    rows[behind][front] += 1;
+    rows[front][behind] += 1;
   }
   for (std::size_t p = 0; p < pieces; ++p) {
     for (const auto& [other, sides] : rows[p]) {
@@ -78,15 +77,15 @@ inline report describe_redistribution(const csr_graph& pieces, const std::vector
   std::vector<std::set<local_id>> neighbours(static_cast<std::size_t>(ranks));
   for (local_id p = 0; p < pieces.node_count(); ++p)
     for (const local_id other : pieces.row(p))
-      if (const auto q = rank[static_cast<std::size_t>(p)]; q != rank[static_cast<std::size_t>(other)])
-        neighbours[static_cast<std::size_t>(q)].insert(rank[static_cast<std::size_t>(other)]);
+      if (const auto q = rank[p]; q != rank[other])
+        neighbours[q].insert(rank[other]);
   std::size_t most = 0;
   for (const auto& of_rank : neighbours)
     most = std::max(most, of_rank.size());
   const labelled_components components = components_within(pieces, rank);
   std::vector<std::set<local_id>> of_rank(static_cast<std::size_t>(ranks));
   for (std::size_t p = 0; p < rank.size(); ++p)
-    of_rank[static_cast<std::size_t>(rank[p])].insert(components.of_node[p]);
+    of_rank[rank[p]].insert(components.of_node[p]);
   summary.set(redistribution_counts{
       .ranks = ranks,
       .pieces = pieces.node_count(),

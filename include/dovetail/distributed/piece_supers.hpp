@@ -35,7 +35,7 @@ std::vector<vec3> centres_of_elements(const simplicial_mesh<D>& mesh) {
   for (const auto& element : mesh.elements) {
     vec3 sum{};
     for (const local_id v : element)
-      sum += mesh.points[static_cast<std::size_t>(v)];
+      sum += mesh.points[v];
     centres.push_back(sum / (D + 1.0));
   }
   return centres;
@@ -53,7 +53,7 @@ inline std::vector<double> penalties_of_sides(std::span<const local_id> sides, c
   std::vector<double> penalties;
   for (const local_id side : sides) {
     double penalty = 1;
-    const double quality = judged.quality[static_cast<std::size_t>(side)];
+    const double quality = judged.quality[side];
     if (quality < judged.wanted_quality)
       penalty = std::max(penalty, rule.penalty({quality, judged.wanted_quality}));
     if (const auto dihedral = worst.find(side); dihedral != worst.end())
@@ -75,7 +75,7 @@ simplify_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& s
   const sides_of_piece on_skeleton = find_skeleton_sides<D>(piece, table, skeleton, listed);
   auto fixed = detail::fixed_inside<D>(piece.mesh, table, {});
   for (const local_id side : on_skeleton.sides)
-    fixed[static_cast<std::size_t>(side)] = 1;
+    fixed[side] = 1;
   const side_judgement judged = rule(piece.mesh, table);
   const contraction_bound bound{.subdomains = static_cast<double>(most), .fraction = 1.5};
   simplification simplified =
@@ -90,14 +90,14 @@ simplify_piece(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& s
   known.graph = std::move(simplified.graph);
   for (coarsened_graph& level : coarsened_levels(known.graph, 1, {.coarse_nodes_per_part = most})) {
     for (local_id& super : supers.super_of_element)
-      super = level.node_of[static_cast<std::size_t>(super)];
+      super = level.node_of[super];
     known.graph = std::move(level.graph);
   }
   const auto centres = detail::centres_of_elements(piece.mesh);
   known.graph.positions =
       mean_positions(span_of(centres), span_of(supers.super_of_element), known.graph.node_count());
   for (const local_id e : on_skeleton.elements)
-    known.super_at_side.push_back(supers.super_of_element[static_cast<std::size_t>(e)]);
+    known.super_at_side.push_back(supers.super_of_element[e]);
   return result;
 }
 

@@ -51,13 +51,13 @@ inline std::vector<int> ranks_in_turn(const std::vector<int>& ranks, const std::
                                       std::size_t turn) {
   std::vector<std::int32_t> processors;
   for (const int r : ranks)
-    append(processors, places[static_cast<std::size_t>(r)].processors);
+    append(processors, places[r].processors);
   sort_unique(processors);
   auto free = static_cast<std::int64_t>(processors.size());
   std::vector<int> chosen;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const int r = ranks[(turn + i) % ranks.size()];
-    const rank_place& place = places[static_cast<std::size_t>(r)];
+    const rank_place& place = places[r];
     free -= std::min<std::int64_t>(place.workers, std::ssize(place.processors));
     if (free < 0 && !chosen.empty())
       break;
@@ -75,7 +75,7 @@ inline std::vector<std::int32_t> workers_at_work(const std::vector<rank_place>& 
   std::vector<std::int32_t> workers(places.size(), 0);
   for (const auto& [machine, ranks] : of_machine)
     for (const int r : ranks_in_turn(ranks, places, turn))
-      workers[static_cast<std::size_t>(r)] = places[static_cast<std::size_t>(r)].workers;
+      workers[r] = places[r].workers;
   return workers;
 }
 

@@ -28,7 +28,7 @@ public:
     deal(workers);
     mine_ = granted_.size();
     for (int r = 1; r < network_.size(); ++r)
-      if (workers[static_cast<std::size_t>(r)] == 0) {
+      if (workers[r] == 0) {
         idle_.push_back(r);
         unanswered_ += r == network_.rank() ? 1 : 0;
       }

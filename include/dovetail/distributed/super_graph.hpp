@@ -28,7 +28,7 @@ template <int D>
 bool is_behind(const simplicial_skeleton<D>& skeleton, std::span<const local_id> listed, std::size_t i,
                local_id subdomain) {
   const bool second_of_sheet = i > 0 && listed[i - 1] == listed[i];
-  return skeleton.subdomains[static_cast<std::size_t>(listed[i])][0] == subdomain && !second_of_sheet;
+  return skeleton.subdomains[listed[i]][0] == subdomain && !second_of_sheet;
 }
 
 /// The sides of the skeleton that bound a piece, in the order of `sides_of_subdomains`, as the piece has
@@ -54,7 +54,7 @@ sides_of_piece find_skeleton_sides(const simplicial_piece<D>& piece, const side_
     for (const local_id e : table.all_elements(side)) {
       auto outwards = side_of_element(piece.mesh, table, side, e);
       for (local_id& v : outwards)
-        v = piece.skeleton_points[static_cast<std::size_t>(v)];
+        v = piece.skeleton_points[v];
       found.push_back({io::detail::make_oriented<D>(outwards, e).vertices, {side, e}});
     }
   }

@@ -14,15 +14,6 @@
 
 namespace dovetail {
 
-/// What a writer counts.
-struct written_counts {
-  global_id elements = 0;
-  std::uint64_t bytes = 0;
-  std::size_t files = 0;
-
-  using fields = field_list<&written_counts::elements, &written_counts::bytes, &written_counts::files>;
-};
-
 /// The role `mesh_writer<W, D>`: a distributed mesh becomes files. D = 3 when it is not said.
 ///
 /// Valid expression for `const W& w`, `const distributed_simplicial_mesh<D>& mesh`,
@@ -32,7 +23,7 @@ struct written_counts {
 /// distributed_mesh.hpp. Besides the skeleton one piece is in memory at a time; `mesh.load` may be called
 /// more than once per piece. Files get their final names when all are complete.
 ///
-/// Complexity: linear in the size of the mesh. The report has `written_counts`.
+/// Complexity: linear in the size of the mesh. The report has `io::written_counts`.
 ///
 /// Failure: throws `io_error` naming the path when the folder cannot be written or the disk is full,
 /// `mesh_error` when pieces and skeleton disagree.

@@ -34,11 +34,9 @@ face_groups collect_face_groups(const distributed_simplicial_mesh<D>& mesh, std:
       name = mesh.face_names[f];
     if (name.empty())
       name = "face " + std::to_string(f);
-    const auto at =
-        std::lower_bound(by_name.begin(), by_name.end(), name, [&](local_id p, const std::string& n) {
-          return groups.names[static_cast<std::size_t>(p)] < n;
-        });
-    if (at != by_name.end() && groups.names[static_cast<std::size_t>(*at)] == name) {
+    const auto at = std::lower_bound(by_name.begin(), by_name.end(), name,
+                                     [&](local_id p, const std::string& n) { return groups.names[p] < n; });
+    if (at != by_name.end() && groups.names[*at] == name) {
       groups.of_face.push_back(*at);
       continue;
     }

@@ -245,7 +245,7 @@ void write_hdf5_skeleton(const std::filesystem::path& path, const distributed_si
     const auto groups = collect_face_groups(mesh);
     add("patch", [&](std::size_t t) {
       const auto face = skeleton.side_hosts[t];
-      return face == no_id ? no_id : groups.of_face[static_cast<std::size_t>(face)];
+      return face == no_id ? no_id : groups.of_face[face];
     });
     file->add("names/patches", groups.names);
   }

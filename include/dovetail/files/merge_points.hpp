@@ -25,7 +25,7 @@ std::vector<T> chosen(const std::vector<T>& values, const std::vector<local_id>&
   std::vector<T> result;
   result.reserve(choice.size());
   for (const auto i : choice)
-    result.push_back(values[static_cast<std::size_t>(i)]);
+    result.push_back(values[i]);
   return result;
 }
 

@@ -75,8 +75,8 @@ struct equal_points {
 /// Throws `input_error` when points with the same global id are at different places.
 inline equal_points find_equal_points(const std::vector<vec3>& points, const std::vector<global_id>& ids) {
   const bool numbered = ids.size() == points.size();
-  const auto at = [&](local_id v) { return points[static_cast<std::size_t>(v)]; };
-  const auto id = [&](local_id v) { return ids[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return points[v]; };
+  const auto id = [&](local_id v) { return ids[v]; };
   const auto key = [&](local_id v) { return std::tuple(at(v).x, at(v).y, at(v).z); };
   const auto same = [&](local_id a, local_id b) { return numbered ? id(a) == id(b) : at(a) == at(b); };
   equal_points result{std::vector<local_id>(points.size()), std::vector<local_id>(points.size())};
@@ -87,8 +87,8 @@ inline equal_points find_equal_points(const std::vector<vec3>& points, const std
   });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool repeated = i > 0 && same(order[i - 1], order[i]);
-    auto& first = result.first[static_cast<std::size_t>(order[i])];
-    first = repeated ? result.first[static_cast<std::size_t>(order[i - 1])] : order[i];
+    auto& first = result.first[order[i]];
+    first = repeated ? result.first[order[i - 1]] : order[i];
     if (repeated && at(first) != at(order[i]))
       throw input_error("two points have the global number " + std::to_string(id(first)) +
                         " but not the same coordinates");
@@ -102,17 +102,17 @@ DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
   const auto equal = detail::find_equal_points(mesh.mesh.points, mesh.node_ids);
   std::vector<local_id> kept;
   for (const auto v : equal.order)
-    if (equal.first[static_cast<std::size_t>(v)] == v)
+    if (equal.first[v] == v)
       kept.push_back(v);
   if (mesh.node_ids.empty())
     std::sort(kept.begin(), kept.end());
   std::vector<local_id> place(mesh.mesh.points.size(), no_id);
   for (std::size_t i = 0; i < kept.size(); ++i)
-    place[static_cast<std::size_t>(kept[i])] = static_cast<local_id>(i);
+    place[kept[i]] = static_cast<local_id>(i);
   const auto renumber = [&](auto& simplices) {
     for (auto& simplex : simplices)
       for (auto& v : simplex)
-        v = place[static_cast<std::size_t>(equal.first[static_cast<std::size_t>(v)])];
+        v = place[equal.first[v]];
   };
   renumber(mesh.mesh.elements);
   renumber(mesh.triangles);

@@ -81,7 +81,7 @@ inline msh_document<3> prepare_msh(const distributed_mesh& mesh, const global_nu
   for (std::size_t volume = 0; volume < subdomains.size(); ++volume) {
     element_block block{volume, std::move(subdomains[volume])};
     for (const local_id s : block.pieces)
-      block.elements += mesh.counts[static_cast<std::size_t>(s)].elements;
+      block.elements += mesh.counts[s].elements;
     if (block.elements > 0)
       document.blocks.push_back(std::move(block));
   }
@@ -155,7 +155,7 @@ void write_node_block(output_file& file, msh_encoder& out, const msh_document<D>
   for (const auto v : shared)
     node_tag(v);
   for (const auto s : subdomains)
-    for (auto id = document.numbers.first_point[static_cast<std::size_t>(s)];
+    for (auto id = document.numbers.first_point[s];
          id < document.numbers.first_point[static_cast<std::size_t>(s) + 1]; ++id)
       node_tag(id);
   for (const auto v : shared) {
@@ -227,8 +227,7 @@ std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document<D>& d
     write_block_head(out, 1, filing.tags[1][i], msh_type_of(1, quadratic),
                      static_cast<global_id>(edges.size()));
     for (const auto e : edges)
-      write_element(out, tag++,
-                    nodes_of(document, filing.entities.edges[static_cast<std::size_t>(e)].vertices));
+      write_element(out, tag++, nodes_of(document, filing.entities.edges[e].vertices));
   }
   for (std::size_t i = 0; D == 3 && i < filing.tags[2].size(); ++i) {
     const auto& triangles = filing.simplices[2][i];
@@ -237,7 +236,7 @@ std::uint64_t write_skeleton_elements(msh_encoder& out, const msh_document<D>& d
     write_block_head(out, 2, filing.tags[2][i], msh_type_of(2, quadratic),
                      static_cast<global_id>(triangles.size()));
     for (const auto t : triangles)
-      write_element(out, tag++, nodes_of(document, filing.entities.triangles[static_cast<std::size_t>(t)]));
+      write_element(out, tag++, nodes_of(document, filing.entities.triangles[t]));
   }
   return tag;
 }

@@ -77,7 +77,7 @@ inline int msh_type_of(int dimension, bool quadratic) {
                                            msh_type::tetrahedron};
   constexpr std::array<msh_type, 4> second{msh_type::point, msh_type::quadratic_line,
                                            msh_type::quadratic_triangle, msh_type::quadratic_tetrahedron};
-  return static_cast<int>((quadratic ? second : linear)[static_cast<std::size_t>(dimension)]);
+  return static_cast<int>((quadratic ? second : linear)[dimension]);
 }
 
 /// A physical group: what Gmsh calls a named set of entities of one dimension.

@@ -46,30 +46,29 @@ inline void collect_members(msh_entities& out, std::span<const vec3> points) {
   out.simplices[1].resize(entities.of_dimension[1].size());
   out.simplices[2].resize(entities.of_dimension[2].size());
   const auto include = [&](int dimension, local_id entity, local_id point) {
-    out.boxes[static_cast<std::size_t>(dimension)][static_cast<std::size_t>(entity)].include(
-        points[static_cast<std::size_t>(point)]);
+    out.boxes[dimension][entity].include(points[point]);
   };
   for (std::size_t v = 0; v < entities.of_point.size(); ++v)
     if (const auto at = entities.of_point[v]; at.id != no_id) {
       const auto point = static_cast<local_id>(v);
-      out.points[static_cast<std::size_t>(at.dimension)][static_cast<std::size_t>(at.id)].push_back(point);
+      out.points[at.dimension][at.id].push_back(point);
       include(at.dimension, at.id, point);
     }
   for (std::size_t e = 0; e < entities.edges.size(); ++e) {
     const auto& edge = entities.edges[e];
-    out.simplices[1][static_cast<std::size_t>(edge.line)].push_back(static_cast<local_id>(e));
+    out.simplices[1][edge.line].push_back(static_cast<local_id>(e));
     for (const auto v : edge.vertices)
       include(1, edge.line, v);
   }
   for (std::size_t t = 0; t < entities.triangles.size(); ++t)
     if (const auto face = entities.of_triangle[t]; face != no_id) {
-      out.simplices[2][static_cast<std::size_t>(face)].push_back(static_cast<local_id>(t));
+      out.simplices[2][face].push_back(static_cast<local_id>(t));
       for (const auto v : entities.triangles[t])
         include(2, face, v);
     }
   for (std::size_t i = 0; i < entities.of_dimension[3].size(); ++i)
     for (const auto& face : entities.of_dimension[3][i].boundary) {
-      const auto& box = out.boxes[2][static_cast<std::size_t>(face.entity)];
+      const auto& box = out.boxes[2][face.entity];
       out.boxes[3][i].include(box.lower);
       out.boxes[3][i].include(box.upper);
     }
@@ -85,7 +84,7 @@ void file_middles(msh_entities& out, const distributed_simplicial_mesh<D>& mesh,
   const auto& skeleton = mesh.skeleton;
   std::vector<host> of_edge(mesh.mid_nodes->edges.size(), host{D + 1, no_id});
   const auto lower = [&](const simplex<1>& edge, host entity) {
-    auto& filed = of_edge[static_cast<std::size_t>(find_edge(mesh.mid_nodes->edges, edge))];
+    auto& filed = of_edge[find_edge(mesh.mid_nodes->edges, edge)];
     filed = std::min(filed, entity);
   };
   for (const auto& edge : out.entities.edges)
@@ -98,8 +97,8 @@ void file_middles(msh_entities& out, const distributed_simplicial_mesh<D>& mesh,
   }
   for (std::size_t e = 0; e < of_edge.size(); ++e)
     if (of_edge[e].id != no_id)
-      out.points[static_cast<std::size_t>(of_edge[e].dimension)][static_cast<std::size_t>(of_edge[e].id)]
-          .push_back(static_cast<local_id>(skeleton.points.size() + e));
+      out.points[of_edge[e].dimension][of_edge[e].id].push_back(
+          static_cast<local_id>(skeleton.points.size() + e));
 }
 
 /// The entities of the CAD model, numbered by their index in the model.
@@ -119,8 +118,8 @@ inline msh_entities number_cad_entities(const distributed_simplicial_mesh<2>& me
                                         const std::set<local_id>& faces) {
   msh_entities out;
   const auto add = [&](int dimension, local_id id) {
-    out.entities.of_dimension[static_cast<std::size_t>(dimension)].push_back({{dimension, id}, {}, {}});
-    out.tags[static_cast<std::size_t>(dimension)].push_back(cad_tag(id));
+    out.entities.of_dimension[dimension].push_back({{dimension, id}, {}, {}});
+    out.tags[dimension].push_back(cad_tag(id));
   };
   const auto& skeleton = mesh.skeleton;
   std::vector<std::pair<local_id, simplex<1>>>
@@ -168,7 +167,7 @@ inline void write_physical_tag(msh_encoder& out, const face_groups& groups, int 
   if (!on_face && dimension != 3)
     return out.count(0);
   out.count(1);
-  out.integer(1 + (on_face ? groups.of_face[static_cast<std::size_t>(on.id)] : on.id));
+  out.integer(1 + (on_face ? groups.of_face[on.id] : on.id));
 }
 
 /// Writes the counts and the records of all entities. Records of a partition also name parent and sharers.
@@ -196,7 +195,7 @@ inline void write_entity_records(msh_encoder& out, const msh_entities& all, cons
       if (d > 0) {
         out.count(entity.boundary.size());
         for (const auto& side : entity.boundary) {
-          const auto tag = all.tags[d - 1][static_cast<std::size_t>(side.entity)];
+          const auto tag = all.tags[d - 1][side.entity];
           out.integer(side.reversed ? -tag : tag);
         }
       }

@@ -105,7 +105,7 @@ private:
     std::map<local_id, std::vector<std::size_t>> of_face;
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
       of_face[D == 2 ? piece.mesh.tags[e] : 0].push_back(e);
-    const global_id first = how_->numbers.first_element[static_cast<std::size_t>(piece.subdomain)];
+    const global_id first = how_->numbers.first_element[piece.subdomain];
     std::vector<global_id> numbers(nodes.per_element());
     for (const auto& [face, elements] : of_face) {
       const auto before = file_.size();
@@ -120,13 +120,13 @@ private:
 
   /// Elements that touch another subdomain in a point, and which subdomains they touch.
   void write_ghosts(const simplicial_piece<D>& piece) {
-    const global_id first = how_->numbers.first_element[static_cast<std::size_t>(piece.subdomain)];
+    const global_id first = how_->numbers.first_element[piece.subdomain];
     std::vector<local_id> touched;
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       touched.clear();
       for (const auto v : piece.mesh.elements[e])
         if (static_cast<std::size_t>(v) < piece.skeleton_points.size())
-          for (const auto s : (*how_->sharers)[piece.skeleton_points[static_cast<std::size_t>(v)]])
+          for (const auto s : (*how_->sharers)[piece.skeleton_points[v]])
             if (s != piece.subdomain)
               touched.push_back(s);
       if (touched.empty())

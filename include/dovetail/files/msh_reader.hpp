@@ -139,7 +139,7 @@ private:
     for (auto& count : counts)
       count = in_.count_of(8);
     for (int dimension = 0; dimension < 4; ++dimension)
-      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+      for (std::size_t i = 0; i < counts[dimension]; ++i) {
         const auto tag = in_.integer();
         auto& entity = entities_[{dimension, tag}];
         if (partitioned) {
@@ -343,7 +343,7 @@ private:
     for (const auto& [name, values] : node_data_) {
       point_array array{name, std::vector<double>(numbers_.size(), std::numeric_limits<double>::quiet_NaN())};
       for (const auto& [number, value] : values)
-        array.values[static_cast<std::size_t>(index(number))] = value;
+        array.values[index(number)] = value;
       mesh_.point_scalars.push_back(std::move(array));
     }
   }

@@ -106,7 +106,7 @@ inline point_faces classify_edges(skeleton_entities& entities, const distributed
         std::set<local_id> sharers;
         host on{3, no_id};
         for (const auto h : half_edges) {
-          const auto& face = entities.of_dimension[2][static_cast<std::size_t>(face_of(h))];
+          const auto& face = entities.of_dimension[2][face_of(h)];
           sharers.insert(face.sharers.begin(), face.sharers.end());
           on = on.id == no_id ? face.on : std::min(on, face.on);
           for (const auto v : key)
@@ -125,7 +125,7 @@ inline std::vector<point_neighbourhood> look_around_points(const skeleton_entiti
                                                            const fine_skeleton& skeleton,
                                                            const point_faces& at_lines) {
   std::vector<point_neighbourhood> around(skeleton.points.size());
-  const auto at = [&](local_id v) -> point_neighbourhood& { return around[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) -> point_neighbourhood& { return around[v]; };
   point_faces all;
   for (std::size_t t = 0; t < skeleton.sides.size(); ++t)
     for (const auto v : skeleton.sides[t])
@@ -178,7 +178,7 @@ inline void direct_lines(skeleton_entities& entities) {
   };
   std::vector<end> ends;
   const auto on_curve = [&](std::size_t e) {
-    return entities.of_dimension[1][static_cast<std::size_t>(entities.edges[e].line)].on.dimension == 1;
+    return entities.of_dimension[1][entities.edges[e].line].on.dimension == 1;
   };
   for (std::size_t e = 0; e < entities.edges.size(); ++e)
     if (!on_curve(e))
@@ -188,7 +188,7 @@ inline void direct_lines(skeleton_entities& entities) {
     return std::tuple(a.point, a.line, a.edge) < std::tuple(b.point, b.line, b.edge);
   });
   const auto next_edge = [&](std::size_t e, local_id through) {
-    if (entities.of_point[static_cast<std::size_t>(through)].dimension == 0)
+    if (entities.of_point[through].dimension == 0)
       return e; // the line ends here
     const auto at = std::lower_bound(ends.begin(), ends.end(), through,
                                      [](const end& a, local_id point) { return a.point < point; });

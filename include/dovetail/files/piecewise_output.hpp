@@ -20,6 +20,15 @@
 
 namespace dovetail::io {
 
+/// What a writer counts.
+struct written_counts {
+  global_id elements = 0;
+  std::uint64_t bytes = 0;
+  std::size_t files = 0;
+
+  using fields = field_list<&written_counts::elements, &written_counts::bytes, &written_counts::files>;
+};
+
 /// A file that takes pieces. It is complete after `close`; without it, nothing is left.
 template <int D>
 struct piece_file {

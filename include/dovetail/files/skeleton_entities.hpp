@@ -72,7 +72,7 @@ private:
 };
 
 inline local_id material_of(const distributed_mesh& mesh, local_id subdomain) {
-  return mesh.counts[static_cast<std::size_t>(subdomain)].material;
+  return mesh.counts[subdomain].material;
 }
 
 /// The skeleton's triangles, each turned to face away from the one of its two subdomains that has the lower
@@ -99,7 +99,7 @@ void bound_volumes(skeleton_entities& entities, const distributed_mesh& mesh, Fu
     for (std::size_t side = 0; side < 2; ++side)
       if (const auto s = mesh.skeleton.subdomains[t][side]; s != no_id) {
         const bounding_entity face{entities.of_triangle[t], turned != (side == 1)};
-        auto& faces = entities.of_dimension[3][static_cast<std::size_t>(volume_of(s))].boundary;
+        auto& faces = entities.of_dimension[3][volume_of(s)].boundary;
         if (faces.empty() || faces.back() != face) // most repetitions follow each other
           faces.push_back(face);
       }
@@ -115,7 +115,7 @@ inline void bound_faces_and_lines(skeleton_entities& entities) {
   for (std::size_t t = 0; t < entities.triangles.size(); ++t) {
     if (entities.of_triangle[t] == no_id)
       continue;
-    auto& face = entities.of_dimension[2][static_cast<std::size_t>(entities.of_triangle[t])];
+    auto& face = entities.of_dimension[2][entities.of_triangle[t]];
     for (std::size_t k = 0; k < 3; ++k) {
       const simplex<1> side{entities.triangles[t][k], entities.triangles[t][(k + 1) % 3]};
       const auto at = std::lower_bound(
@@ -127,8 +127,8 @@ inline void bound_faces_and_lines(skeleton_entities& entities) {
   }
   for (const auto& edge : entities.edges)
     for (std::size_t end = 0; end < 2; ++end)
-      if (const auto at = entities.of_point[static_cast<std::size_t>(edge.vertices[end])]; at.dimension == 0)
-        entities.of_dimension[1][static_cast<std::size_t>(edge.line)].boundary.push_back({at.id, end == 1});
+      if (const auto at = entities.of_point[edge.vertices[end]]; at.dimension == 0)
+        entities.of_dimension[1][edge.line].boundary.push_back({at.id, end == 1});
 }
 
 inline void keep_distinct(std::vector<bounding_entity>& boundary) {

@@ -34,8 +34,8 @@ std::vector<local_id> count_skeleton_nodes(const distributed_simplicial_mesh<D>&
   for (local_id s = 0; static_cast<std::size_t>(s) < mesh.counts.size(); ++s) {
     local_id count = 0;
     for (const local_id t : sides[s])
-      for_each_node(mesh, mesh.skeleton.sides[static_cast<std::size_t>(t)], [&](local_id node) {
-        local_id& last = seen[static_cast<std::size_t>(node)];
+      for_each_node(mesh, mesh.skeleton.sides[t], [&](local_id node) {
+        local_id& last = seen[node];
         count += last == s ? 0 : 1;
         last = s;
       });

@@ -85,19 +85,18 @@ public:
     std::vector<std::uint8_t> place(mesh.points.size(), unused);
     for (const auto& element : mesh.elements)
       for (const auto v : element)
-        place[static_cast<std::size_t>(v)] = within;
+        place[v] = within;
     for (std::size_t s = 0; s < table.size(); ++s)
       if (table.is_boundary(static_cast<local_id>(s)))
         for (const auto v : table.vertices[s])
-          place[static_cast<std::size_t>(v)] = on_boundary;
+          place[v] = on_boundary;
     for (std::size_t s = 0; s < table.size(); ++s) {
       const auto& vertices = table.vertices[s];
-      if (std::any_of(vertices.begin(), vertices.end(),
-                      [&](local_id v) { return place[static_cast<std::size_t>(v)] != on_boundary; }))
+      if (std::any_of(vertices.begin(), vertices.end(), [&](local_id v) { return place[v] != on_boundary; }))
         continue; // no other piece can have it
       side found;
       for (std::size_t k = 0; k < 3; ++k)
-        found.ids[k] = piece.node_ids[static_cast<std::size_t>(vertices[k])];
+        found.ids[k] = piece.node_ids[vertices[k]];
       std::rotate(found.ids.begin(), std::min_element(found.ids.begin(), found.ids.end()), found.ids.end());
       found.turned = found.ids[1] > found.ids[2];
       if (found.turned)

@@ -115,7 +115,7 @@ inline std::vector<std::uint8_t> take_compressed(vtk_byte_source& source, const 
     compressed_sizes.push_back(header_number(source, encoding));
   std::vector<std::uint8_t> all;
   for (std::uint64_t b = 0; b < blocks; ++b) {
-    const auto compressed = source.take(compressed_sizes[static_cast<std::size_t>(b)]);
+    const auto compressed = source.take(compressed_sizes[b]);
     const bool partial = b + 1 == blocks && last_size != 0;
     const auto size = partial ? last_size : block_size;
     if (size > most - all.size())

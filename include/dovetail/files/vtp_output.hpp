@@ -33,7 +33,7 @@ skeleton_extract<D> extract(const simplicial_skeleton<D>& skeleton, skeleton_par
         (skeleton.subdomains[t][1] == no_id) == (part == skeleton_part::boundary)) {
       result.sides.push_back(static_cast<local_id>(t));
       for (const auto v : skeleton.sides[t])
-        place[static_cast<std::size_t>(v)] = 0;
+        place[v] = 0;
     }
   for (std::size_t v = 0; v < place.size(); ++v)
     if (place[v] != no_id) {
@@ -43,7 +43,7 @@ skeleton_extract<D> extract(const simplicial_skeleton<D>& skeleton, skeleton_par
   for (const auto t : result.sides) {
     simplex<D - 1> placed;
     for (std::size_t k = 0; k < placed.size(); ++k)
-      placed[k] = place[static_cast<std::size_t>(skeleton.sides[static_cast<std::size_t>(t)][k])];
+      placed[k] = place[skeleton.sides[t][k]];
     result.renumbered.push_back(placed);
   }
   return result;
@@ -95,7 +95,7 @@ void write_skeleton_vtp(output_file& file, const distributed_simplicial_mesh<D>&
   if (D == 3)
     append_computed<local_id>(file, cells, [&](auto i) {
       const auto f = skeleton.side_hosts[side(i)];
-      return f == no_id ? no_id : groups.of_face[static_cast<std::size_t>(f)];
+      return f == no_id ? no_id : groups.of_face[f];
     });
   append_computed<local_id>(file, cells, [&](auto i) { return skeleton.subdomains[side(i)][0]; });
   if (two_sided)

@@ -38,8 +38,7 @@ public:
       : mesh_(mesh), corners_(nodes_per_element(mesh)), next_(first), last_(last), file_(path) {
     for (auto s = first; s < last; ++s)
       for (const auto t : sides[s])
-        for_each_node(mesh, mesh.skeleton.sides[static_cast<std::size_t>(t)],
-                      [&](local_id node) { shared_.push_back(node); });
+        for_each_node(mesh, mesh.skeleton.sides[t], [&](local_id node) { shared_.push_back(node); });
     sort_unique(shared_);
     const auto from = static_cast<std::size_t>(first);
     const auto to = static_cast<std::size_t>(last);
@@ -68,7 +67,7 @@ public:
     file_.seek(connectivity_at_);
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
       for (const local_id v : nodes.of_element(e))
-        file_.value(places[static_cast<std::size_t>(v)]);
+        file_.value(places[v]);
     connectivity_at_ += piece.mesh.elements.size() * corners_ * sizeof(local_id);
     if constexpr (D == 2) {
       file_.seek(tags_at_);
@@ -136,8 +135,7 @@ private:
                                   [this](auto) { return vtk_cell_type(D, mesh_.mid_nodes != nullptr); });
     append_per_subdomain(first, [](local_id s) { return s; });
     if constexpr (D == 3) {
-      append_per_subdomain(first,
-                           [&](local_id s) { return mesh_.counts[static_cast<std::size_t>(s)].material; });
+      append_per_subdomain(first, [&](local_id s) { return mesh_.counts[s].material; });
     } else {
       file_.value<std::uint64_t>(elements_ * sizeof(local_id));
       file_.seek(tags_at_ + elements_ * sizeof(local_id));
@@ -151,7 +149,7 @@ private:
     file_.value<std::uint64_t>(elements_ * sizeof(local_id));
     for (auto s = first; s < last_; ++s) {
       const local_id value = of_subdomain(s);
-      for (global_id e = 0; e < mesh_.counts[static_cast<std::size_t>(s)].elements; ++e)
+      for (global_id e = 0; e < mesh_.counts[s].elements; ++e)
         file_.value(value);
     }
   }

@@ -48,10 +48,10 @@ public:
       auto& part = parts_[{static_cast<local_id>(N) - 1, tag, subdomains.empty() ? no_id : subdomains[e]}];
       part.elements.push_back(static_cast<local_id>(e));
       for (const auto v : elements[e]) {
-        part.box.include(points_[static_cast<std::size_t>(v)]);
-        if (!filed_[static_cast<std::size_t>(v)])
+        part.box.include(points_[v]);
+        if (!filed_[v])
           part.points.push_back(v);
-        filed_[static_cast<std::size_t>(v)] = true;
+        filed_[v] = true;
       }
     }
   }
@@ -126,7 +126,7 @@ public:
       for (const auto v : part.points)
         out_.count(node(v)), out_.line();
       for (const auto v : part.points)
-        out_.point(mesh_.points[static_cast<std::size_t>(v)]), out_.line();
+        out_.point(mesh_.points[v]), out_.line();
     }
     out_.end("Nodes");
   }
@@ -150,9 +150,7 @@ public:
 
 private:
   static std::uint64_t number(global_id index) { return static_cast<std::uint64_t>(index) + 1; }
-  std::uint64_t node(local_id v) const {
-    return number(mesh_.ids.empty() ? v : mesh_.ids[static_cast<std::size_t>(v)]);
-  }
+  std::uint64_t node(local_id v) const { return number(mesh_.ids.empty() ? v : mesh_.ids[v]); }
   template <std::size_t N>
   void element(std::size_t index, const std::array<local_id, N>& vertices) {
     out_.count(index + 1);
@@ -165,7 +163,7 @@ private:
   void counts(const Wanted& wanted, const Parts& parts) {
     std::array<std::size_t, 4> count{};
     for (const auto& [key, part] : parts)
-      count[static_cast<std::size_t>(key[0])] += wanted(key.back()) ? 1 : 0;
+      count[key[0]] += wanted(key.back()) ? 1 : 0;
     for (const std::size_t of_dimension : count)
       out_.count(of_dimension);
     out_.line();

@@ -21,7 +21,7 @@ DOVETAIL_INLINE void write_stl(const simplicial_mesh<2>& mesh, const std::filesy
   file.text(header);
   file.value(static_cast<std::uint32_t>(mesh.elements.size()));
   for (const auto& triangle : mesh.elements) {
-    const auto p = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(triangle[k])]; };
+    const auto p = [&](std::size_t k) { return mesh.points[triangle[k]]; };
     for (const auto v : {normalized(cross(p(1) - p(0), p(2) - p(0))), p(0), p(1), p(2)})
       for (int axis = 0; axis < 3; ++axis)
         file.value(static_cast<float>(v[axis]));

@@ -28,7 +28,7 @@ inline std::vector<std::string> names_by_tag(const tag_names& names) {
   for (const auto& [tag, name] : names)
     if (tag >= 0 && tag < most) {
       list.resize(std::max(list.size(), static_cast<std::size_t>(tag) + 1));
-      list[static_cast<std::size_t>(tag)] = name;
+      list[tag] = name;
     }
   return list;
 }
@@ -95,7 +95,7 @@ DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::fi
   for (const cell_array& each : tags)
     append_computed<local_id>(file, cells, [&](std::uint64_t i) {
       const auto values = i < solid ? each.of_tetrahedra : each.of_triangles;
-      return values.empty() ? no_id : values[static_cast<std::size_t>(i < solid ? i : i - solid)];
+      return values.empty() ? no_id : values[i < solid ? i : i - solid];
     });
   file.text("\n</AppendedData>\n</VTKFile>\n");
   file.commit();

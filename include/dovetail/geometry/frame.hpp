@@ -33,7 +33,7 @@ public:
     sum_ += weight * a;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        squares_[static_cast<std::size_t>(3 * i + j)] += weight * a[i] * a[j];
+        squares_[3 * i + j] += weight * a[i] * a[j];
   }
   /// The weighted mean of the vectors; 0 without any.
   vec3 mean() const { return weight_ > 0 ? sum_ / weight_ : sum_; }

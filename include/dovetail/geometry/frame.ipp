@@ -27,7 +27,7 @@ DOVETAIL_INLINE vec3 vector_moments::principal_axis() const {
     vec3 next;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        next[i] += (squares_[static_cast<std::size_t>(3 * i + j)] - weight_ * m[i] * m[j]) * axis[j];
+        next[i] += (squares_[3 * i + j] - weight_ * m[i] * m[j]) * axis[j];
     if (!(norm(next) > 0))
       return axis;
     axis = normalized(next);

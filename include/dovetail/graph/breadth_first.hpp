@@ -14,12 +14,12 @@ template <graph G>
 std::vector<local_id> breadth_first_order(const G& graph, local_id start) {
   std::vector<bool> seen(static_cast<std::size_t>(graph.node_count()), false);
   std::vector<local_id> order{start};
-  seen[static_cast<std::size_t>(start)] = true;
+  seen[start] = true;
   for (std::size_t k = 0; k < order.size(); ++k)
     graph.for_each_neighbour(order[k], [&](local_id next) {
-      if (seen[static_cast<std::size_t>(next)])
+      if (seen[next])
         return;
-      seen[static_cast<std::size_t>(next)] = true;
+      seen[next] = true;
       order.push_back(next);
     });
   return order;

@@ -40,11 +40,11 @@ csr_graph contract(const G& graph, std::span<const local_id> label, local_id lab
   std::vector<double> weights(static_cast<std::size_t>(labels), 0.0);
   std::vector<weighted_edge> edges;
   for (local_id v = 0; v < static_cast<local_id>(graph.node_count()); ++v) {
-    const local_id a = label[static_cast<std::size_t>(v)];
-    weights[static_cast<std::size_t>(a)] += graph.node_weight(v);
+    const local_id a = label[v];
+    weights[a] += graph.node_weight(v);
     graph.for_each_edge(v, [&](local_id w, double weight) {
       if (v < w)
-        edges.push_back({a, label[static_cast<std::size_t>(w)], weight});
+        edges.push_back({a, label[w], weight});
     });
   }
   csr_graph contracted = make_csr_graph(std::move(weights), edges);
@@ -72,9 +72,9 @@ subgraph induced_subgraph(const G& graph, std::span<const local_id> label, local
   for (const local_id v : part.nodes) {
     part.graph.node_weights.push_back(graph.node_weight(v));
     if (!positions.empty())
-      part.graph.positions.push_back(positions[static_cast<std::size_t>(v)]);
+      part.graph.positions.push_back(positions[v]);
     graph.for_each_edge(v, [&](local_id w, double weight) {
-      if (const local_id other = number[static_cast<std::size_t>(w)]; other != no_id) {
+      if (const local_id other = number[w]; other != no_id) {
         part.graph.neighbours.push_back(other);
         part.graph.edge_weights.push_back(weight);
       }
@@ -106,10 +106,9 @@ labelled_components components_within(const G& graph, std::span<const local_id> 
       const local_id v = stack.back();
       stack.pop_back();
       graph.for_each_neighbour(v, [&](local_id w) {
-        if (found.of_node[static_cast<std::size_t>(w)] != no_id ||
-            label[static_cast<std::size_t>(w)] != label[static_cast<std::size_t>(v)])
+        if (found.of_node[w] != no_id || label[w] != label[v])
           return;
-        found.of_node[static_cast<std::size_t>(w)] = component;
+        found.of_node[w] = component;
         stack.push_back(w);
       });
     }

@@ -36,8 +36,8 @@ DOVETAIL_INLINE csr_graph make_csr_graph(std::vector<double> node_weights,
   std::vector<std::int64_t> next(begins.begin(), begins.end() - 1);
   for (const weighted_edge& e : edges)
     if (e.a != e.b) {
-      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.a)]++)] = {e.b, e.weight};
-      half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(e.b)]++)] = {e.a, e.weight};
+      half_edges[next[e.a]++] = {e.b, e.weight};
+      half_edges[next[e.b]++] = {e.a, e.weight};
     }
 
   csr_graph graph;
@@ -66,8 +66,8 @@ DOVETAIL_INLINE std::vector<vec3> mean_positions(std::span<const vec3> positions
   std::vector<vec3> sums(static_cast<std::size_t>(labels));
   std::vector<double> counts(static_cast<std::size_t>(labels), 0.0);
   for (std::size_t v = 0; v < label.size(); ++v) {
-    sums[static_cast<std::size_t>(label[v])] += positions[v];
-    counts[static_cast<std::size_t>(label[v])] += 1;
+    sums[label[v]] += positions[v];
+    counts[label[v]] += 1;
   }
   for (std::size_t k = 0; k < sums.size(); ++k)
     sums[k] = sums[k] / std::max(1.0, counts[k]);

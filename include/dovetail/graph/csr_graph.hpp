@@ -48,7 +48,7 @@ struct csr_graph {
   local_id node_count() const { return static_cast<local_id>(offsets.size() - 1); }
   /// The neighbours of a node, ascending.
   std::span<const local_id> row(local_id node) const {
-    const auto begin = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node)]);
+    const auto begin = static_cast<std::size_t>(offsets[node]);
     const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(node) + 1]);
     return span_of(neighbours).subspan(begin, end - begin);
   }
@@ -58,12 +58,12 @@ struct csr_graph {
     for (const local_id other : row(node))
       visit(other);
   }
-  double node_weight(local_id node) const { return node_weights[static_cast<std::size_t>(node)]; }
+  double node_weight(local_id node) const { return node_weights[node]; }
   template <class Visit>
   void for_each_edge(local_id node, const Visit& visit) const {
     const auto end = offsets[static_cast<std::size_t>(node) + 1];
-    for (auto k = offsets[static_cast<std::size_t>(node)]; k < end; ++k)
-      visit(neighbours[static_cast<std::size_t>(k)], edge_weights[static_cast<std::size_t>(k)]);
+    for (auto k = offsets[node]; k < end; ++k)
+      visit(neighbours[k], edge_weights[k]);
   }
 };
 static_assert(weighted_graph<csr_graph>);

@@ -31,7 +31,7 @@ public:
     return member;
   }
   /// The weight of the whole set that `member` is in.
-  double weight(local_id member) { return weight_[static_cast<std::size_t>(find(member))]; }
+  double weight(local_id member) { return weight_[find(member)]; }
   /// Joins two sets; returns false when they are one already.
   bool unite(local_id a, local_id b) {
     a = find(a);
@@ -41,7 +41,7 @@ public:
     if (b < a)
       std::swap(a, b);
     parent(b) = a;
-    weight_[static_cast<std::size_t>(a)] += weight_[static_cast<std::size_t>(b)];
+    weight_[a] += weight_[b];
     return true;
   }
 
@@ -56,14 +56,13 @@ public:
     sets.of_member.resize(size());
     for (std::size_t i = 0; i < size(); ++i) {
       const local_id root = find(static_cast<local_id>(i)); // the smallest member, so already numbered
-      sets.of_member[i] =
-          root == static_cast<local_id>(i) ? sets.count++ : sets.of_member[static_cast<std::size_t>(root)];
+      sets.of_member[i] = root == static_cast<local_id>(i) ? sets.count++ : sets.of_member[root];
     }
     return sets;
   }
 
 private:
-  local_id& parent(local_id member) { return parent_[static_cast<std::size_t>(member)]; }
+  local_id& parent(local_id member) { return parent_[member]; }
 
   std::vector<local_id> parent_;
   std::vector<double> weight_;

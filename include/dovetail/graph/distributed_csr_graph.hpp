@@ -21,7 +21,7 @@ struct distributed_csr_graph {
                             &distributed_csr_graph::rows>;
 
   /// The first node of this rank; those of it end before `end()`.
-  local_id first() const { return first_of_rank[static_cast<std::size_t>(rank)]; }
+  local_id first() const { return first_of_rank[rank]; }
   local_id end() const { return first_of_rank[static_cast<std::size_t>(rank) + 1]; }
   local_id node_count() const { return first_of_rank.back(); } ///< of the whole graph
 };

@@ -21,8 +21,8 @@ DOVETAIL_INLINE distributed_csr_graph rows_of_rank(const csr_graph& whole, int r
     to.assign(from.begin() + begin, from.begin() + end);
   };
   const local_id first = share.first(), end = share.end();
-  const std::int64_t first_edge = whole.offsets[static_cast<std::size_t>(first)];
-  const std::int64_t end_edge = whole.offsets[static_cast<std::size_t>(end)];
+  const std::int64_t first_edge = whole.offsets[first];
+  const std::int64_t end_edge = whole.offsets[end];
   csr_graph& rows = share.rows;
   copy(whole.offsets, first, end + 1, rows.offsets);
   for (std::int64_t& offset : rows.offsets)

@@ -26,8 +26,8 @@ void fill_gaps(const point_numbering& numbers, simplicial_mesh<D>& mesh) {
   for (std::size_t k = 0; k < std::min(numbers.gaps.size(), mesh.elements.size()); ++k) {
     vec3 sum;
     for (const local_id v : mesh.elements[k])
-      sum += mesh.points[static_cast<std::size_t>(v)];
-    mesh.points[static_cast<std::size_t>(numbers.gaps[k])] = sum / (D + 1);
+      sum += mesh.points[v];
+    mesh.points[numbers.gaps[k]] = sum / (D + 1);
   }
 }
 

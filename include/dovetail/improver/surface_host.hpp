@@ -67,7 +67,6 @@ private:
     vec3 point;
     double distance_squared;
   };
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
   found nearest(local_id t, vec3 p) const;
 
   std::vector<vec3> points_;

@@ -31,8 +31,7 @@ DOVETAIL_INLINE std::vector<simplex<1>> sides_at_poles(const simplicial_mesh<2>&
                                                        const std::vector<bool>& is_pole) {
   std::vector<simplex<1>> sides;
   for (const auto& [a, b, c] : mesh.elements)
-    if (is_pole[static_cast<std::size_t>(a)] || is_pole[static_cast<std::size_t>(b)] ||
-        is_pole[static_cast<std::size_t>(c)])
+    if (is_pole[a] || is_pole[b] || is_pole[c])
       for (const simplex<1> side : {simplex<1>{a, b}, {b, c}, {c, a}})
         sides.push_back(side);
   return sides;
@@ -56,7 +55,7 @@ DOVETAIL_INLINE host_point triangle_host::project(vec3 p, local_id& on) const {
     if (inside[0] > 0 && inside[1] > 0 && inside[2] > 0)
       break;
     const local_id from = on;
-    for (const local_id v : triangles_[at(from)])
+    for (const local_id v : triangles_[from])
       for (const local_id t : around_[v])
         if (const found other = nearest(t, p); other.distance_squared < best.distance_squared) {
           best = other;
@@ -65,16 +64,15 @@ DOVETAIL_INLINE host_point triangle_host::project(vec3 p, local_id& on) const {
     if (on == from)
       break;
   }
-  const auto& [a, b, c] = triangles_[at(on)];
+  const auto& [a, b, c] = triangles_[on];
   const auto& w = best.weights;
-  return {
-      best.point, normalized(w[0] * normals_[at(a)] + w[1] * normals_[at(b)] + w[2] * normals_[at(c)]), {}};
+  return {best.point, normalized(w[0] * normals_[a] + w[1] * normals_[b] + w[2] * normals_[c]), {}};
 }
 
 DOVETAIL_INLINE triangle_host::found triangle_host::nearest(local_id t, vec3 p) const {
-  const auto& [a, b, c] = triangles_[at(t)];
-  const auto w = nearest_on_triangle(points_[at(a)], points_[at(b)], points_[at(c)], p);
-  const vec3 q = w[0] * points_[at(a)] + w[1] * points_[at(b)] + w[2] * points_[at(c)];
+  const auto& [a, b, c] = triangles_[t];
+  const auto w = nearest_on_triangle(points_[a], points_[b], points_[c], p);
+  const vec3 q = w[0] * points_[a] + w[1] * points_[b] + w[2] * points_[c];
   return {w, q, norm_squared(q - p)};
 }
 

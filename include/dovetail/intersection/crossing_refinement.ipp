@@ -19,7 +19,7 @@ namespace dovetail {
 
 DOVETAIL_INLINE void throw_crossing_faces(const geometry_topology& topology, std::array<local_id, 2> faces) {
   const auto name = [&](local_id f) {
-    const std::string& given = topology.faces[static_cast<std::size_t>(f)].name;
+    const std::string& given = topology.faces[f].name;
     return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
   };
   throw intersection_error((faces[0] == faces[1]

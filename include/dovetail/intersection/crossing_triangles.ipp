@@ -95,7 +95,7 @@ public:
   }
 
 private:
-  box3 box(local_id item) const { return box_of(points_, triangles_[static_cast<std::size_t>(item)]); }
+  box3 box(local_id item) const { return box_of(points_, triangles_[item]); }
 
   cell root() const {
     cell whole;
@@ -173,8 +173,8 @@ private:
   }
 
   bool cross(local_id i, local_id j) const {
-    const simplex<2>& s = triangles_[static_cast<std::size_t>(i)];
-    const simplex<2>& t = triangles_[static_cast<std::size_t>(j)];
+    const simplex<2>& s = triangles_[i];
+    const simplex<2>& t = triangles_[j];
     return !(excluded_ && excluded_(i, j)) && !separated_by_a_plane(points_, s, t) &&
            triangles_cross(points_, s, t);
   }

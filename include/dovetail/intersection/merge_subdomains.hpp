@@ -54,7 +54,7 @@ namespace detail {
 /// Area of a triangle or length of an edge.
 template <int D>
 double measure_of_side(std::span<const vec3> points, const simplex<D - 1>& side) {
-  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(side[k])]; };
+  const auto at = [&](std::size_t k) { return points[side[k]]; };
   if constexpr (D == 3)
     return 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
   else

@@ -21,8 +21,8 @@ DOVETAIL_INLINE void merge_subdomains(std::vector<local_id>& subdomain_of_elemen
   std::vector<local_id> root(sizes.size());
   std::iota(root.begin(), root.end(), local_id{0});
   const auto find = [&](local_id s) {
-    while (root[static_cast<std::size_t>(s)] != s)
-      s = root[static_cast<std::size_t>(s)];
+    while (root[s] != s)
+      s = root[s];
     return static_cast<std::size_t>(s);
   };
   for (const auto& [a, b] : merges) {
@@ -37,10 +37,10 @@ DOVETAIL_INLINE void merge_subdomains(std::vector<local_id>& subdomain_of_elemen
       merged_sizes.push_back(0);
     }
     number[s] = number[r];
-    merged_sizes[static_cast<std::size_t>(number[s])] += sizes[s];
+    merged_sizes[number[s]] += sizes[s];
   }
   for (local_id& s : subdomain_of_element)
-    s = number[static_cast<std::size_t>(s)];
+    s = number[s];
   sizes = std::move(merged_sizes);
 }
 

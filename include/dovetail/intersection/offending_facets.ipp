@@ -24,8 +24,7 @@ namespace dovetail {
 DOVETAIL_INLINE std::vector<local_id> crossing_facets(const simplicial_mesh<2>& boundary) {
   const auto& triangles = boundary.elements;
   const auto same = [&](local_id a, local_id b) {
-    return sorted_vertices(triangles[static_cast<std::size_t>(a)]) ==
-           sorted_vertices(triangles[static_cast<std::size_t>(b)]);
+    return sorted_vertices(triangles[a]) == sorted_vertices(triangles[b]);
   };
   std::vector<local_id> crossing;
   for (const auto& [a, b] :
@@ -42,10 +41,10 @@ DOVETAIL_INLINE void write_facets(const simplicial_mesh<2>& boundary, const std:
   std::vector<local_id> number(boundary.points.size(), no_id);
   std::vector<vec3> points;
   for (const local_id t : facets)
-    for (const local_id v : boundary.elements[static_cast<std::size_t>(t)])
-      if (local_id& n = number[static_cast<std::size_t>(v)]; n == no_id) {
+    for (const local_id v : boundary.elements[t])
+      if (local_id& n = number[v]; n == no_id) {
         n = static_cast<local_id>(points.size());
-        points.push_back(boundary.points[static_cast<std::size_t>(v)]);
+        points.push_back(boundary.points[v]);
       }
   output_file file(path);
   const auto row = [&](const auto&... numbers) {
@@ -58,8 +57,8 @@ DOVETAIL_INLINE void write_facets(const simplicial_mesh<2>& boundary, const std:
   for (const vec3 p : points)
     row(p.x, p.y, p.z);
   for (const local_id t : facets) {
-    const auto& triangle = boundary.elements[static_cast<std::size_t>(t)];
-    const auto n = [&](std::size_t k) { return number[static_cast<std::size_t>(triangle[k])]; };
+    const auto& triangle = boundary.elements[t];
+    const auto n = [&](std::size_t k) { return number[triangle[k]]; };
     row(3, n(0), n(1), n(2));
   }
   file.commit();

@@ -43,8 +43,8 @@ private:
     double left, right;
   };
 
-  vec3 at(local_id v) const { return points_[static_cast<std::size_t>(v)]; }
-  const simplex<2>& triangle(local_id t) const { return triangles_[static_cast<std::size_t>(t)]; }
+  vec3 at(local_id v) const { return points_[v]; }
+  const simplex<2>& triangle(local_id t) const { return triangles_[t]; }
   vec3 normal_of(const simplex<2>& t) const { return cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0])); }
 
   /// Sums the normals; stops at the first that is turned by a right angle from the first of all.

@@ -24,8 +24,8 @@ DOVETAIL_INLINE surface_crossing describe_crossing(std::span<const vec3> points,
   surface_crossing crossing{{cad_faces[i], cad_faces[j]}, {}, 0};
   for (const std::size_t t : {i, j})
     for (std::size_t k = 0; k < 3; ++k) {
-      const vec3 a = points[static_cast<std::size_t>(triangles[t][k])];
-      const vec3 b = points[static_cast<std::size_t>(triangles[t][(k + 1) % 3])];
+      const vec3 a = points[triangles[t][k]];
+      const vec3 b = points[triangles[t][(k + 1) % 3]];
       crossing.center += a / 6.0;
       crossing.size += distance(a, b) / 6.0;
     }
@@ -38,9 +38,7 @@ inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, 
   const auto is_near_others = [&](const box3& box) {
     bool is_near = false;
     others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
-                    [&](local_id other) {
-                      is_near = is_near || known.around_others[static_cast<std::size_t>(other)].overlaps(box);
-                    });
+                    [&](local_id other) { is_near = is_near || known.around_others[other].overlaps(box); });
     return is_near;
   };
   const triangle_blocks blocks(skeleton.points, skeleton.sides);
@@ -62,9 +60,7 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
                                                     const known_apart& known,
                                                     const crossing_parameters& parameters,
                                                     const progress& on_progress) {
-  const auto both = [](const std::vector<bool>& set, local_id i, local_id j) {
-    return set[static_cast<std::size_t>(i)] && set[static_cast<std::size_t>(j)];
-  };
+  const auto both = [](const std::vector<bool>& set, local_id i, local_id j) { return set[i] && set[j]; };
   if (known.triangles.empty())
     return crossing_triangles(
         skeleton.points, skeleton.sides, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
@@ -72,8 +68,8 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
   const std::vector<local_id> near = triangles_to_search(skeleton, known);
   std::vector<simplex<2>> triangles;
   for (const local_id t : near)
-    triangles.push_back(skeleton.sides[static_cast<std::size_t>(t)]);
-  const auto of_all = [&](local_id k) { return near[static_cast<std::size_t>(k)]; };
+    triangles.push_back(skeleton.sides[t]);
+  const auto of_all = [&](local_id k) { return near[k]; };
   auto pairs = crossing_triangles(
       skeleton.points, triangles,
       [&](local_id i, local_id j) {
@@ -102,8 +98,8 @@ DOVETAIL_INLINE known_apart known_from_patches(const fine_skeleton& skeleton,
     } else {
       box3& box = known.around_others.emplace_back();
       for (local_id t = first_triangle[p]; t < first_triangle[p + 1]; ++t)
-        for (const local_id v : skeleton.sides[static_cast<std::size_t>(t)])
-          box.include(skeleton.points[static_cast<std::size_t>(v)]);
+        for (const local_id v : skeleton.sides[t])
+          box.include(skeleton.points[v]);
     }
   return known;
 }

@@ -16,7 +16,7 @@ namespace dovetail {
 inline box3 box_of(std::span<const vec3> points, const simplex<2>& triangle) {
   box3 box;
   for (const local_id v : triangle)
-    box.include(points[static_cast<std::size_t>(v)]);
+    box.include(points[v]);
   return box;
 }
 
@@ -30,7 +30,7 @@ public:
       : triangles_(triangles.size()), boxes_((triangles.size() + block_size - 1) / block_size) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (const local_id v : triangles[t])
-        boxes_[t / block_size].include(points[static_cast<std::size_t>(v)]);
+        boxes_[t / block_size].include(points[v]);
   }
 
   std::size_t size() const { return boxes_.size(); }

@@ -20,7 +20,7 @@ namespace detail {
 /// Whether all of `t` but vertices shared with an edge of `s` is beyond that edge, upright on s.
 inline bool beyond_an_edge(std::span<const vec3> points, const simplex<2>& s, const simplex<2>& t,
                            double rounding) {
-  const auto at = [&](local_id v) { return points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return points[v]; };
   const vec3 normal = cross(at(s[1]) - at(s[0]), at(s[2]) - at(s[0]));
   for (std::size_t k = 0; k < 3; ++k) {
     const local_id from = s[k], to = s[(k + 1) % 3];
@@ -41,7 +41,7 @@ inline bool beyond_an_edge(std::span<const vec3> points, const simplex<2>& s, co
 /// Whether all of `t` is on one side of s, along the normal of s.
 inline bool beside_its_plane(std::span<const vec3> points, const simplex<2>& s, const simplex<2>& t,
                              double rounding) {
-  const auto at = [&](local_id v) { return points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return points[v]; };
   const vec3 normal = cross(at(s[1]) - at(s[0]), at(s[2]) - at(s[0]));
   const auto range = [&](const simplex<2>& triangle) {
     const double a = dot(normal, at(triangle[0]) - at(s[0])), b = dot(normal, at(triangle[1]) - at(s[0])),
@@ -62,7 +62,7 @@ inline bool separated_by_a_plane(std::span<const vec3> points, const simplex<2>&
   for (const simplex<2>* triangle : {&s, &t})
     for (const local_id v : *triangle)
       for (int axis = 0; axis < 3; ++axis)
-        largest = std::max(largest, std::abs(points[static_cast<std::size_t>(v)][axis]));
+        largest = std::max(largest, std::abs(points[v][axis]));
   const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * largest;
   return detail::beside_its_plane(points, s, t, rounding) || detail::beyond_an_edge(points, s, t, rounding) ||
          detail::beyond_an_edge(points, t, s, rounding);

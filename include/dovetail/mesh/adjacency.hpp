@@ -55,7 +55,7 @@ struct ridge_table {
   static constexpr dihedral decode(std::uint32_t code) {
     const std::uint32_t flat = code / 2;
     const auto ridge = static_cast<int>(flat % per_element);
-    std::array<int, 2> sides = numbering::sides_of_ridge<D>[static_cast<std::size_t>(ridge)];
+    std::array<int, 2> sides = numbering::sides_of_ridge<D>[ridge];
     if (code % 2 == 1)
       std::swap(sides[0], sides[1]);
     return {static_cast<local_id>(flat / per_element), ridge, sides};
@@ -69,7 +69,7 @@ constexpr std::array<local_id, N> pick(const std::array<local_id, M>& vertices,
                                        const std::array<int, N>& which) {
   std::array<local_id, N> picked{};
   for (std::size_t k = 0; k < N; ++k)
-    picked[k] = vertices[static_cast<std::size_t>(which[k])];
+    picked[k] = vertices[which[k]];
   return picked;
 }
 
@@ -79,10 +79,10 @@ constexpr std::array<local_id, N> pick(const std::array<local_id, M>& vertices,
 template <int D>
 simplex<D - 1> side_of_element(const simplicial_mesh<D>& mesh, const side_table<D>& sides, local_id side,
                                local_id element) {
-  const auto& of_element = sides.of_element[static_cast<std::size_t>(element)];
+  const auto& of_element = sides.of_element[element];
   const auto local =
       static_cast<std::size_t>(std::find(of_element.begin(), of_element.end(), side) - of_element.begin());
-  return detail::pick(mesh.elements[static_cast<std::size_t>(element)], numbering::sides<D>[local]);
+  return detail::pick(mesh.elements[element], numbering::sides<D>[local]);
 }
 
 /// Finds the unique sides of `elements`. About linear time. Throws `mesh_error` when an element refers to a

@@ -81,9 +81,8 @@ private:
     dihedrals_.clear();
     for (const std::uint32_t member : members) {
       const dihedral w = ridge_table<D>::decode(member * 2);
-      const auto& of_element = sides_.of_element[static_cast<std::size_t>(w.element)];
-      dihedrals_.push_back({of_element[static_cast<std::size_t>(w.sides[0])],
-                            of_element[static_cast<std::size_t>(w.sides[1])], member * 2});
+      const auto& of_element = sides_.of_element[w.element];
+      dihedrals_.push_back({of_element[w.sides[0]], of_element[w.sides[1]], member * 2});
     }
   }
 

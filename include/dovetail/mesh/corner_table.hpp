@@ -31,11 +31,11 @@ public:
   /// How many numbers triangles have, freed ones included.
   local_id triangle_slots() const { return static_cast<local_id>(vertex.size() / 3); }
   /// Whether triangle `t` has not been freed.
-  bool alive(local_id t) const { return vertex[at(3 * t)] != no_id; }
-  local_id tail(local_id c) const { return vertex[at(next(c))]; }     ///< start of the opposite side
-  local_id head(local_id c) const { return vertex[at(previous(c))]; } ///< end of the opposite side
+  bool alive(local_id t) const { return vertex[3 * t] != no_id; }
+  local_id tail(local_id c) const { return vertex[next(c)]; }     ///< start of the opposite side
+  local_id head(local_id c) const { return vertex[previous(c)]; } ///< end of the opposite side
   /// True when the opposite side may be flipped, split or collapsed: not on the boundary, not constrained.
-  bool free_side(local_id c) const { return twin[at(c)] != no_id && constraint[at(c)] == no_id; }
+  bool free_side(local_id c) const { return twin[c] != no_id && constraint[c] == no_id; }
 
   /// A new vertex without triangles; its number.
   local_id add_vertex() {
@@ -48,9 +48,9 @@ public:
 
   /// Makes the opposite sides of c and d one; d may be no_id.
   void glue(local_id c, local_id d) {
-    twin[at(c)] = d;
+    twin[c] = d;
     if (d != no_id)
-      twin[at(d)] = c;
+      twin[d] = c;
   }
 
   /// Replaces the side opposite c by the other diagonal of its quadrilateral. The new side is opposite
@@ -67,7 +67,7 @@ public:
   /// The corners of v in counter-clockwise order, when v is not on the boundary; calls visit(corner).
   template <class Visit>
   void for_each_corner(local_id v, Visit visit) const {
-    const local_id first = corner_of[at(v)];
+    const local_id first = corner_of[v];
     local_id c = first;
     do {
       const local_id following = counter_clockwise(c);
@@ -78,12 +78,12 @@ public:
 
   /// The corner of the same vertex in the next triangle counter-clockwise, or no_id at the boundary.
   local_id counter_clockwise(local_id c) const {
-    const local_id across = twin[at(next(c))];
+    const local_id across = twin[next(c)];
     return across == no_id ? no_id : next(across);
   }
   /// The corner of the same vertex in the next triangle clockwise, or no_id at the boundary.
   local_id clockwise(local_id c) const {
-    const local_id across = twin[at(previous(c))];
+    const local_id across = twin[previous(c)];
     return across == no_id ? no_id : previous(across);
   }
 
@@ -99,18 +99,17 @@ private:
     local_id twin, constraint;
   };
 
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  outer_side outer(local_id c) const { return {twin[at(c)], constraint[at(c)]}; }
+  outer_side outer(local_id c) const { return {twin[c], constraint[c]}; }
   void attach(local_id c, outer_side side) {
     glue(c, side.twin);
-    constraint[at(c)] = side.constraint;
+    constraint[c] = side.constraint;
   }
   void place(local_id t, local_id a, local_id b, local_id c);
   /// Joins what lies across two sides of a vanishing triangle.
   void zip(local_id c, local_id d);
   void release(local_id t) {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      vertex[at(c)] = twin[at(c)] = constraint[at(c)] = no_id;
+      vertex[c] = twin[c] = constraint[c] = no_id;
     freed_.push_back(t);
   }
 

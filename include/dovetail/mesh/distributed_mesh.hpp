@@ -106,7 +106,7 @@ void append_piece(simplicial_mesh<D>& mesh, const simplicial_piece<D>& piece) {
   append(mesh.points, span_of(piece.mesh.points).subspan(piece.skeleton_points.size()));
   for (simplex<D> element : piece.mesh.elements) {
     for (local_id& v : element)
-      v = v < shared ? piece.skeleton_points[static_cast<std::size_t>(v)] : first_own + v - shared;
+      v = v < shared ? piece.skeleton_points[v] : first_own + v - shared;
     mesh.elements.push_back(element);
   }
   if (piece.mesh.tags.empty())

@@ -25,7 +25,7 @@ DOVETAIL_INLINE std::string_view name_of(seam_fault kind) {
   constexpr std::array<std::string_view, 5> names{
       "moved skeleton point", "repeated skeleton point", "missing skeleton side",
       "boundary side that is not in the skeleton", "wrong material"};
-  return names[static_cast<std::size_t>(kind)];
+  return names[kind];
 }
 
 DOVETAIL_INLINE void subdomain_faults::add(seam_fault kind, local_id entity) {
@@ -58,7 +58,7 @@ template <int D>
 void check_shared_points(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
                          subdomain_faults& faults) {
   for (std::size_t i = 0; i < piece.skeleton_points.size(); ++i)
-    if (piece.mesh.points[i] != skeleton.points[static_cast<std::size_t>(piece.skeleton_points[i])])
+    if (piece.mesh.points[i] != skeleton.points[piece.skeleton_points[i]])
       faults.add(seam_fault::moved_point, piece.skeleton_points[i]);
   auto sorted = piece.skeleton_points;
   sort_all(sorted);
@@ -89,7 +89,7 @@ void check_boundary(const simplicial_piece<D>& piece, const side_table<D>& table
     }
     const auto in_skeleton = [&](simplex<D - 1> side) {
       for (auto& v : side)
-        v = piece.skeleton_points[static_cast<std::size_t>(v)];
+        v = piece.skeleton_points[v];
       return side;
     };
     if (D == 2 && table.is_non_manifold(id)) {
@@ -113,8 +113,7 @@ void check_boundary(const simplicial_piece<D>& piece, const side_table<D>& table
   }
   sort_all(found);
   compare_sides<D>(
-      expected, found,
-      [&](local_id i) { faults.add(seam_fault::missing_triangle, listed[static_cast<std::size_t>(i)]); },
+      expected, found, [&](local_id i) { faults.add(seam_fault::missing_triangle, listed[i]); },
       [&](local_id element) { faults.add(seam_fault::surplus_side, element); });
 }
 
@@ -125,8 +124,8 @@ DOVETAIL_INLINE bool add_up_to_skeleton(const mesh_piece& piece, const fine_skel
                                         std::span<const local_id> listed) {
   chain_sum expected, found;
   for (const local_id s : listed) {
-    simplex<2> side = skeleton.sides[static_cast<std::size_t>(s)];
-    if (skeleton.subdomains[static_cast<std::size_t>(s)][0] != piece.subdomain)
+    simplex<2> side = skeleton.sides[s];
+    if (skeleton.subdomains[s][0] != piece.subdomain)
       std::swap(side[1], side[2]);
     expected.add(side);
   }
@@ -135,7 +134,7 @@ DOVETAIL_INLINE bool add_up_to_skeleton(const mesh_piece& piece, const fine_skel
   const auto first_own = static_cast<local_id>(skeleton.points.size()) - shared;
   for (simplex<3> element : piece.mesh.elements) {
     for (local_id& v : element)
-      v = v < shared ? piece.skeleton_points[static_cast<std::size_t>(v)] : v + first_own;
+      v = v < shared ? piece.skeleton_points[v] : v + first_own;
     for (const auto& local : numbering::sides<3>)
       found.add(dovetail::detail::pick(element, local));
   }

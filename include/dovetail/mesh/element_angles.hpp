@@ -20,7 +20,7 @@ template <std::size_t N>
 std::array<vec3, N> corners(std::span<const vec3> points, const std::array<local_id, N>& vertices) {
   std::array<vec3, N> at;
   for (std::size_t k = 0; k < N; ++k)
-    at[k] = points[static_cast<std::size_t>(vertices[k])];
+    at[k] = points[vertices[k]];
   return at;
 }
 
@@ -61,13 +61,12 @@ struct tetrahedron_parts {
   explicit tetrahedron_parts(const std::array<vec3, 4>& p) {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& side = numbering::sides<3>[i];
-      const vec3 a = p[static_cast<std::size_t>(side[0])];
-      normals[i] = cross(p[static_cast<std::size_t>(side[1])] - a, p[static_cast<std::size_t>(side[2])] - a);
+      const vec3 a = p[side[0]];
+      normals[i] = cross(p[side[1]] - a, p[side[2]] - a);
     }
     for (std::size_t r = 0; r < 6; ++r) {
       const auto& edge = numbering::ridges<3>[r];
-      lengths_squared[r] =
-          norm_squared(p[static_cast<std::size_t>(edge[1])] - p[static_cast<std::size_t>(edge[0])]);
+      lengths_squared[r] = norm_squared(p[edge[1]] - p[edge[0]]);
     }
     six_volumes = std::abs(dot(normals[3], p[3] - p[0]));
   }
@@ -76,8 +75,7 @@ struct tetrahedron_parts {
   /// (|n1 x n2| = 6 V |edge|), which stays accurate for slivers; it is not negative.
   std::array<double, 2> dihedral(std::size_t r) const {
     const auto& sides = numbering::sides_of_ridge<3>[r];
-    return {six_volumes * std::sqrt(lengths_squared[r]),
-            -dot(normals[static_cast<std::size_t>(sides[0])], normals[static_cast<std::size_t>(sides[1])])};
+    return {six_volumes * std::sqrt(lengths_squared[r]), -dot(normals[sides[0]], normals[sides[1]])};
   }
 };
 

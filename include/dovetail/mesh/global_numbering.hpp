@@ -41,8 +41,7 @@ template <int D>
 global_id global_node(const piece_nodes<D>& nodes, const global_numbering& numbers, local_id piece,
                       local_id i) {
   const auto shared = static_cast<local_id>(nodes.shared().size());
-  return i < shared ? nodes.shared()[static_cast<std::size_t>(i)]
-                    : numbers.first_point[static_cast<std::size_t>(piece)] + (i - shared);
+  return i < shared ? nodes.shared()[i] : numbers.first_point[piece] + (i - shared);
 }
 
 /// The global number of point `i` of a piece.
@@ -50,8 +49,8 @@ template <int D>
 global_id global_point(const simplicial_piece<D>& piece, const global_numbering& numbers, local_id i) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   if (i < shared)
-    return piece.skeleton_points[static_cast<std::size_t>(i)];
-  return numbers.first_point[static_cast<std::size_t>(piece.subdomain)] + (i - shared);
+    return piece.skeleton_points[i];
+  return numbers.first_point[piece.subdomain] + (i - shared);
 }
 
 #ifdef DOVETAIL_COMPILED

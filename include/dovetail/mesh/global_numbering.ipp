@@ -38,7 +38,7 @@ simplicial_piece<D> load_checked(const distributed_simplicial_mesh<D>& mesh, loc
     throw mesh_error("subdomain " + std::to_string(index) + ": " + what);
   };
   auto piece = mesh.load(index);
-  const auto& counts = mesh.counts[static_cast<std::size_t>(index)];
+  const auto& counts = mesh.counts[index];
   const auto points = static_cast<local_id>(piece.mesh.points.size());
   const auto shared = piece.skeleton_points.size();
   if (piece.subdomain != index)

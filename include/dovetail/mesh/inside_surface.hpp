@@ -36,8 +36,7 @@ public:
 private:
   std::array<vec3, 3> corners(std::size_t t) const {
     const auto& v = triangles_[t];
-    return {points_[static_cast<std::size_t>(v[0])], points_[static_cast<std::size_t>(v[1])],
-            points_[static_cast<std::size_t>(v[2])]};
+    return {points_[v[0]], points_[v[1]], points_[v[2]]};
   }
   box3 box_of(std::size_t t) const;
 

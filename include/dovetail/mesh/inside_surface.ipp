@@ -74,7 +74,7 @@ DOVETAIL_INLINE void inside_surface::require_closed() const {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const std::size_t count = sides.all_elements(static_cast<local_id>(i)).size();
     if (sides.is_boundary(static_cast<local_id>(i)) || count % 2 != 0) {
-      const vec3 at = points_[static_cast<std::size_t>(sides.vertices[i][0])];
+      const vec3 at = points_[sides.vertices[i][0]];
       throw geometry_error("the surface is open at the edge near " + place_text(at) + "; close it");
     }
   }
@@ -82,8 +82,8 @@ DOVETAIL_INLINE void inside_surface::require_closed() const {
 
 DOVETAIL_INLINE bool inside_surface::left_of_edge(local_id from, local_id to, vec3 p) const {
   const bool turned = from > to;
-  const vec3 a = points_[static_cast<std::size_t>(turned ? to : from)];
-  const vec3 b = points_[static_cast<std::size_t>(turned ? from : to)];
+  const vec3 a = points_[turned ? to : from];
+  const vec3 b = points_[turned ? from : to];
   const bool left = (b.y - a.y) * (p.z - a.z) - (b.z - a.z) * (p.y - a.y) > 0;
   return left != turned;
 }

@@ -63,7 +63,7 @@ template <int D>
 void hash_piece(mesh_hasher& hasher, const simplicial_piece<D>& piece, const global_numbering& numbers) {
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   for (local_id i = shared; i < static_cast<local_id>(piece.mesh.points.size()); ++i)
-    hasher.point(global_point(piece, numbers, i), piece.mesh.points[static_cast<std::size_t>(i)]);
+    hasher.point(global_point(piece, numbers, i), piece.mesh.points[i]);
   for (const auto& element : piece.mesh.elements) {
     std::array<global_id, D + 1> vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k)
@@ -88,7 +88,7 @@ void hash_elements_by_place(mesh_hasher& hasher, const simplicial_piece<D>& piec
     const local_id tag = piece.mesh.tags.empty() ? piece.material : piece.mesh.tags[e];
     std::array<global_id, D + 1> vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k)
-      vertices[k] = places[static_cast<std::size_t>(piece.mesh.elements[e][k])] ^ tag;
+      vertices[k] = places[piece.mesh.elements[e][k]] ^ tag;
     hasher.element(vertices);
   }
 }

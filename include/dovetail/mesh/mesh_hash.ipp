@@ -23,7 +23,7 @@ DOVETAIL_INLINE void mesh_hasher::point(global_id id, vec3 at) {
 
 DOVETAIL_INLINE std::uint64_t mesh_hash(const loaded_mesh& loaded) {
   const bool numbered = loaded.node_ids.size() == loaded.mesh.points.size();
-  const auto id = [&](local_id v) { return numbered ? loaded.node_ids[static_cast<std::size_t>(v)] : v; };
+  const auto id = [&](local_id v) { return numbered ? loaded.node_ids[v] : v; };
   mesh_hasher hasher;
   for (std::size_t v = 0; v < loaded.mesh.points.size(); ++v)
     hasher.point(id(static_cast<local_id>(v)), loaded.mesh.points[v]);

@@ -47,7 +47,7 @@ template <int D>
 piece_edges<D> edges_of(const simplicial_piece<D>& piece, const mid_edge_nodes<D>& nodes) {
   piece_edges<D> result{build_edges<D>(span_of(piece.mesh.elements), piece.mesh.points.size()), {}};
   for (const auto& [a, b] : result.edges.vertices) { // a < b, and points of the skeleton come first
-    const auto at = [&](local_id v) { return piece.skeleton_points[static_cast<std::size_t>(v)]; };
+    const auto at = [&](local_id v) { return piece.skeleton_points[v]; };
     result.in_skeleton.push_back(static_cast<std::size_t>(b) < piece.skeleton_points.size()
                                      ? find_edge(nodes.edges, {at(a), at(b)})
                                      : no_id);
@@ -116,8 +116,7 @@ private:
     for (std::size_t k = 0; k < found.in_skeleton.size(); ++k)
       if (found.in_skeleton[k] == no_id) {
         const auto& [a, b] = found.edges.vertices[k];
-        straight.push_back(midpoint(piece.mesh.points[static_cast<std::size_t>(a)],
-                                    piece.mesh.points[static_cast<std::size_t>(b)]));
+        straight.push_back(midpoint(piece.mesh.points[a], piece.mesh.points[b]));
       }
     return straight;
   }

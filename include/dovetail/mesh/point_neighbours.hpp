@@ -28,7 +28,7 @@ compressed_rows<local_id> point_neighbours(const simplicial_mesh<D>& mesh) {
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
     row.clear();
     for (const local_id e : elements[p]) {
-      const auto& vertices = mesh.elements[static_cast<std::size_t>(e)];
+      const auto& vertices = mesh.elements[e];
       row.insert(row.end(), vertices.begin(), vertices.end());
     }
     std::sort(row.begin(), row.end());

@@ -24,7 +24,7 @@ namespace dovetail {
 DOVETAIL_INLINE std::string_view name_of(poor_cause cause) {
   constexpr std::array<std::string_view, poor_causes> names{
       "angle of the model", "interface angle", "boundary triangle", "thin wall", "thin piece", "inside"};
-  return names[static_cast<std::size_t>(cause)];
+  return names[cause];
 }
 
 DOVETAIL_INLINE void poor_elements::merge(const poor_elements& other) {
@@ -67,7 +67,7 @@ public:
       triangles_.push_back({sorted_vertices(own), angle});
       for (std::size_t k = 0; k < 3; ++k)
         flaps_.push_back({sorted_vertices(simplex<1>{own[(k + 1) % 3], own[(k + 2) % 3]}),
-                          skeleton.points[static_cast<std::size_t>(t[k])], on_surface});
+                          skeleton.points[t[k]], on_surface});
     }
     sort_all(triangles_, [](const triangle& a, const triangle& b) { return a.vertices < b.vertices; });
     stable_sort_all(flaps_, [](const flap& a, const flap& b) { return a.edge < b.edge; });
@@ -131,10 +131,10 @@ private:
 DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const fine_skeleton& skeleton,
                                     const boundary_at_edges& boundary, const simplex<3>& element,
                                     std::size_t worst, double limit_deg) {
-  const auto point = [&](local_id v) { return piece.mesh.points[static_cast<std::size_t>(v)]; };
+  const auto point = [&](local_id v) { return piece.mesh.points[v]; };
   const auto pick_edge = [&](std::size_t r) {
     const auto& edge = numbering::ridges<3>[r];
-    return simplex<1>{element[static_cast<std::size_t>(edge[0])], element[static_cast<std::size_t>(edge[1])]};
+    return simplex<1>{element[edge[0]], element[edge[1]]};
   };
   const simplex<1> edge = pick_edge(worst);
   vec3 middle{};
@@ -146,15 +146,13 @@ DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const fine_skeleton
   for (const auto& local : numbering::sides<3>) {
     simplex<2> side;
     for (std::size_t k = 0; k < 3; ++k)
-      side[k] = element[static_cast<std::size_t>(local[k])];
+      side[k] = element[local[k]];
     if (boundary.smallest_angle(side) < limit_deg)
       return poor_cause::boundary_triangle;
   }
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
   const auto on_surface = [&](local_id v) {
-    return v < shared &&
-           skeleton.point_hosts[static_cast<std::size_t>(piece.skeleton_points[static_cast<std::size_t>(v)])]
-                   .dimension < 3;
+    return v < shared && skeleton.point_hosts[piece.skeleton_points[v]].dimension < 3;
   };
   if (std::all_of(element.begin(), element.end(), on_surface))
     return poor_cause::thin_wall;

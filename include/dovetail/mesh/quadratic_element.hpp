@@ -59,7 +59,7 @@ inline local_id find_edge(const std::vector<simplex<1>>& edges, const simplex<1>
 /// The vertices of an edge of an element.
 template <std::size_t N>
 simplex<1> vertices_of_edge(const std::array<local_id, N>& element, const std::array<int, 2>& edge) {
-  return {element[static_cast<std::size_t>(edge[0])], element[static_cast<std::size_t>(edge[1])]};
+  return {element[edge[0]], element[edge[1]]};
 }
 
 /// The edges of a list of elements, each once.

@@ -38,9 +38,7 @@ struct angle_histogram {
   std::array<std::int64_t, 180> bins{}; ///< how many angles fall into each degree
 
   /// Counts an angle; what is outside [0, 180] goes to the nearest bin.
-  void add(double degrees) {
-    ++bins[static_cast<std::size_t>(std::clamp(static_cast<int>(degrees), 0, 179))];
-  }
+  void add(double degrees) { ++bins[std::clamp(static_cast<int>(degrees), 0, 179)]; }
   /// Adds the counts of another one.
   void merge(const angle_histogram& other) {
     for (std::size_t k = 0; k < bins.size(); ++k)

@@ -39,7 +39,7 @@ DOVETAIL_INLINE std::array<double, 2> extremes_of(const tetrahedron_parts& parts
 DOVETAIL_INLINE std::int64_t angle_histogram::below(int degrees) const {
   std::int64_t count = 0;
   for (int k = 0; k < std::min(degrees, 180); ++k)
-    count += bins[static_cast<std::size_t>(k)];
+    count += bins[k];
   return count;
 }
 
@@ -61,7 +61,7 @@ DOVETAIL_INLINE angle_histogram angle_histogram::decode(byte_reader& from) {
   if (first > histogram.bins.size() || count > histogram.bins.size() - first)
     throw input_error("binary data have more than 180 degrees");
   for (std::uint64_t k = first; k < first + count; ++k)
-    histogram.bins[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(from.count());
+    histogram.bins[k] = static_cast<std::int64_t>(from.count());
   return histogram;
 }
 
@@ -106,10 +106,9 @@ public:
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& side = numbering::sides<3>[i];
       const auto& edges = edges_of_sides[i];
-      include({p[static_cast<std::size_t>(side[0])], p[static_cast<std::size_t>(side[1])],
-               p[static_cast<std::size_t>(side[2])]},
-              norm_squared(parts.normals[i]), parts.lengths_squared[edges[0]],
-              parts.lengths_squared[edges[1]], parts.lengths_squared[edges[2]]);
+      include({p[side[0]], p[side[1]], p[side[2]]}, norm_squared(parts.normals[i]),
+              parts.lengths_squared[edges[0]], parts.lengths_squared[edges[1]],
+              parts.lengths_squared[edges[2]]);
     }
   }
 

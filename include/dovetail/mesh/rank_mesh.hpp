@@ -94,7 +94,7 @@ std::vector<global_id> cells_by_ids(const rank_mesh<D>& mesh) {
   std::vector<global_id> ids;
   ids.reserve(nodes_per_element(mesh) * mesh.owned_elements);
   for (std::size_t e = 0; e < mesh.owned_elements; ++e)
-    for_each_node(mesh, e, [&](local_id v) { ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]); });
+    for_each_node(mesh, e, [&](local_id v) { ids.push_back(mesh.vertex_ids[v]); });
   return ids;
 }
 
@@ -121,7 +121,7 @@ std::vector<global_id> sides_by_ids(const rank_mesh<D>& mesh) {
   ids.reserve(D * mesh.sides.size());
   for (const auto& side : mesh.sides)
     for (const local_id v : side)
-      ids.push_back(mesh.vertex_ids[static_cast<std::size_t>(v)]);
+      ids.push_back(mesh.vertex_ids[v]);
   return ids;
 }
 

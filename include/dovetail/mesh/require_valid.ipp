@@ -34,7 +34,7 @@ DOVETAIL_INLINE void require_finite(std::span<const vec3> points, std::string_vi
 
 template <int D>
 void require_oriented(const simplicial_mesh<D>& mesh, std::size_t e, std::string_view who) {
-  const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]; };
+  const auto at = [&](std::size_t k) { return mesh.points[mesh.elements[e][k]]; };
   const auto element = [&] {
     return "element " + std::to_string(e) + " (points " + listed_points(mesh.elements[e]) + ")";
   };
@@ -93,8 +93,7 @@ void require_own_sides(const simplicial_mesh<D>& mesh, const side_table<D>& side
       const local_id side = sides.of_element[e][k];
       const auto own = pick(mesh.elements[e], numbering::sides<D>[k]);
       if (side < 0 || side >= count ||
-          !std::is_permutation(own.begin(), own.end(),
-                               sides.vertices[static_cast<std::size_t>(side)].begin()))
+          !std::is_permutation(own.begin(), own.end(), sides.vertices[side].begin()))
         refuse("element " + std::to_string(e) + " has no side with the points " + listed_points(own));
     }
 }
@@ -116,8 +115,8 @@ void require_different(const simplicial_mesh<D>& mesh, const side_table<D>& side
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto element = static_cast<local_id>(e);
     const auto& of_element = sides.of_element[e];
-    const auto& first = sides.elements[static_cast<std::size_t>(of_element[0])];
-    const auto& second = sides.elements[static_cast<std::size_t>(of_element[1])];
+    const auto& first = sides.elements[of_element[0]];
+    const auto& second = sides.elements[of_element[1]];
     const local_id other = first[0] == element ? first[1] : first[0];
     if (other != no_id && (second[0] == other || second[1] == other))
       compare(element, other);
@@ -138,8 +137,7 @@ void require_sides(const simplicial_mesh<D>& mesh, const side_table<D>& sides, s
     for (const local_id e : sides.all_elements(side))
       elements += (elements.empty() ? "" : ", ") + std::to_string(e);
     refuse_mesh(who, "the elements " + elements + " all have the side (" +
-                         listed_points(sides.vertices[static_cast<std::size_t>(side)]) +
-                         "); no more than two may");
+                         listed_points(sides.vertices[side]) + "); no more than two may");
   }
   if (!demands.orientation)
     return;
@@ -148,8 +146,7 @@ void require_sides(const simplicial_mesh<D>& mesh, const side_table<D>& sides, s
     if (!sides.is_interior(side))
       continue;
     const auto [a, b] = sides.elements[s];
-    if (D == 2 && !mesh.tags.empty() &&
-        mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)])
+    if (D == 2 && !mesh.tags.empty() && mesh.tags[a] != mesh.tags[b])
       continue; // each face has an orientation of its own
     if (opposite(sides.vertices[s], side_of_element(mesh, sides, side, b)))
       continue;

@@ -26,7 +26,7 @@ struct side_table {
 
   std::size_t size() const { return elements.size(); }
   /// Whether it has one element only.
-  bool is_boundary(local_id side) const { return elements[static_cast<std::size_t>(side)][1] == no_id; }
+  bool is_boundary(local_id side) const { return elements[side][1] == no_id; }
   /// More than two elements meet at the side.
   bool is_non_manifold(local_id side) const {
     if (further_elements.empty())
@@ -41,7 +41,7 @@ struct side_table {
   local_id across(local_id side, local_id element) const {
     if (is_non_manifold(side))
       return no_id;
-    const auto& pair = elements[static_cast<std::size_t>(side)]; // {element, no_id} on the boundary
+    const auto& pair = elements[side]; // {element, no_id} on the boundary
     return pair[0] == element ? pair[1] : pair[0];
   }
   /// All elements at a side.
@@ -50,7 +50,7 @@ struct side_table {
 
 template <int D>
 std::vector<local_id> side_table<D>::all_elements(local_id side) const {
-  const auto& pair = elements[static_cast<std::size_t>(side)];
+  const auto& pair = elements[side];
   std::vector<local_id> all{pair[0]};
   if (pair[1] != no_id)
     all.push_back(pair[1]);

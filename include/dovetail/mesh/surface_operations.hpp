@@ -42,15 +42,15 @@ public:
   void push_all(const State& s) {
     const auto& t = s.table;
     for (local_id c = 0; c < static_cast<local_id>(t.vertex.size()); ++c)
-      if (t.vertex[static_cast<std::size_t>(c)] != no_id && t.twin[static_cast<std::size_t>(c)] > c)
+      if (t.vertex[c] != no_id && t.twin[c] > c)
         push(c);
   }
 
   /// Would the smaller quality of the two triangles at the side opposite c grow?
   template <class State>
   static bool flip_raises_quality(const State& s, local_id c) {
-    const local_id d = s.table.twin[s.at(c)];
-    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
+    const local_id d = s.table.twin[c];
+    const local_id p = s.table.vertex[c], q = s.table.vertex[d];
     const local_id a = s.table.tail(c), b = s.table.head(c);
     const double before = std::min(s.quality(p, a, b), s.quality(q, b, a));
     return before < 0.74 && std::min(s.quality(p, a, q), s.quality(q, b, p)) > before + 1e-6;
@@ -59,18 +59,18 @@ public:
 private:
   template <class State>
   static bool makes_chord(const State& s, local_id c) {
-    return !s.inner(s.table.vertex[s.at(c)]) && !s.inner(s.table.vertex[s.at(s.table.twin[s.at(c)])]);
+    return !s.inner(s.table.vertex[c]) && !s.inner(s.table.vertex[s.table.twin[c]]);
   }
   template <class State>
   static bool violates_delaunay(const State& s, local_id c) {
-    const local_id d = s.table.twin[s.at(c)];
-    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
+    const local_id d = s.table.twin[c];
+    const local_id p = s.table.vertex[c], q = s.table.vertex[d];
     const local_id a = s.table.tail(c), b = s.table.head(c);
-    const vec3 pa = s.point[s.at(a)] - s.point[s.at(p)], pb = s.point[s.at(b)] - s.point[s.at(p)];
-    const vec3 qa = s.point[s.at(a)] - s.point[s.at(q)], qb = s.point[s.at(b)] - s.point[s.at(q)];
+    const vec3 pa = s.point[a] - s.point[p], pb = s.point[b] - s.point[p];
+    const vec3 qa = s.point[a] - s.point[q], qb = s.point[b] - s.point[q];
     // Angles have the sign of their triangle's orientation. Where one is inside out the angles mean nothing,
     // but a flip that makes things better is welcome.
-    const vec3 normal = s.normal[s.at(a)] + s.normal[s.at(b)];
+    const vec3 normal = s.normal[a] + s.normal[b];
     const vec3 area_p = cross(pa, pb), area_q = cross(qb, qa);
     if (dot(area_p, normal) < 0 || dot(area_q, normal) < 0)
       return flip_raises_quality(s, c);
@@ -84,8 +84,8 @@ private:
   /// True when a flip would make a triangle whose normal is wrong out of two whose normals are right.
   template <class State>
   static bool flip_folds(const State& s, local_id c) {
-    const local_id d = s.table.twin[s.at(c)];
-    const local_id p = s.table.vertex[s.at(c)], q = s.table.vertex[s.at(d)];
+    const local_id d = s.table.twin[c];
+    const local_id p = s.table.vertex[c], q = s.table.vertex[d];
     const local_id a = s.table.tail(c), b = s.table.head(c);
     const double after = std::min(s.quality(p, a, q), s.quality(q, b, p));
     return after <= 0 && after <= std::min(s.quality(p, a, b), s.quality(q, b, a));
@@ -97,11 +97,11 @@ private:
     while (!corners_.empty()) {
       const local_id c = corners_.back();
       corners_.pop_back();
-      if (s.table.vertex[s.at(c)] == no_id || !s.table.free_side(c) || flips > limit)
+      if (s.table.vertex[c] == no_id || !s.table.free_side(c) || flips > limit)
         continue;
       if (!wants_flip(c) || !s.may_flip(c))
         continue;
-      const local_id d = s.table.twin[s.at(c)];
+      const local_id d = s.table.twin[c];
       s.table.flip(c);
       ++flips;
       for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
@@ -183,7 +183,7 @@ bool remove_vertex(State& s, local_id v, double required, double longest, flip_q
     ring.push_back(e);
   s.table.collapse(c);
   for (const local_id e : ring)
-    if (s.table.vertex[s.at(e)] == w) {
+    if (s.table.vertex[e] == w) {
       flips.push(corner_table::next(e));
       flips.push(corner_table::previous(e));
       flips.push(e);

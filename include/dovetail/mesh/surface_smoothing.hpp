@@ -20,14 +20,14 @@ public:
     next_.assign(s_.point.size(), 0);
     std::size_t moved = 0;
     for (local_id v = s_.frozen; v < static_cast<local_id>(s_.point.size()); ++v) {
-      if (!awake_[s_.at(v)] || s_.table.corner_of[s_.at(v)] == no_id)
+      if (!awake_[v] || s_.table.corner_of[v] == no_id)
         continue;
       if (!improve(v))
         continue;
       ++moved;
-      next_[s_.at(v)] = 1;
+      next_[v] = 1;
       for (const auto& [a, b] : link_)
-        next_[s_.at(a)] = 1;
+        next_[a] = 1;
     }
     awake_.swap(next_);
     return moved;
@@ -38,7 +38,7 @@ public:
   /// the worst of them worse.
   bool relax(local_id v) {
     collect_link(s_, v, link_);
-    const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
+    const vec3 step = wanted_point(v) - s_.point[v];
     star now = measure(v);
     return try_step(v, step, strict_rule{}, now) || try_step(v, 0.4 * step, strict_rule{}, now);
   }
@@ -51,7 +51,7 @@ public:
     star now = measure(v);
     double reach = 0.3 * link_radius(v);
     for (int round = 0; round < 6; ++round) {
-      const vec3 n = s_.normal[s_.at(v)];
+      const vec3 n = s_.normal[v];
       const vec3 x = s_.tangent(v), y = cross(n, x);
       bool better = false;
       for (int k = 0; k < 6 && !better; ++k) {
@@ -95,8 +95,8 @@ private:
 
   bool improve(local_id v) {
     collect_link(s_, v, link_);
-    const vec3 step = wanted_point(v) - s_.point[s_.at(v)];
-    if (norm_squared(step) < 1e-4 * s_.size[s_.at(v)] * s_.size[s_.at(v)])
+    const vec3 step = wanted_point(v) - s_.point[v];
+    if (norm_squared(step) < 1e-4 * s_.size[v] * s_.size[v])
       return false;
     star now = measure(v);
     return try_step(v, step, balanced_rule{}, now) || try_step(v, 0.4 * step, balanced_rule{}, now);
@@ -105,10 +105,10 @@ private:
   /// The mean of the apexes that would make each triangle of the star equilateral.
   vec3 wanted_point(local_id v) const {
     constexpr double height = 0.8660254037844386;
-    const vec3 n = s_.normal[s_.at(v)];
+    const vec3 n = s_.normal[v];
     vec3 sum{};
     for (const auto& [a, b] : link_) {
-      const vec3 pa = s_.point[s_.at(a)], pb = s_.point[s_.at(b)];
+      const vec3 pa = s_.point[a], pb = s_.point[b];
       sum += midpoint(pa, pb) + height * cross(n, pb - pa);
     }
     return sum / static_cast<double>(link_.size());

@@ -83,7 +83,7 @@ DOVETAIL_INLINE bool triangles_cross(std::span<const vec3> points, const simplex
         shared_in_s[shared] = i;
         shared_in_t[shared++] = j;
       }
-  const auto at = [&](local_id v) { return points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return points[v]; };
   if (shared == 3)
     return true;
   if (shared == 2) {

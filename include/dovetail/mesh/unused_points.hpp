@@ -15,7 +15,7 @@ void drop_unused_points(simplicial_mesh<D>& mesh, std::size_t kept = 0) {
   std::vector<local_id> number(mesh.points.size(), no_id);
   for (const simplex<D>& element : mesh.elements)
     for (const local_id v : element)
-      number[static_cast<std::size_t>(v)] = v;
+      number[v] = v;
   std::size_t next = kept;
   for (std::size_t v = kept; v < number.size(); ++v)
     if (number[v] != no_id) {
@@ -28,7 +28,7 @@ void drop_unused_points(simplicial_mesh<D>& mesh, std::size_t kept = 0) {
   for (simplex<D>& element : mesh.elements)
     for (local_id& v : element)
       if (static_cast<std::size_t>(v) >= kept)
-        v = number[static_cast<std::size_t>(v)];
+        v = number[v];
 }
 
 } // namespace dovetail

@@ -26,7 +26,7 @@ DOVETAIL_INLINE std::string_view name_of(mesh_fault kind) {
                                                    "repeated vertex", "duplicate element", "inverted element",
                                                    "flat element",    "non-manifold side", "misoriented side",
                                                    "open boundary",   "coincident point",  "isolated point"};
-  return names[static_cast<std::size_t>(kind)];
+  return names[kind];
 }
 
 DOVETAIL_INLINE std::int64_t validity::count(mesh_fault kind) const {
@@ -78,7 +78,7 @@ DOVETAIL_INLINE std::vector<local_id> repeated_points(std::span<const vec3> poin
     order[v] = {points[v].x, static_cast<local_id>(v)};
   sort_all(order);
   const auto rest_of = [&](const auto& one) {
-    const vec3& p = points[static_cast<std::size_t>(one.second)];
+    const vec3& p = points[one.second];
     return std::pair(p.y, p.z);
   };
   std::vector<local_id> repeated;
@@ -103,7 +103,7 @@ void check_points(const simplicial_mesh<D>& mesh, const validity_options& allowe
   std::vector<bool> used(points.size(), false);
   for (const auto& element : mesh.elements)
     for (const local_id v : element)
-      used[static_cast<std::size_t>(v)] = true;
+      used[v] = true;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y) || !std::isfinite(points[v].z))
       faults.add(mesh_fault::non_finite_point, static_cast<local_id>(v));
@@ -125,7 +125,7 @@ void check_elements(const simplicial_mesh<D>& mesh, fault_collector& faults) {
       faults.add(mesh_fault::repeated_vertex, id);
       continue;
     }
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]; };
+    const auto at = [&](std::size_t k) { return mesh.points[mesh.elements[e][k]]; };
     if constexpr (D == 3) {
       const double sign = orient3d(at(0), at(1), at(2), at(3));
       if (sign < 0)

@@ -37,9 +37,7 @@ public:
   /// All triangles, each once whatever its directions.
   const std::vector<entry>& entries() const { return entries_; }
   /// The input triangle that is oriented like the side asked for; no_id when only its reverse was listed.
-  local_id listed(match m) const {
-    return entries_[static_cast<std::size_t>(m.entry)].listed[static_cast<std::size_t>(m.parity)];
-  }
+  local_id listed(match m) const { return entries_[m.entry].listed[m.parity]; }
 
   /// 0 when the cyclic order of the vertices is that of growing ids, else 1.
   static constexpr int parity(const simplex<2>& t) {

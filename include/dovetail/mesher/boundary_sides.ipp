@@ -63,7 +63,7 @@ DOVETAIL_INLINE void boundary_sides::insert(const simplex<2>& triangle, local_id
     entries_[k] = {key[1], key[2], {no_id, no_id}};
     ++used[bucket];
   }
-  local_id& slot = entries_[k].listed[static_cast<std::size_t>(parity(triangle))];
+  local_id& slot = entries_[k].listed[parity(triangle)];
   if (slot != no_id)
     throw mesher_error("boundary triangles " + std::to_string(slot) + " and " + std::to_string(index) +
                        " are the same triangle in the same direction; remove one");

@@ -33,12 +33,11 @@ DOVETAIL_INLINE double enclosed_volume(std::span<const vec3> points, std::span<c
   box3 box;
   for (const auto& triangle : triangles)
     for (const local_id v : triangle)
-      box.include(points[static_cast<std::size_t>(v)]);
+      box.include(points[v]);
   const vec3 origin = box.center();
   double volume = 0;
   for (const auto& t : triangles)
-    volume -= signed_volume(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
-                            points[static_cast<std::size_t>(t[2])], origin);
+    volume -= signed_volume(points[t[0]], points[t[1]], points[t[2]], origin);
   return volume;
 }
 
@@ -56,7 +55,7 @@ inline void check_boundary_kept(const simplicial_mesh<2>& boundary, const simpli
   for (const auto& element : mesh.elements)
     for (const auto& local : numbering::sides<3>)
       if (const auto found = sides.find(detail::pick(element, local)))
-        ++uses[static_cast<std::size_t>(found.entry)][static_cast<std::size_t>(found.parity)];
+        ++uses[found.entry][found.parity];
   std::size_t lost = 0;
   for (std::size_t k = 0; k < uses.size(); ++k)
     for (std::size_t p = 0; p < 2; ++p) {
@@ -85,7 +84,7 @@ inline void check_volumes(const simplicial_mesh<2>& boundary, const simplicial_m
   for (const vec3 p : boundary.points)
     box.include(p);
   double volume = 0;
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& [a, b, c, d] = mesh.elements[e];
     if (!(orient3d(at(a), at(b), at(c), at(d)) > 0))
@@ -102,7 +101,7 @@ inline void check_volumes(const simplicial_mesh<2>& boundary, const simplicial_m
 } // namespace detail
 
 DOVETAIL_INLINE void check_elements_positive(const simplicial_mesh<3>& mesh) {
-  const auto at = [&](local_id v) { return mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return mesh.points[v]; };
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto& [a, b, c, d] = mesh.elements[e];
     if (!(orient3d(at(a), at(b), at(c), at(d)) > 0))
@@ -151,7 +150,7 @@ DOVETAIL_INLINE void require_enclosing(const simplicial_mesh<2>& boundary) {
   chain_sum edges;
   for (std::size_t t = 0; t < boundary.elements.size(); ++t) {
     const auto& triangle = boundary.elements[t];
-    const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(triangle[k])]; };
+    const auto at = [&](std::size_t k) { return boundary.points[triangle[k]]; };
     if (detail::collinear(at(0), at(1), at(2)))
       throw mesher_error("boundary triangle " + std::to_string(t) + " (points " +
                          detail::listed_points(triangle) +

@@ -27,9 +27,7 @@ inline std::vector<local_id> seed_labels(const simplicial_mesh<3>& mesh, const b
       if (!found)
         continue;
       const local_id triangle = boundary.listed(found);
-      const local_id label = triangle == no_id ? no_id
-                             : labels.empty()  ? 0
-                                               : labels[static_cast<std::size_t>(triangle)];
+      const local_id label = triangle == no_id ? no_id : labels.empty() ? 0 : labels[triangle];
       if (label_of[e] != unlabelled && label_of[e] != label)
         throw mesher_error("element " + std::to_string(e) + " lies on sides " + std::to_string(label_of[e]) +
                            " and " + std::to_string(label) +
@@ -54,7 +52,7 @@ inline void spread_labels(const simplicial_mesh<3>& mesh, const boundary_sides& 
       const local_id next = neighbours[e][i];
       if (next == no_id || boundary.find(pick(mesh.elements[e], numbering::sides<3>[i])))
         continue;
-      local_id& label = label_of[static_cast<std::size_t>(next)];
+      local_id& label = label_of[next];
       if (label == unlabelled) {
         label = label_of[e];
         front.push_back(static_cast<std::size_t>(next));
@@ -113,7 +111,7 @@ DOVETAIL_INLINE void drop_outside(simplicial_mesh<3>& mesh, std::span<const loca
   std::vector<local_id> renumbered(mesh.points.size(), no_id);
   for (const auto& element : mesh.elements)
     for (const local_id v : element)
-      renumbered[static_cast<std::size_t>(v)] = 0;
+      renumbered[v] = 0;
   std::size_t next = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     if (v < kept_points || renumbered[v] != no_id) {
@@ -123,7 +121,7 @@ DOVETAIL_INLINE void drop_outside(simplicial_mesh<3>& mesh, std::span<const loca
   mesh.points.resize(next);
   for (auto& element : mesh.elements)
     for (local_id& v : element)
-      v = renumbered[static_cast<std::size_t>(v)];
+      v = renumbered[v];
 }
 
 } // namespace dovetail

@@ -60,7 +60,7 @@ DOVETAIL_INLINE enclosed_regions::enclosed_regions(const simplicial_mesh<2>& sur
 }
 
 DOVETAIL_INLINE vec3 enclosed_regions::corner(std::size_t triangle, std::size_t k) const {
-  return surface_.points[static_cast<std::size_t>(surface_.elements[triangle][k])];
+  return surface_.points[surface_.elements[triangle][k]];
 }
 
 /// Around an edge, seen from its lower end to its upper one and counter-clockwise, each triangle faces the
@@ -76,8 +76,8 @@ DOVETAIL_INLINE void enclosed_regions::join_across_edges() {
   for_each_group<2>(
       3 * triangles.size(), surface_.points.size(), key_of,
       [&](const simplex<1>& edge, std::span<const std::uint32_t> members) {
-        const vec3 a = surface_.points[static_cast<std::size_t>(edge[0])];
-        const vec3 b = surface_.points[static_cast<std::size_t>(edge[1])];
+        const vec3 a = surface_.points[edge[0]];
+        const vec3 b = surface_.points[edge[1]];
         if (members.size() < 2)
           throw geometry_error("the edge from " + place_text(a) + " to " + place_text(b) +
                                " has one triangle only; close the surface there");
@@ -117,7 +117,7 @@ DOVETAIL_INLINE void enclosed_regions::join_across_edges() {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t s = 0; s < 2; ++s) {
       shell_[t][s] = shells.of_member[2 * t + s];
-      local_id& first = first_triangle_[static_cast<std::size_t>(shell_[t][s])];
+      local_id& first = first_triangle_[shell_[t][s]];
       if (first == no_id)
         first = static_cast<local_id>(t);
     }
@@ -130,7 +130,7 @@ DOVETAIL_INLINE void enclosed_regions::measure_shells() {
   only_component_.assign(surface_.points.size(), no_id);
   for (std::size_t t = 0; t < shell_.size(); ++t) {
     for (const local_id v : surface_.elements[t]) {
-      local_id& known = only_component_[static_cast<std::size_t>(v)];
+      local_id& known = only_component_[v];
       known = known == no_id || known == component_[t] ? component_[t] : of_several;
     }
     if (shell_[t][0] == shell_[t][1])
@@ -160,8 +160,8 @@ DOVETAIL_INLINE void enclosed_regions::number_regions() {
     std::vector<local_id> around(volume_.size(), no_id);
     for (std::size_t shell = 0; shell < volume_.size(); ++shell)
       if (!(volume_[shell] > 0))
-        around[shell] = region_around(point_of_shell(static_cast<local_id>(shell)),
-                                      component_[static_cast<std::size_t>(first_triangle_[shell])]);
+        around[shell] =
+            region_around(point_of_shell(static_cast<local_id>(shell)), component_[first_triangle_[shell]]);
     for (std::size_t shell = 0; shell < volume_.size(); ++shell)
       if (!(volume_[shell] > 0))
         region_of_shell_[shell] = around[shell];
@@ -169,14 +169,14 @@ DOVETAIL_INLINE void enclosed_regions::number_regions() {
   beside_.resize(shell_.size());
   for (std::size_t t = 0; t < shell_.size(); ++t)
     for (std::size_t s = 0; s < 2; ++s)
-      beside_[t][s] = region_of_shell_[static_cast<std::size_t>(shell_[t][s])];
+      beside_[t][s] = region_of_shell_[shell_[t][s]];
 }
 
 /// A corner that no other component has, else the middle of a triangle.
 DOVETAIL_INLINE vec3 enclosed_regions::point_of_shell(local_id shell) const {
-  const auto first = static_cast<std::size_t>(first_triangle_[static_cast<std::size_t>(shell)]);
+  const auto first = static_cast<std::size_t>(first_triangle_[shell]);
   for (std::size_t k = 0; k < 3; ++k)
-    if (only_component_[static_cast<std::size_t>(surface_.elements[first][k])] != no_id)
+    if (only_component_[surface_.elements[first][k]] != no_id)
       return corner(first, k);
   return (corner(first, 0) + corner(first, 1) + corner(first, 2)) / 3.0;
 }

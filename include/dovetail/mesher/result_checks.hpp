@@ -39,7 +39,7 @@ void check_points_used(std::size_t given, const simplicial_mesh<D>& mesh) {
   std::vector<bool> used(mesh.points.size(), false);
   for (const auto& element : mesh.elements)
     for (const local_id v : element)
-      used[static_cast<std::size_t>(v)] = true;
+      used[v] = true;
   for (std::size_t v = given; v < used.size(); ++v)
     if (!used[v])
       throw mesher_error("point " + std::to_string(v) + " is in no element");

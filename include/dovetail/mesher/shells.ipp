@@ -52,9 +52,9 @@ DOVETAIL_INLINE double winding_number(std::span<const vec3> points, std::span<co
                                       vec3 p) {
   double angle = 0;
   for (const auto& t : shell) {
-    const vec3 a = points[static_cast<std::size_t>(t[0])] - p;
-    const vec3 b = points[static_cast<std::size_t>(t[1])] - p;
-    const vec3 c = points[static_cast<std::size_t>(t[2])] - p;
+    const vec3 a = points[t[0]] - p;
+    const vec3 b = points[t[1]] - p;
+    const vec3 c = points[t[2]] - p;
     const double la = norm(a);
     const double lb = norm(b);
     const double lc = norm(c);
@@ -79,7 +79,7 @@ DOVETAIL_INLINE std::vector<bounded_body> bodies_of(const simplicial_mesh<2>& bo
   }
   for (auto& shell : voids) {
     const auto& t = shell.front();
-    const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) { return boundary.points[t[k]]; };
     const vec3 inside = (at(0) + at(1) + at(2)) / 3.0; // not a vertex: shells may touch there
     std::size_t best = bodies.size();
     for (std::size_t b = 0; b < bodies.size(); ++b)

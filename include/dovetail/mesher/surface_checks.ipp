@@ -48,8 +48,7 @@ inline double enclosed_area(const patch_boundary& boundary) {
   double area = 0;
   const vec2 origin = boundary.uv.empty() ? vec2{} : boundary.uv.front();
   for (const auto& [a, b] : boundary.segments)
-    area += 0.5 * cross(boundary.uv[static_cast<std::size_t>(a)] - origin,
-                        boundary.uv[static_cast<std::size_t>(b)] - origin);
+    area += 0.5 * cross(boundary.uv[a] - origin, boundary.uv[b] - origin);
   return area;
 }
 
@@ -64,7 +63,7 @@ inline void check_planes_filled(const mesher_input<2>& input, const simplicial_m
     const surface_region& region = input.regions[find(mesh.tags[e])];
     std::array<vec2, 3> at;
     for (std::size_t k = 0; k < 3; ++k)
-      at[k] = region.surface.plane->project(mesh.points[static_cast<std::size_t>(mesh.elements[e][k])]);
+      at[k] = region.surface.plane->project(mesh.points[mesh.elements[e][k]]);
     if (region.reversed)
       std::swap(at[1], at[2]);
     if (!(orient2d(at[0], at[1], at[2]) > 0))

@@ -115,9 +115,7 @@ private:
   std::vector<std::size_t> largest_first() const {
     std::vector<std::size_t> order(pending_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto cost = [&](std::size_t k) {
-      return options_.predicted_cost[static_cast<std::size_t>(pending_[k].subdomain)];
-    };
+    const auto cost = [&](std::size_t k) { return options_.predicted_cost[pending_[k].subdomain]; };
     if (!options_.predicted_cost.empty())
       stable_sort_all(order, [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
     return order;
@@ -132,7 +130,7 @@ private:
       return false;
     }
     counts_.reused += result.value->is_reused ? 1 : 0;
-    piece_summary& made = result_.pieces[static_cast<std::size_t>(piece.subdomain)];
+    piece_summary& made = result_.pieces[piece.subdomain];
     made = std::move(result.value->summary);
     made.summary.name = piece_name(piece.subdomain);
     return true;

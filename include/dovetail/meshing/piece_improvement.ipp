@@ -57,9 +57,8 @@ DOVETAIL_INLINE std::vector<bool> poles_of(const mesher_input<2>& input, std::si
   std::vector<bool> is_pole(points, false);
   for (const surface_region& region : input.regions)
     for (const auto& [a, b] : region.boundary.segments)
-      if (const local_id label = region.boundary.labels[static_cast<std::size_t>(a)];
-          label == region.boundary.labels[static_cast<std::size_t>(b)])
-        is_pole[static_cast<std::size_t>(label)] = true;
+      if (const local_id label = region.boundary.labels[a]; label == region.boundary.labels[b])
+        is_pole[label] = true;
   return is_pole;
 }
 
@@ -83,9 +82,9 @@ DOVETAIL_INLINE void freeze_around(const std::vector<std::array<local_id, 3>>& c
                                    const simplicial_mesh<2>& mesh, frozen_entities<2>& frozen) {
   std::vector<bool> is_end(mesh.points.size(), false);
   for (const auto& [a, b, face] : chords)
-    is_end[static_cast<std::size_t>(a)] = is_end[static_cast<std::size_t>(b)] = true;
+    is_end[a] = is_end[b] = true;
   for (const simplex<2>& t : mesh.elements)
-    if (std::any_of(t.begin(), t.end(), [&](local_id v) { return is_end[static_cast<std::size_t>(v)]; }))
+    if (std::any_of(t.begin(), t.end(), [&](local_id v) { return is_end[v]; }))
       for (std::size_t k = 0; k < 3; ++k)
         frozen.sides.push_back(sorted_vertices(simplex<1>{t[k], t[(k + 1) % 3]}));
   std::sort(frozen.sides.begin(), frozen.sides.end());

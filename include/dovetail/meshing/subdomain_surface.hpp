@@ -26,7 +26,7 @@ std::vector<local_id> points_of_subdomain(std::span<const simplex<D - 1>> sides,
                                           const sides_of_subdomains& sorted, local_id subdomain) {
   std::vector<local_id> numbers;
   for (const local_id side : sorted[subdomain])
-    append(numbers, sides[static_cast<std::size_t>(side)]);
+    append(numbers, sides[side]);
   sort_unique(numbers);
   return numbers;
 }
@@ -52,7 +52,7 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
   const auto& numbers = made.skeleton_points =
       points_of_subdomain<D>(span_of(skeleton.sides), sorted, subdomain);
   for (const local_id number : numbers)
-    made.boundary.points.push_back(skeleton.points[static_cast<std::size_t>(number)]);
+    made.boundary.points.push_back(skeleton.points[number]);
   for (simplex<D - 1>& side : made.boundary.elements)
     for (local_id& v : side)
       v = static_cast<local_id>(std::lower_bound(numbers.begin(), numbers.end(), v) - numbers.begin());

@@ -115,7 +115,7 @@ DOVETAIL_INLINE vec2 curved_model::project_to_face(local_id f, vec3 p, vec2 seed
 }
 
 DOVETAIL_INLINE double curved_model::project_to_curve(local_id c, vec3 p, double seed) const {
-  const auto& range = topology().curves[static_cast<std::size_t>(c)].t;
+  const auto& range = topology().curves[c].t;
   double best = data_->flat.project_to_curve(c, p, seed);
   auto at = curve_frame(c, best);
   for (int step = 0; step < most_steps; ++step) {

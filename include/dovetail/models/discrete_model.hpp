@@ -73,7 +73,6 @@ public:
 private:
   struct data;
 
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   vec3 mesh_point(local_id v) const;
 
   /// The segment of a polyline at arc length t, and the share of it that lies before t.

@@ -52,7 +52,7 @@ DOVETAIL_INLINE discrete_model::discrete_model(const oriented_surfaces& surfaces
   made->face_ids.assign(made->topology.faces.size(), no_id);
   for (std::size_t t = 0; t < made->surface.chart_of.size(); ++t)
     if (const local_id group = made->surface.group_of[t]; group != no_id)
-      made->face_ids[index(made->surface.chart_of[t])] = surfaces.group_numbers[index(group)];
+      made->face_ids[made->surface.chart_of[t]] = surfaces.group_numbers[group];
   for (const vec3& p : made->surface.mesh.points)
     made->bounds.include(p);
   data_ = std::move(made);
@@ -77,7 +77,7 @@ DOVETAIL_INLINE const report& discrete_model::repairs() const {
 }
 
 DOVETAIL_INLINE local_id discrete_model::face_id(local_id f) const {
-  return data_->face_ids[index(f)];
+  return data_->face_ids[f];
 }
 
 DOVETAIL_INLINE const charted_surface& discrete_model::surface() const {
@@ -97,49 +97,49 @@ DOVETAIL_INLINE std::optional<double> discrete_model::volume() const {
 }
 
 DOVETAIL_INLINE std::span<const double> discrete_model::lengths_along(local_id c) const {
-  return span_of(data_->curves[index(c)].lengths);
+  return span_of(data_->curves[c].lengths);
 }
 
 DOVETAIL_INLINE vec3 discrete_model::curve_point(local_id c, double t) const {
   const auto [segment, s] = place(c, t);
-  const auto& curve = data_->curves[index(c)];
+  const auto& curve = data_->curves[c];
   const vec3 a = mesh_point(curve.vertices[segment]);
   return a + s * (mesh_point(curve.vertices[segment + 1]) - a);
 }
 
 DOVETAIL_INLINE dovetail::curve_frame discrete_model::curve_frame(local_id c, double t) const {
   const std::size_t segment = place(c, t).first;
-  const auto& curve = data_->curves[index(c)];
+  const auto& curve = data_->curves[c];
   return {curve_point(c, t),
           normalized(mesh_point(curve.vertices[segment + 1]) - mesh_point(curve.vertices[segment]))};
 }
 
 DOVETAIL_INLINE vec2 discrete_model::curve_uv(local_id f, int k, double t) const {
-  const local_id curve = topology().faces[index(f)].coedges[static_cast<std::size_t>(k)].curve;
-  return data_->surface.frames[index(f)].flat(curve_point(curve, t));
+  const local_id curve = topology().faces[f].coedges[k].curve;
+  return data_->surface.frames[f].flat(curve_point(curve, t));
 }
 
 DOVETAIL_INLINE vec3 discrete_model::face_point(local_id f, vec2 uv) const {
-  return data_->charts[index(f)].point(uv);
+  return data_->charts[f].point(uv);
 }
 
 DOVETAIL_INLINE surface_frame discrete_model::face_frame(local_id f, vec2 uv) const {
-  return data_->charts[index(f)].frame(uv);
+  return data_->charts[f].frame(uv);
 }
 
 DOVETAIL_INLINE double discrete_model::face_curvature(local_id f, vec2 uv) const {
-  return data_->charts[index(f)].curvature(uv);
+  return data_->charts[f].curvature(uv);
 }
 
 DOVETAIL_INLINE vec2 discrete_model::project_to_face(local_id f, vec3 p, vec2) const {
-  return data_->charts[index(f)].project(p);
+  return data_->charts[f].project(p);
 }
 
 DOVETAIL_INLINE double discrete_model::project_to_curve(local_id c, vec3 p, double) const {
-  const auto& curve = data_->curves[index(c)];
+  const auto& curve = data_->curves[c];
   double best = std::numeric_limits<double>::infinity();
   double t = 0;
-  data_->curve_trees[index(c)].for_each_near(
+  data_->curve_trees[c].for_each_near(
       p, [&](const box3& box, std::size_t) { return distance_squared(box, p) <= best; },
       [&](local_id id) {
         const auto segment = static_cast<std::size_t>(id);
@@ -158,11 +158,11 @@ DOVETAIL_INLINE double discrete_model::project_to_curve(local_id c, vec3 p, doub
 }
 
 DOVETAIL_INLINE vec3 discrete_model::mesh_point(local_id v) const {
-  return data_->surface.mesh.points[index(v)];
+  return data_->surface.mesh.points[v];
 }
 
 DOVETAIL_INLINE std::pair<std::size_t, double> discrete_model::place(local_id c, double t) const {
-  const auto& lengths = data_->curves[index(c)].lengths;
+  const auto& lengths = data_->curves[c].lengths;
   const auto after = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, t);
   const auto segment = static_cast<std::size_t>(after - lengths.begin()) - 1;
   const double s = (t - lengths[segment]) / (lengths[segment + 1] - lengths[segment]);
@@ -176,9 +176,8 @@ DOVETAIL_INLINE void discrete_model::add_charts(data& d) {
   std::vector<std::vector<double>> curvature(s.frames.size());
   for (std::size_t t = 0; t < s.mesh.elements.size(); ++t) {
     const auto& v = s.mesh.elements[t];
-    const auto chart = index(s.chart_of[t]);
-    triangles[chart].push_back(
-        {s.mesh.points[index(v[0])], s.mesh.points[index(v[1])], s.mesh.points[index(v[2])]});
+    const std::size_t chart = s.chart_of[t];
+    triangles[chart].push_back({s.mesh.points[v[0]], s.mesh.points[v[1]], s.mesh.points[v[2]]});
     curvature[chart].push_back(curvatures[t]);
   }
   for (std::size_t f = 0; f < s.frames.size(); ++f)
@@ -187,8 +186,8 @@ DOVETAIL_INLINE void discrete_model::add_charts(data& d) {
     std::vector<box3> boxes;
     for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i) {
       box3 box;
-      box.include(s.mesh.points[index(curve.vertices[i])]);
-      box.include(s.mesh.points[index(curve.vertices[i + 1])]);
+      box.include(s.mesh.points[curve.vertices[i]]);
+      box.include(s.mesh.points[curve.vertices[i + 1]]);
       boxes.push_back(box);
     }
     d.curve_trees.emplace_back(boxes);
@@ -211,8 +210,7 @@ DOVETAIL_INLINE std::vector<double> discrete_model::triangle_curvatures(const ch
   });
   const auto corner_points = [&](std::size_t t) {
     const auto& v = s.mesh.elements[t];
-    return std::array<vec3, 3>{s.mesh.points[index(v[0])], s.mesh.points[index(v[1])],
-                               s.mesh.points[index(v[2])]};
+    return std::array<vec3, 3>{s.mesh.points[v[0]], s.mesh.points[v[1]], s.mesh.points[v[2]]};
   };
   std::vector<std::array<vec3, 3>> normals(s.mesh.elements.size());
   for (std::size_t i = 0; i < corners.size();) {

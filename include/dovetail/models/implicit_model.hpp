@@ -63,7 +63,6 @@ private:
 
   static const box3& checked(const box3& box, const implicit_options& options);
 
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   const discrete::chart_frame& frame_of(local_id f) const;
   vec3 carried(vec3 p) const;
 

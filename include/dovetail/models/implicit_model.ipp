@@ -52,7 +52,7 @@ DOVETAIL_INLINE dovetail::curve_frame implicit_model::curve_frame(local_id c, do
 }
 
 DOVETAIL_INLINE vec2 implicit_model::curve_uv(local_id f, int k, double t) const {
-  const local_id curve = topology().faces[index(f)].coedges[static_cast<std::size_t>(k)].curve;
+  const local_id curve = topology().faces[f].coedges[k].curve;
   return frame_of(f).flat(curve_point(curve, t));
 }
 
@@ -91,7 +91,7 @@ DOVETAIL_INLINE vec2 implicit_model::project_to_face(local_id f, vec3 p, vec2 se
 }
 
 DOVETAIL_INLINE double implicit_model::project_to_curve(local_id c, vec3 p, double seed) const {
-  const auto& range = topology().curves[index(c)].t;
+  const auto& range = topology().curves[c].t;
   double t = data_->start.project_to_curve(c, p, seed);
   for (int step = 0; step < 30; ++step) {
     const auto frame = curve_frame(c, t);
@@ -136,7 +136,7 @@ DOVETAIL_INLINE const box3& implicit_model::checked(const box3& box, const impli
 }
 
 DOVETAIL_INLINE const discrete::chart_frame& implicit_model::frame_of(local_id f) const {
-  return data_->start.surface().frames[index(f)];
+  return data_->start.surface().frames[f];
 }
 
 DOVETAIL_INLINE vec3 implicit_model::carried(vec3 p) const {

@@ -26,14 +26,14 @@ namespace dovetail {
 namespace occt {
 
 /// How many entities a shape has.
-struct entity_counts {
+struct shape_counts {
   std::size_t solids = 0;
   std::size_t faces = 0;
   std::size_t curves = 0;
   std::size_t vertices = 0;
 
-  using fields = field_list<&entity_counts::solids, &entity_counts::faces, &entity_counts::curves,
-                            &entity_counts::vertices>;
+  using fields =
+      field_list<&shape_counts::solids, &shape_counts::faces, &shape_counts::curves, &shape_counts::vertices>;
 };
 
 /// Calls `evaluate`; a failure inside OCCT becomes a `geometry_error` that names the entity.
@@ -95,8 +95,8 @@ struct evaluators {
   }
   evaluators& operator=(const evaluators&) = delete;
 
-  const GeomAdaptor_Curve& curve(local_id c) const { return curves[static_cast<std::size_t>(c)]; }
-  const face_surface& surface(local_id f) const { return surfaces[static_cast<std::size_t>(f)]; }
+  const GeomAdaptor_Curve& curve(local_id c) const { return curves[c]; }
+  const face_surface& surface(local_id f) const { return surfaces[f]; }
 
   std::vector<GeomAdaptor_Curve> curves;
   std::vector<face_surface> surfaces;
@@ -123,18 +123,18 @@ DOVETAIL_INLINE_OCCT const TopoDS_Shape& occt_model::shape() const {
 }
 
 DOVETAIL_INLINE_OCCT vec3 occt_model::pole(local_id c) const {
-  const auto& curve = topology_->curves[static_cast<std::size_t>(c)];
-  return topology_->vertices[static_cast<std::size_t>(curve.vertices[0])].point;
+  const auto& curve = topology_->curves[c];
+  return topology_->vertices[curve.vertices[0]].point;
 }
 
 DOVETAIL_INLINE_OCCT vec3 occt_model::curve_point(local_id c, double t) const {
-  if (topology_->curves[static_cast<std::size_t>(c)].degenerate)
+  if (topology_->curves[c].degenerate)
     return pole(c);
   return occt::query("curve", c, [&] { return occt::to_vec3(own_->curve(c).Value(t)); });
 }
 
 DOVETAIL_INLINE_OCCT dovetail::curve_frame occt_model::curve_frame(local_id c, double t) const {
-  if (topology_->curves[static_cast<std::size_t>(c)].degenerate)
+  if (topology_->curves[c].degenerate)
     return {pole(c), {}};
   return occt::query("curve", c, [&] {
     gp_Pnt p;
@@ -146,8 +146,8 @@ DOVETAIL_INLINE_OCCT dovetail::curve_frame occt_model::curve_frame(local_id c, d
 
 DOVETAIL_INLINE_OCCT vec2 occt_model::curve_uv(local_id f, int k, double t) const {
   return occt::query("face", f, [&] {
-    const auto& coedges = own_->coedges[static_cast<std::size_t>(f)];
-    return coedges[static_cast<std::size_t>(k)].at(t, own_->surface(f));
+    const auto& coedges = own_->coedges[f];
+    return coedges[k].at(t, own_->surface(f));
   });
 }
 
@@ -168,7 +168,7 @@ DOVETAIL_INLINE_OCCT vec2 occt_model::project_to_face(local_id f, vec3 p, vec2 s
 }
 
 DOVETAIL_INLINE_OCCT double occt_model::project_to_curve(local_id c, vec3 p, double seed) const {
-  const auto& curve = topology_->curves[static_cast<std::size_t>(c)];
+  const auto& curve = topology_->curves[c];
   if (curve.degenerate)
     return std::clamp(seed, curve.t[0], curve.t[1]);
   return occt::query("curve", c, [&] { return occt::nearest_parameter(own_->curve(c), curve.t, p, seed); });
@@ -189,8 +189,8 @@ DOVETAIL_INLINE_OCCT std::optional<surface_frame> occt_model::plane_of_face(loca
   constexpr double in_plane = 1e-6; // of the diagonal: the least tolerance that CAD files state
   if (own_->surface(f).adaptor().GetType() != GeomAbs_Plane)
     return std::nullopt;
-  for (const auto& coedge : topology_->faces[static_cast<std::size_t>(f)].coedges)
-    if (topology_->curves[static_cast<std::size_t>(coedge.curve)].tolerance > in_plane * bounds_.diagonal())
+  for (const auto& coedge : topology_->faces[f].coedges)
+    if (topology_->curves[coedge.curve].tolerance > in_plane * bounds_.diagonal())
       return std::nullopt;
   return own_->surface(f).frame({0, 0});
 }
@@ -203,10 +203,10 @@ DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape inp
   const occt::silenced quiet;
   occt::brep data = occt::guarded(source, [&] { return occt::healed_brep(std::move(input), made, what); });
   made.warnings.insert(made.warnings.end(), data.warnings.begin(), data.warnings.end());
-  made.set(occt::entity_counts{.solids = data.topology.solids.size(),
-                               .faces = data.topology.faces.size(),
-                               .curves = data.topology.curves.size(),
-                               .vertices = data.topology.vertices.size()});
+  made.set(occt::shape_counts{.solids = data.topology.solids.size(),
+                              .faces = data.topology.faces.size(),
+                              .curves = data.topology.curves.size(),
+                              .vertices = data.topology.vertices.size()});
   occt_model model(std::move(data));
   made.seconds = watch.seconds();
   return {std::move(model), std::move(made)};

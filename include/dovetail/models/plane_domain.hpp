@@ -39,7 +39,7 @@ public:
 
 private:
   static constexpr vec3 in_space(vec2 p) { return {p.x, p.y, 0}; }
-  const polyline& curve(local_id c) const { return curves_[static_cast<std::size_t>(c)]; }
+  const polyline& curve(local_id c) const { return curves_[c]; }
 
   std::vector<polyline> curves_;
   geometry_topology topology_;

@@ -30,8 +30,8 @@ DOVETAIL_INLINE dovetail::curve_frame plane_domain::curve_frame(local_id c, doub
 }
 
 DOVETAIL_INLINE vec2 plane_domain::curve_uv(local_id f, int k, double t) const {
-  const auto& face = topology_.faces[static_cast<std::size_t>(f)];
-  return curve(face.coedges[static_cast<std::size_t>(k)].curve).at(t);
+  const auto& face = topology_.faces[f];
+  return curve(face.coedges[k].curve).at(t);
 }
 
 DOVETAIL_INLINE double plane_domain::project_to_curve(local_id c, vec3 p, double seed) const {

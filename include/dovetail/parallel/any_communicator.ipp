@@ -74,10 +74,10 @@ DOVETAIL_INLINE std::vector<byte_buffer> any_communicator::gather(byte_buffer by
     return {};
   }
   std::vector<byte_buffer> all(static_cast<std::size_t>(size()));
-  all[static_cast<std::size_t>(root)] = std::move(bytes);
+  all[root] = std::move(bytes);
   for (int others = 1; others < size(); ++others) {
     rank_message next = await(tag);
-    all[static_cast<std::size_t>(next.peer)] = std::move(next.bytes);
+    all[next.peer] = std::move(next.bytes);
   }
   return all;
 }

@@ -43,14 +43,14 @@ DOVETAIL_INLINE int in_process::size() const {
 DOVETAIL_INLINE void in_process::send(int to, std::int32_t tag, byte_buffer bytes) {
   const std::lock_guard lock(all_->guard);
   all_->require_all();
-  all_->inboxes.at(static_cast<std::size_t>(to)).push_back({rank_, tag, std::move(bytes)});
+  all_->inboxes.at(to).push_back({rank_, tag, std::move(bytes)});
   all_->news.notify_all();
 }
 
 DOVETAIL_INLINE std::optional<rank_message> in_process::receive() {
   const std::lock_guard lock(all_->guard);
   all_->require_all();
-  auto& inbox = all_->inboxes[static_cast<std::size_t>(rank_)];
+  auto& inbox = all_->inboxes[rank_];
   if (inbox.empty())
     return std::nullopt;
   rank_message next = std::move(inbox.front());
@@ -60,9 +60,8 @@ DOVETAIL_INLINE std::optional<rank_message> in_process::receive() {
 
 DOVETAIL_INLINE void in_process::wait(std::chrono::milliseconds at_most) {
   std::unique_lock lock(all_->guard);
-  all_->news.wait_for(lock, at_most, [&] {
-    return !all_->abandoned.empty() || !all_->inboxes[static_cast<std::size_t>(rank_)].empty();
-  });
+  all_->news.wait_for(lock, at_most,
+                      [&] { return !all_->abandoned.empty() || !all_->inboxes[rank_].empty(); });
   all_->require_all();
 }
 

@@ -60,7 +60,7 @@ public:
         options);
     for (std::size_t k = 0; k < count; ++k)
       if (auto& made = receipts[k].value)
-        keys_[static_cast<std::size_t>(number(k))] = store_->take(std::exchange(made->kept, {}));
+        keys_[number(k)] = store_->take(std::exchange(made->kept, {}));
     return receipts;
   }
 

@@ -27,13 +27,13 @@ public:
   std::size_t node_count() const { return part_.size(); }   ///< nodes of the graph
   std::size_t part_count() const { return limits_.size(); } ///< how many parts there are
   /// The weight of one node.
-  double weight_of_node(local_id node) const { return graph_.node_weights[index(node)]; }
-  local_id part_of(local_id node) const { return part_[index(node)]; } ///< the part that a node is in now
+  double weight_of_node(local_id node) const { return graph_.node_weights[node]; }
+  local_id part_of(local_id node) const { return part_[node]; } ///< the part that a node is in now
   /// The sum of the weights of a part's nodes.
-  double weight(local_id part) const { return weights_[index(part)]; }
+  double weight(local_id part) const { return weights_[part]; }
   /// What the weight of a part should not exceed.
-  double limit(local_id part) const { return limits_[index(part)]; }
-  local_id nodes_in(local_id part) const { return counts_[index(part)]; } ///< how many nodes a part has
+  double limit(local_id part) const { return limits_[part]; }
+  local_id nodes_in(local_id part) const { return counts_[part]; } ///< how many nodes a part has
   /// Weight over limit: above 1 it is overweight.
   double relative_weight(local_id part) const { return weight(part) / limit(part); }
   move_gains& gains() { return gains_; } ///< what moving nodes would gain
@@ -42,8 +42,6 @@ public:
   void move(local_id node, local_id to);
 
 private:
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
-
   const csr_graph& graph_;
   std::span<local_id> part_;
   std::vector<double> limits_;

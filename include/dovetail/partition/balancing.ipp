@@ -21,15 +21,15 @@ DOVETAIL_INLINE movable_parts::movable_parts(const csr_graph& graph, std::span<l
       weights_(part_weights(graph, part, static_cast<int>(limits_.size()))), counts_(limits_.size(), 0),
       gains_(graph, part, limits_.size()) {
   for (const local_id p : part)
-    ++counts_[index(p)];
+    ++counts_[p];
 }
 
 DOVETAIL_INLINE void movable_parts::move(local_id node, local_id to) {
-  local_id& from = part_[index(node)];
-  weights_[index(from)] -= weight_of_node(node);
-  weights_[index(to)] += weight_of_node(node);
-  --counts_[index(from)];
-  ++counts_[index(to)];
+  local_id& from = part_[node];
+  weights_[from] -= weight_of_node(node);
+  weights_[to] += weight_of_node(node);
+  --counts_[from];
+  ++counts_[to];
   from = to;
 }
 
@@ -54,7 +54,7 @@ DOVETAIL_INLINE void part_balancer::offer(local_id node) {
   const double w = parts_.weight_of_node(node);
   if (w <= 0)
     return;
-  auto& exits = exits_[static_cast<std::size_t>(parts_.part_of(node))];
+  auto& exits = exits_[parts_.part_of(node)];
   parts_.gains().for_each_target(
       node, [&](local_id to, double gain) { exits[to].by_gain.emplace(gain / w, -node); });
 }
@@ -88,7 +88,7 @@ DOVETAIL_INLINE bool part_balancer::shed_one(local_id from) {
   if (parts_.nodes_in(from) < 2)
     return false;
   move best;
-  for (auto& [to, way] : exits_[static_cast<std::size_t>(from)]) {
+  for (auto& [to, way] : exits_[from]) {
     const move candidate = best_through(way, from, to);
     const auto key = [&](const move& m) { return std::tuple(-m.gain, parts_.weight(m.to), m.to); };
     if (candidate.node != no_id && (best.node == no_id || key(candidate) < key(best)))

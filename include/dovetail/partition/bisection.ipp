@@ -31,9 +31,9 @@ inline std::vector<local_id> grow_part(const csr_graph& graph, local_id start, d
   std::vector<double> gain(n, 0.0); // edges to part 0 minus edges to part 1
   for (std::size_t v = 0; v < n; ++v)
     for (std::int64_t k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k)
-      gain[v] -= graph.edge_weights[static_cast<std::size_t>(k)];
+      gain[v] -= graph.edge_weights[k];
   std::priority_queue<std::pair<double, local_id>> frontier; // by gain, then the smaller node
-  frontier.emplace(gain[static_cast<std::size_t>(start)], -start);
+  frontier.emplace(gain[start], -start);
   double weight = 0;
   std::size_t taken = 0;
   std::size_t next_unreached = 0;

@@ -28,7 +28,7 @@ void require_partition(const std::vector<local_id>& part, std::size_t nodes, int
     if (part[v] < 0 || part[v] >= parts)
       refuse("put node " + std::to_string(v) + " into part " + std::to_string(part[v]) + " of " +
              std::to_string(parts));
-    has_node[static_cast<std::size_t>(part[v])] = true;
+    has_node[part[v]] = true;
   }
   for (std::size_t p = 0; p < has_node.size(); ++p)
     if (!has_node[p] && nodes >= has_node.size())

@@ -43,7 +43,7 @@ DOVETAIL_INLINE coarsened_graph match_heavy_edges(const csr_graph& graph, double
     }
     coarse.node_of[i] = count;
     if (mate != no_id)
-      coarse.node_of[static_cast<std::size_t>(mate)] = count;
+      coarse.node_of[mate] = count;
     ++count;
   }
   coarse.graph = contract(graph, coarse.node_of, count);

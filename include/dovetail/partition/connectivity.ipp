@@ -23,18 +23,18 @@ DOVETAIL_INLINE std::size_t join_stray_components(const csr_graph& graph, std::s
   std::vector<double> weight(count, 0.0);
   std::vector<local_id> part_of(count, no_id);
   for (std::size_t v = 0; v < part.size(); ++v) {
-    weight[static_cast<std::size_t>(found.of_node[v])] += graph.node_weights[v];
-    part_of[static_cast<std::size_t>(found.of_node[v])] = part[v];
+    weight[found.of_node[v]] += graph.node_weights[v];
+    part_of[found.of_node[v]] = part[v];
   }
   std::vector<std::size_t> main(static_cast<std::size_t>(parts), count);
   for (std::size_t c = 0; c < count; ++c) {
-    std::size_t& best = main[static_cast<std::size_t>(part_of[c])];
+    std::size_t& best = main[part_of[c]];
     if (best == count || weight[c] > weight[best])
       best = c;
   }
   std::vector<std::size_t> strays;
   for (std::size_t c = 0; c < count; ++c)
-    if (main[static_cast<std::size_t>(part_of[c])] != c)
+    if (main[part_of[c]] != c)
       strays.push_back(c);
   stable_sort_all(strays, [&](std::size_t a, std::size_t b) { return weight[a] < weight[b]; });
 

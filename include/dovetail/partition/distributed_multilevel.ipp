@@ -29,7 +29,7 @@ DOVETAIL_INLINE bool keeps_promise(any_communicator& network, const csr_graph& r
                                    const std::vector<local_id>& part, int parts, double most) {
   std::vector<double> nodes(static_cast<std::size_t>(parts), 0);
   for (const local_id p : part)
-    ++nodes[static_cast<std::size_t>(p)];
+    ++nodes[p];
   const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
     std::transform(from.begin(), from.end(), to.begin(), to.begin(), std::plus<>());
   };

@@ -21,25 +21,25 @@ public:
   /// Calls `consider(part, gain)` for every part next to a node but its own. Linear in the node's edges.
   template <class Consider>
   void for_each_target(local_id node, const Consider& consider) {
-    const local_id own = part_[static_cast<std::size_t>(node)];
+    const local_id own = part_[node];
     const auto row = graph_.row(node);
-    const auto begin = static_cast<std::size_t>(graph_.offsets[static_cast<std::size_t>(node)]);
+    const auto begin = static_cast<std::size_t>(graph_.offsets[node]);
     touched_.clear();
     double inside = 0;
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const local_id p = part_[static_cast<std::size_t>(row[k])];
+      const local_id p = part_[row[k]];
       const double weight = graph_.edge_weights[begin + k];
       if (p == own) {
         inside += weight;
         continue;
       }
-      double& connection = connection_[static_cast<std::size_t>(p)];
+      double& connection = connection_[p];
       if (connection == 0)
         touched_.push_back(p);
       connection += weight;
     }
     for (const local_id p : touched_) {
-      double& connection = connection_[static_cast<std::size_t>(p)];
+      double& connection = connection_[p];
       consider(p, connection - inside);
       connection = 0;
     }

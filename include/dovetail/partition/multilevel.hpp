@@ -48,7 +48,7 @@ std::vector<local_id> partition_by_levels(const csr_graph& graph, int parts,
     const csr_graph& finer = level == 0 ? graph : levels[level - 1].graph;
     std::vector<local_id> projected(finer.node_weights.size());
     for (std::size_t v = 0; v < projected.size(); ++v)
-      projected[v] = part[static_cast<std::size_t>(levels[level].node_of[v])];
+      projected[v] = part[levels[level].node_of[v]];
     part = std::move(projected);
     refine(finer, part);
   }

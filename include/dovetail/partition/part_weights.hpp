@@ -18,7 +18,7 @@ template <weighted_graph G>
 std::vector<double> part_weights(const G& graph, std::span<const local_id> part, int parts) {
   std::vector<double> weights(static_cast<std::size_t>(parts), 0.0);
   for (std::size_t v = 0; v < part.size(); ++v)
-    weights[static_cast<std::size_t>(part[v])] += graph.node_weight(static_cast<local_id>(v));
+    weights[part[v]] += graph.node_weight(static_cast<local_id>(v));
   return weights;
 }
 
@@ -43,7 +43,7 @@ double edge_cut(const G& graph, std::span<const local_id> part) {
   double cut = 0;
   for (local_id v = 0; v < static_cast<local_id>(graph.node_count()); ++v)
     graph.for_each_edge(v, [&](local_id w, double weight) {
-      if (v < w && part[static_cast<std::size_t>(v)] != part[static_cast<std::size_t>(w)])
+      if (v < w && part[v] != part[w])
         cut += weight;
     });
   return cut;

@@ -51,9 +51,7 @@ DOVETAIL_INLINE void fill_empty_parts(const csr_graph& graph, std::span<local_id
     if (left[donor].empty()) {
       append(left[donor], members[donor]);
       sort_all(left[donor], [&](local_id a, local_id b) {
-        const auto key = [&](local_id v) {
-          return std::pair(graph.node_weights[static_cast<std::size_t>(v)], -v);
-        };
+        const auto key = [&](local_id v) { return std::pair(graph.node_weights[v], -v); };
         return key(a) < key(b);
       });
     }

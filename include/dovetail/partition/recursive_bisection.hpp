@@ -52,17 +52,16 @@ std::vector<local_id> recursive_bisection(const csr_graph& graph, int parts, con
     tasks.pop_back();
     const auto& nodes = whole.members.nodes;
     for (const local_id v : nodes)
-      part[static_cast<std::size_t>(v)] = whole.first_part;
+      part[v] = whole.first_part;
     if (whole.parts < 2 || nodes.size() < 2)
       continue;
     const std::array shares{whole.parts / 2, whole.parts - whole.parts / 2};
     const std::vector<local_id> half = bisect(whole.members.graph, shares[0], shares[1]);
     local_id first_part = whole.first_part;
     for (const local_id side : {0, 1}) {
-      task next{induced_subgraph(whole.members.graph, half, side), first_part,
-                shares[static_cast<std::size_t>(side)]};
+      task next{induced_subgraph(whole.members.graph, half, side), first_part, shares[side]};
       for (local_id& v : next.members.nodes)
-        v = nodes[static_cast<std::size_t>(v)];
+        v = nodes[v];
       first_part += next.parts;
       tasks.push_back(std::move(next));
     }

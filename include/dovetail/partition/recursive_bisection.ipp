@@ -18,7 +18,7 @@ DOVETAIL_INLINE std::vector<local_id> cut_order(std::span<const local_id> order,
                                                 std::span<const int> shares) {
   double total = 0;
   for (const local_id v : order)
-    total += node_weights[static_cast<std::size_t>(v)];
+    total += node_weights[v];
   const int all_shares = std::accumulate(shares.begin(), shares.end(), 0);
   std::vector<local_id> run(node_weights.size(), 0);
   std::size_t at = 0;
@@ -30,11 +30,11 @@ DOVETAIL_INLINE std::vector<local_id> cut_order(std::span<const local_id> order,
     const std::size_t largest_end = order.size() - static_cast<std::size_t>(all_shares - shares_before);
     const double target = total * shares_before / all_shares;
     while (at < largest_end) {
-      const double w = node_weights[static_cast<std::size_t>(order[at])];
+      const double w = node_weights[order[at]];
       const bool nearer_without = before + w - target > target - before;
       if (at >= least_end && k + 1 < shares.size() && nearer_without)
         break;
-      run[static_cast<std::size_t>(order[at++])] = static_cast<local_id>(k);
+      run[order[at++]] = static_cast<local_id>(k);
       before += w;
     }
   }
@@ -44,9 +44,7 @@ DOVETAIL_INLINE std::vector<local_id> cut_order(std::span<const local_id> order,
 DOVETAIL_INLINE std::vector<local_id> order_by(std::span<const double> keys) {
   std::vector<local_id> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  stable_sort_all(order, [&](local_id a, local_id b) {
-    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
-  });
+  stable_sort_all(order, [&](local_id a, local_id b) { return keys[a] < keys[b]; });
   return order;
 }
 

@@ -43,10 +43,6 @@ private:
   };
   using move_queue = std::priority_queue<std::pair<double, local_id>>; // gain, then the smaller node
 
-  template <class Id>
-  static std::size_t index(Id id) {
-    return static_cast<std::size_t>(id);
-  }
   /// Gains are sums of weights; differences below this are rounding.
   static constexpr double tolerance() { return 1e-9; }
 

@@ -26,7 +26,7 @@ DOVETAIL_INLINE bool partition_refiner::improve_cut() {
     const auto [promised, negated_node] = queue.top();
     const local_id v = -negated_node;
     queue.pop();
-    if (locked[index(v)])
+    if (locked[v])
       continue;
     const move best = best_move(v);
     if (best.to == no_id)
@@ -36,7 +36,7 @@ DOVETAIL_INLINE bool partition_refiner::improve_cut() {
       continue;
     }
     trail.push_back({v, parts_.part_of(v)});
-    locked[index(v)] = true;
+    locked[v] = true;
     parts_.move(v, best.to);
     gain += best.gain;
     if (gain > best_gain + tolerance()) {
@@ -44,7 +44,7 @@ DOVETAIL_INLINE bool partition_refiner::improve_cut() {
       best_length = trail.size();
     }
     for (const local_id w : parts_.graph().row(v))
-      if (!locked[index(w)])
+      if (!locked[w])
         offer(queue, w);
   }
   for (std::size_t k = trail.size(); k > best_length; --k)

@@ -53,9 +53,7 @@ DOVETAIL_INLINE std::vector<local_id> space_filling_curve::order_along_curve(con
   }
   std::vector<local_id> order(places.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) {
-    return places[static_cast<std::size_t>(a)] < places[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(), [&](local_id a, local_id b) { return places[a] < places[b]; });
   return order;
 }
 

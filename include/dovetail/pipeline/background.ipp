@@ -62,8 +62,8 @@ inline size_ball place_of_triangle(const simplicial_mesh<2>& mesh, std::size_t t
   vec3 center{};
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const vec3 a = mesh.points[static_cast<std::size_t>(triangle[k])];
-    const vec3 b = mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+    const vec3 a = mesh.points[triangle[k]];
+    const vec3 b = mesh.points[triangle[(k + 1) % 3]];
     center += a / 3.0;
     longest = std::max(longest, distance(a, b));
   }
@@ -81,7 +81,7 @@ inline std::vector<size_ball> places_to_refine(const simplicial_mesh<2>& mesh,
   std::set<local_id> faces;
   for (const triangle_pair& pair : crossing)
     for (const local_id t : {pair.first, pair.second}) {
-      faces.insert(mesh.tags[static_cast<std::size_t>(t)]);
+      faces.insert(mesh.tags[t]);
       places.push_back(place_of_triangle(mesh, static_cast<std::size_t>(t), 0.4));
     }
   for (std::size_t t = 0; late && mesh.elements.size() <= small && t < mesh.elements.size(); ++t)
@@ -97,7 +97,7 @@ DOVETAIL_INLINE simplicial_mesh<2> outer_surface(const surface_mesh& surface,
   simplicial_mesh<2> outer;
   outer.points = surface.mesh.points;
   for (std::size_t t = 0; t < surface.mesh.elements.size(); ++t) {
-    const auto& [behind, in_front] = topology.faces[static_cast<std::size_t>(surface.mesh.tags[t])].solids;
+    const auto& [behind, in_front] = topology.faces[surface.mesh.tags[t]].solids;
     if ((behind == no_id) == (in_front == no_id))
       continue;
     simplex<2> triangle = surface.mesh.elements[t];
@@ -130,8 +130,8 @@ DOVETAIL_INLINE background::coarse_surface_result surface_without_crossings_by(
       most_late = 2 * count + 1000;
     }
     if (count > 0 && (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
-      throw_crossing_faces(model.topology(), {mesh.tags[static_cast<std::size_t>(pairs.front().first)],
-                                              mesh.tags[static_cast<std::size_t>(pairs.front().second)]});
+      throw_crossing_faces(model.topology(),
+                           {mesh.tags[pairs.front().first], mesh.tags[pairs.front().second]});
     return places_to_refine(mesh, pairs, ++round > rounds_at_crossings);
   };
   return make(parameters);
@@ -208,7 +208,7 @@ inline double elements_beside_fine_surface(const simplicial_mesh<2>& surface, co
   for (const auto& triangle : surface.elements) {
     std::array<vec3, 3> p{};
     for (std::size_t k = 0; k < 3; ++k)
-      p[k] = surface.points[static_cast<std::size_t>(triangle[k])];
+      p[k] = surface.points[triangle[k]];
     const double area = 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
     const double edge = std::sqrt(4 / std::sqrt(3.0) * area); // of a regular one
     const double wanted = size((p[0] + p[1] + p[2]) / 3);

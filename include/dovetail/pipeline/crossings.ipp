@@ -59,7 +59,7 @@ DOVETAIL_INLINE suppression_plan plan_for_failed_patches(const coarse_skeleton& 
   const auto faces_at = faces_of_lines(coarse);
   for (const patch_failure& failure : failures) {
     if (!failure.folded.empty() && failure.region != no_id) {
-      const local_id face = coarse.regions[static_cast<std::size_t>(failure.region)].cad_face;
+      const local_id face = coarse.regions[failure.region].cad_face;
       for (const auto& [a, b, c] : failure.folded)
         plan.surface_crossings.push_back(
             {{face, face}, (a + b + c) / 3.0, (distance(a, b) + distance(b, c) + distance(c, a)) / 3});
@@ -68,10 +68,10 @@ DOVETAIL_INLINE suppression_plan plan_for_failed_patches(const coarse_skeleton& 
     }
     bool can_go = failure.face != no_id;
     if (can_go)
-      pairs.insert(coarse.faces[static_cast<std::size_t>(failure.face)].subdomains);
+      pairs.insert(coarse.faces[failure.face].subdomains);
     for (const local_id line : failure.removable_lines) {
       for (const local_id face : faces_at[line])
-        pairs.insert(coarse.faces[static_cast<std::size_t>(face)].subdomains);
+        pairs.insert(coarse.faces[face].subdomains);
       can_go = can_go || !faces_at[line].empty();
     }
     for (const size_ball& edge : failure.edges)

@@ -36,12 +36,8 @@ struct fill_plan {
   bool is_oriented = true;
   std::vector<std::string> warnings = {};
 
-  bool is_filled(local_id region) const {
-    return region != no_id && material[static_cast<std::size_t>(region)] != empty;
-  }
-  local_id material_of(local_id region) const {
-    return is_filled(region) ? material[static_cast<std::size_t>(region)] : no_id;
-  }
+  bool is_filled(local_id region) const { return region != no_id && material[region] != empty; }
+  local_id material_of(local_id region) const { return is_filled(region) ? material[region] : no_id; }
 };
 
 /// Regions that see inner sides of triangles are filled, all of them where the outside sees some too.
@@ -50,7 +46,7 @@ inline void tell_voids(const enclosed_regions& regions, const simplicial_mesh<2>
   for (std::size_t t = 0; t < surface.elements.size(); ++t) {
     const auto [behind, before] = regions.beside()[t];
     if (behind != no_id) {
-      sees_inner_side[static_cast<std::size_t>(behind)] = true;
+      sees_inner_side[behind] = true;
     } else if (before != no_id && plan.is_oriented) {
       plan.is_oriented = false;
       plan.warnings.push_back("triangle " + triangle_text(surface, t) +
@@ -72,7 +68,7 @@ inline void apply_marks(const enclosed_regions& regions, const std::vector<regio
     if (region == no_id)
       throw geometry_error("the point " + place_text(mark.place) +
                            " is outside of the surface; give a point inside of the region that is meant");
-    const region_mark*& known = mark_of[static_cast<std::size_t>(region)];
+    const region_mark*& known = mark_of[region];
     if (known != nullptr && known->material != mark.material)
       throw geometry_error("the points " + place_text(known->place) + " and " + place_text(mark.place) +
                            " are in one region, of which they say different things");
@@ -144,7 +140,7 @@ inline piece_input<3> boundary_of_region(std::span<const std::size_t> sides,
     used.insert(used.end(), triangle.begin(), triangle.end());
   sort_unique(used);
   for (const local_id v : used)
-    boundary.points.push_back(surface.points[static_cast<std::size_t>(v)]);
+    boundary.points.push_back(surface.points[v]);
   for (simplex<2>& triangle : boundary.elements)
     for (local_id& v : triangle)
       v = static_cast<local_id>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
@@ -161,7 +157,7 @@ inline box_prediction predict_in_box(const simplicial_mesh<2>& surface, const an
   box3 box;
   for (const simplex<2>& triangle : surface.elements)
     for (const local_id v : triangle)
-      box.include(surface.points[static_cast<std::size_t>(v)]);
+      box.include(surface.points[v]);
   const vec3 step = (box.upper - box.lower) / across;
   box_prediction result;
   for (int x = 0; x < across; ++x)
@@ -210,7 +206,7 @@ inline filled_region append_region(const simplicial_piece<3>& piece, simplicial_
       const auto k = static_cast<std::size_t>(v);
       v = k < given.size() ? given[k] : static_cast<local_id>(first + k - given.size());
     }
-    const auto at = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(element[k])]; };
+    const auto at = [&](std::size_t k) { return mesh.points[element[k]]; };
     region.volume += signed_volume(at(0), at(1), at(2), at(3));
     mesh.elements.push_back(element);
     mesh.tags.push_back(piece.material);
@@ -255,16 +251,15 @@ DOVETAIL_INLINE filled_surface detail::fill_by(const enclosed_region_mesher& mes
 
   const auto sides = detail::triangles_of_regions(regions);
   const auto source = [&](local_id k) {
-    const local_id region = plan.filled[static_cast<std::size_t>(k)];
-    return detail::boundary_of_region(sides[static_cast<std::size_t>(region)], surface,
-                                      plan.material[static_cast<std::size_t>(region)]);
+    const local_id region = plan.filled[k];
+    return detail::boundary_of_region(sides[region], surface, plan.material[region]);
   };
   const double density = mesh_regions.elements_per_inverse_cubed_size;
   detail::require_few_enough(surface, plan.filled.size(), source, sizes,
                              density > 0 ? density : elements_per_unit<3>, options.largest_prediction);
   meshing_options how;
   for (const local_id region : plan.filled)
-    how.predicted_cost.push_back(static_cast<double>(sides[static_cast<std::size_t>(region)].size()));
+    how.predicted_cost.push_back(static_cast<double>(sides[region].size()));
   how.on_progress = options.on_progress;
   meshed_pieces<3> made = mesh_regions.mesh(plan.filled.size(), source, refined_sizing(sizes), how);
   if (!made.failures.empty())

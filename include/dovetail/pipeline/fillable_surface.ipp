@@ -41,7 +41,7 @@ inline void require_points_of_surface(const simplicial_mesh<2>& surface) {
       used.push_back(v);
     }
   sort_unique(used);
-  const auto at = [&](local_id v) { return surface.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return surface.points[v]; };
   for (const local_id v : used)
     if (!is_finite(at(v)))
       throw geometry_error("point " + std::to_string(v) + " is at " + place_text(at(v)) +
@@ -61,9 +61,7 @@ inline void require_points_of_surface(const simplicial_mesh<2>& surface) {
 inline void require_single_triangles(const simplicial_mesh<2>& surface) {
   surface_faults flat, repeated;
   for (std::size_t t = 0; t < surface.elements.size(); ++t) {
-    const auto at = [&](std::size_t k) {
-      return surface.points[static_cast<std::size_t>(surface.elements[t][k])];
-    };
+    const auto at = [&](std::size_t k) { return surface.points[surface.elements[t][k]]; };
     if (collinear(at(0), at(1), at(2)))
       flat.add([&] { return triangle_text(surface, t); });
   }
@@ -91,8 +89,8 @@ inline void require_closed_surface(const simplicial_mesh<2>& surface) {
       [&](const simplex<1>& edge, std::span<const std::uint32_t> members) {
         if (members.size() == 1)
           open.add([&] {
-            return "from " + place_text(surface.points[static_cast<std::size_t>(edge[0])]) + " to " +
-                   place_text(surface.points[static_cast<std::size_t>(edge[1])]);
+            return "from " + place_text(surface.points[edge[0]]) + " to " +
+                   place_text(surface.points[edge[1]]);
           });
       });
   open.check("the surface is open: an edge has one triangle only",

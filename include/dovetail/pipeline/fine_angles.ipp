@@ -24,7 +24,7 @@ DOVETAIL_INLINE std::vector<std::uint32_t> half_edges_that_matter(const realized
     const bool all = p >= regions && skeleton.coarse.faces[p - regions].is_curved;
     for (local_id t = first[p]; t < first[p + 1]; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto ends = pick(skeleton.fine.sides[static_cast<std::size_t>(t)], numbering::sides<2>[k]);
+        const auto ends = pick(skeleton.fine.sides[t], numbering::sides<2>[k]);
         if (all || std::max(ends[0], ends[1]) < skeleton.patches.line_points)
           matter.push_back(static_cast<std::uint32_t>(3 * static_cast<std::size_t>(t) + k));
       }
@@ -41,7 +41,7 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
   std::vector<std::uint8_t> refused(fine.sides.size(), 0);
   for (std::size_t f = 0; f < skeleton.coarse.faces.size(); ++f)
     if (const local_id side = skeleton.coarse.faces[f].side;
-        divided.side_states[static_cast<std::size_t>(side)] == side_state::refused) {
+        divided.side_states[side] == side_state::refused) {
       const std::size_t patch = skeleton.coarse.regions.size() + f;
       std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1], 1);
     }
@@ -56,11 +56,11 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skelet
                                                        const divided_background<2>& divided,
                                                        const any_sizing&, const wanted_angles& wanted) {
   const auto leaves = [&](local_id side, local_id vertex) {
-    const auto& ends = divided.sides.vertices[static_cast<std::size_t>(side)];
+    const auto& ends = divided.sides.vertices[side];
     const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
     const auto along = skeleton.lines.along(line, vertex);
     const auto& points = skeleton.lines.points;
-    return points[static_cast<std::size_t>(along[1])] - points[static_cast<std::size_t>(along[0])];
+    return points[along[1]] - points[along[0]];
   };
   auto angles = measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
                                              skeleton.subdomain_of_element, leaves, mesh_state::valid},
@@ -85,7 +85,7 @@ DOVETAIL_INLINE std::vector<std::vector<local_id>> places_of_small_angles(const 
         if (const auto face =
                 std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1 - regions;
             face >= 0)
-          places.back().push_back(skeleton.coarse.faces[static_cast<std::size_t>(face)].side);
+          places.back().push_back(skeleton.coarse.faces[face].side);
     }
   return places;
 }

@@ -15,7 +15,7 @@
 namespace dovetail {
 
 DOVETAIL_INLINE double volume_inside(const simplicial_skeleton<3>& skeleton) {
-  const auto point = [&](local_id v) { return skeleton.points[static_cast<std::size_t>(v)]; };
+  const auto point = [&](local_id v) { return skeleton.points[v]; };
   box3 box;
   for (const vec3& p : skeleton.points)
     box.include(p);

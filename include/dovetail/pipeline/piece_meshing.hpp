@@ -31,7 +31,7 @@ template <int D>
 std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span<const double> weights) {
   std::vector<double> sums(skeleton.material_of_subdomain.size(), 0);
   for (std::size_t e = 0; e < weights.size(); ++e)
-    sums[static_cast<std::size_t>(skeleton.subdomain_of_element[e])] += weights[e];
+    sums[skeleton.subdomain_of_element[e]] += weights[e];
   return sums;
 }
 

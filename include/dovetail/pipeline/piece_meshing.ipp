@@ -24,8 +24,7 @@ DOVETAIL_INLINE piece_source<3> source_of_pieces(const any_geometry&, const simp
   return [&skeleton, sorted](local_id s) {
     auto surface = boundary_of_subdomain(skeleton.fine, *sorted, s);
     piece_input<3> input;
-    input.boundary = {std::move(surface.boundary),
-                      skeleton.material_of_subdomain[static_cast<std::size_t>(s)]};
+    input.boundary = {std::move(surface.boundary), skeleton.material_of_subdomain[s]};
     input.skeleton_points = std::move(surface.skeleton_points);
     return input;
   };
@@ -45,8 +44,8 @@ source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh
                   : std::shared_ptr<const any_geometry>(&model, [](const any_geometry*) {});
     const auto numbers = std::make_shared<const std::vector<local_id>>(lines.skeleton_points);
     piece_input<2> input;
-    for (const local_id r : (*regions)[static_cast<std::size_t>(s)]) {
-      const skeleton_region& region = skeleton.coarse.regions[static_cast<std::size_t>(r)];
+    for (const local_id r : (*regions)[s]) {
+      const skeleton_region& region = skeleton.coarse.regions[r];
       patch_boundary boundary = region_patch(*evaluated, mesh.surface, region, skeleton.lines).boundary;
       any_surface surface = surface_of_face(evaluated, region.cad_face);
       if (surface.plane) // the model's own parameters of curves are as good as its tolerances
@@ -56,15 +55,13 @@ source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh
         label = static_cast<local_id>(
             std::lower_bound(lines.skeleton_points.begin(), lines.skeleton_points.end(), label) -
             lines.skeleton_points.begin());
-      input.boundary.regions.push_back(
-          {std::move(boundary), std::move(surface), region.cad_face,
-           model.topology().faces[static_cast<std::size_t>(region.cad_face)].reversed,
-           [rule, numbers, r](local_id a, local_id b) {
-             return rule->forbids(r, (*numbers)[static_cast<std::size_t>(a)],
-                                  (*numbers)[static_cast<std::size_t>(b)]);
-           }});
+      input.boundary.regions.push_back({std::move(boundary), std::move(surface), region.cad_face,
+                                        model.topology().faces[region.cad_face].reversed,
+                                        [rule, numbers, r](local_id a, local_id b) {
+                                          return rule->forbids(r, (*numbers)[a], (*numbers)[b]);
+                                        }});
     }
-    input.context = rule->key((*regions)[static_cast<std::size_t>(s)], lines.skeleton_points);
+    input.context = rule->key((*regions)[s], lines.skeleton_points);
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
     return input;

@@ -115,7 +115,7 @@ realized<3> realize_boundaries(const any_geometry& model, const simplicial_backg
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
   result.lines = {};
-  const auto of_patches = remeshed.summary.as<patch_counts>();
+  const auto of_patches = remeshed.summary.template as<patch_counts>();
   result.counts.interface_faces = of_patches.interface_faces;
   result.counts.triangles = of_patches.triangles;
   result.counts.points = of_patches.points;
@@ -138,7 +138,7 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
   std::vector<local_id> material_of_subdomain(subdomains, 0);
   for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
     if (D == 3) // elements of what is not divided are solids, and have no tags
-      material_of_subdomain[static_cast<std::size_t>(subdomain_of_element[e])] =
+      material_of_subdomain[subdomain_of_element[e]] =
           materials.empty() ? static_cast<local_id>(e) : materials[e];
   auto result = detail::realize_boundaries(model, mesh, divided, subdomain_of_element, material_of_subdomain,
                                            size, made, given);

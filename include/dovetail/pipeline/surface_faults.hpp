@@ -35,7 +35,7 @@ private:
 inline std::string triangle_text(const simplicial_mesh<2>& surface, std::size_t t) {
   vec3 middle;
   for (const local_id v : surface.elements[t])
-    middle = middle + surface.points[static_cast<std::size_t>(v)] / 3.0;
+    middle = middle + surface.points[v] / 3.0;
   return std::to_string(t) + " at " + place_text(middle);
 }
 

@@ -53,8 +53,7 @@ public:
 private:
   static std::vector<local_id> counted(std::size_t points);
   label_pair labels_of(local_id a, local_id b) const {
-    return sorted_vertices(
-        label_pair{labels_[static_cast<std::size_t>(a)], labels_[static_cast<std::size_t>(b)]});
+    return sorted_vertices(label_pair{labels_[a], labels_[b]});
   }
 
   std::vector<local_id> labels_;     ///< of the boundary's points

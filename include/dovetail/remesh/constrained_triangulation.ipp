@@ -39,17 +39,16 @@ public:
   }
 
 private:
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
   vec2 xy(local_id v) const { return triangulation_.xy(v); }
   corner_table& table() { return triangulation_.table; }
   const corner_table& table() const { return triangulation_.table; }
   local_id enclosing() const { return triangulation_.enclosing(); }
-  local_id first_of_equal(local_id v) const { return triangulation_.same_as[at(v)]; }
+  local_id first_of_equal(local_id v) const { return triangulation_.same_as[v]; }
 
   /// Makes segment s a constrained side, or reports what it crosses.
   void recover_segment(local_id s) {
-    const local_id a = first_of_equal(segments_[at(s)][0]);
-    const local_id b = first_of_equal(segments_[at(s)][1]);
+    const local_id a = first_of_equal(segments_[s][0]);
+    const local_id b = first_of_equal(segments_[s][1]);
     if (a == b) {
       result_.crossings.push_back({s, s});
       return;
@@ -94,12 +93,12 @@ private:
   bool collect_crossed(local_id start, local_id a, local_id b, local_id s) {
     local_id c = start;
     for (;;) {
-      if (table().constraint[at(c)] != no_id) {
-        result_.crossings.push_back({table().constraint[at(c)], s});
+      if (table().constraint[c] != no_id) {
+        result_.crossings.push_back({table().constraint[c], s});
         return false;
       }
       crossed_.push_back(c);
-      const local_id d = table().twin[at(c)], apex = table().vertex[at(d)];
+      const local_id d = table().twin[c], apex = table().vertex[d];
       if (apex == b)
         return true;
       const double side = orient2d(xy(a), xy(b), xy(apex));
@@ -126,8 +125,8 @@ private:
     while (head < queue.size() && refused < queue.size() - head + 1) {
       const auto [p, q] = queue[head++];
       const local_id c = corner_opposite(p, q);
-      const local_id d = table().twin[at(c)];
-      const local_id x = table().vertex[at(c)], y = table().vertex[at(d)];
+      const local_id d = table().twin[c];
+      const local_id x = table().vertex[c], y = table().vertex[d];
       const bool convex =
           orient2d(xy(x), xy(table().tail(c)), xy(y)) > 0 && orient2d(xy(y), xy(table().head(c)), xy(x)) > 0;
       if (!convex) {
@@ -176,23 +175,23 @@ private:
 
   /// Marks a side as lying on segment s; a side that two segments share keeps the first and their sum.
   void constrain_side(local_id c, local_id s) {
-    local_id& mine = table().constraint[at(c)];
+    local_id& mine = table().constraint[c];
     if (mine == no_id)
-      mine = table().constraint[at(table().twin[at(c)])] = s;
-    net_[at(mine)] += start_of(mine) == start_of(s) ? 1 : -1;
+      mine = table().constraint[table().twin[c]] = s;
+    net_[mine] += start_of(mine) == start_of(s) ? 1 : -1;
   }
-  local_id start_of(local_id s) const { return first_of_equal(segments_[at(s)][0]); }
+  local_id start_of(local_id s) const { return first_of_equal(segments_[s][0]); }
 
   void report_touched(local_id s, local_id v) {
     local_id other = s;
     table().for_each_corner(v, [&](local_id c) {
       for (const local_id side : {corner_table::next(c), corner_table::previous(c)})
-        if (table().constraint[at(side)] != no_id)
-          other = table().constraint[at(side)];
+        if (table().constraint[side] != no_id)
+          other = table().constraint[side];
     });
     if (other == s) // the touched segment has not been recovered yet
       for (local_id k = 0; k < static_cast<local_id>(segments_.size()) && other == s; ++k)
-        for (const local_id end : segments_[at(k)])
+        for (const local_id end : segments_[k])
           if (k != s && first_of_equal(end) == v)
             other = k;
     result_.crossings.push_back({std::min(s, other), std::max(s, other)});
@@ -200,36 +199,36 @@ private:
 
   /// Keeps the triangles of winding number one.
   void remove_outside() {
-    std::vector<std::int32_t> winding(at(table().triangle_slots()), unknown);
-    std::vector<local_id> stack{corner_table::triangle_of(table().corner_of[at(enclosing())])};
-    winding[at(stack[0])] = 0;
+    std::vector<std::int32_t> winding(table().triangle_slots(), unknown);
+    std::vector<local_id> stack{corner_table::triangle_of(table().corner_of[enclosing()])};
+    winding[stack[0]] = 0;
     while (!stack.empty()) {
       const local_id t = stack.back();
       stack.pop_back();
       for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
-        const local_id d = table().twin[at(c)];
-        if (d == no_id || winding[at(corner_table::triangle_of(d))] != unknown)
+        const local_id d = table().twin[c];
+        if (d == no_id || winding[corner_table::triangle_of(d)] != unknown)
           continue;
-        const local_id s = table().constraint[at(d)];
+        const local_id s = table().constraint[d];
         int step = 0;
         if (s != no_id)
-          step = table().tail(d) == start_of(s) ? net_[at(s)] : -net_[at(s)];
-        winding[at(corner_table::triangle_of(d))] = winding[at(t)] + step;
+          step = table().tail(d) == start_of(s) ? net_[s] : -net_[s];
+        winding[corner_table::triangle_of(d)] = winding[t] + step;
         stack.push_back(corner_table::triangle_of(d));
       }
     }
     report_misplaced(winding);
     for (local_id t = 0; t < table().triangle_slots(); ++t)
-      if (winding[at(t)] != 1)
+      if (winding[t] != 1)
         table().remove_triangle(t);
     refresh_vertices();
   }
 
   void report_misplaced(const std::vector<std::int32_t>& winding) {
     for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
-      if (const local_id s = table().constraint[at(c)]; s != no_id) {
-        const std::int32_t w = winding[at(corner_table::triangle_of(c))];
-        const std::int32_t across = winding[at(corner_table::triangle_of(table().twin[at(c)]))];
+      if (const local_id s = table().constraint[c]; s != no_id) {
+        const std::int32_t w = winding[corner_table::triangle_of(c)];
+        const std::int32_t across = winding[corner_table::triangle_of(table().twin[c])];
         if ((w != 0 && w != 1) || (w == 0 && across == 0)) // the latter: a slit outside
           result_.misplaced.push_back(s);
       }
@@ -237,10 +236,10 @@ private:
   }
 
   void refresh_vertices() {
-    table().corner_of.assign(at(enclosing()), no_id);
+    table().corner_of.assign(enclosing(), no_id);
     for (local_id c = 0; c < static_cast<local_id>(table().vertex.size()); ++c)
-      if (const local_id v = table().vertex[at(c)]; v != no_id)
-        table().corner_of[at(v)] = c;
+      if (const local_id v = table().vertex[c]; v != no_id)
+        table().corner_of[v] = c;
   }
 
   static constexpr std::int32_t unknown = -1000000;

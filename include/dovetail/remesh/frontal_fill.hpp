@@ -31,7 +31,7 @@ public:
   /// Returns the number of points placed.
   std::size_t run(flip_queue& flips) {
     for (local_id c = 0; c < static_cast<local_id>(s_.table.vertex.size()); ++c)
-      if (s_.table.vertex[s_.at(c)] != no_id && !s_.table.free_side(c))
+      if (s_.table.vertex[c] != no_id && !s_.table.free_side(c))
         push(c);
     for (local_id t = 0; t < s_.table.triangle_slots(); ++t)
       if (s_.table.alive(t) && finished(t))
@@ -39,7 +39,7 @@ public:
     std::size_t placed = 0;
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       const side item = queue_[i];
-      if (s_.table.vertex[s_.at(item.corner)] == no_id || s_.table.tail(item.corner) != item.tail ||
+      if (s_.table.vertex[item.corner] == no_id || s_.table.tail(item.corner) != item.tail ||
           s_.table.head(item.corner) != item.head)
         continue;
       if (finished(corner_table::triangle_of(item.corner)))
@@ -61,7 +61,7 @@ private:
   void push(local_id c) { queue_.push_back({c, s_.table.tail(c), s_.table.head(c)}); }
   void push_sides(local_id t) {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      if (const local_id d = s_.table.twin[s_.at(c)]; d != no_id && !finished(corner_table::triangle_of(d)))
+      if (const local_id d = s_.table.twin[c]; d != no_id && !finished(corner_table::triangle_of(d)))
         push(d);
   }
   /// Queues the sides that the finished triangles at v, or the boundary, turn towards unfinished ones.
@@ -73,7 +73,7 @@ private:
         return;
       }
       for (local_id e = 3 * t; e < 3 * t + 3; ++e) {
-        const local_id d = s_.table.twin[s_.at(e)];
+        const local_id d = s_.table.twin[e];
         if (!s_.table.free_side(e) || finished(corner_table::triangle_of(d)))
           push(e);
       }
@@ -87,13 +87,12 @@ private:
   }
 
   bool finished(local_id t) const {
-    const local_id a = s_.table.vertex[s_.at(3 * t)], b = s_.table.vertex[s_.at(3 * t + 1)],
-                   c = s_.table.vertex[s_.at(3 * t + 2)];
+    const local_id a = s_.table.vertex[3 * t], b = s_.table.vertex[3 * t + 1], c = s_.table.vertex[3 * t + 2];
     if (s_.vanishes(a, b, c))
       return true;
-    const vec3 ab = s_.point[s_.at(b)] - s_.point[s_.at(a)], ac = s_.point[s_.at(c)] - s_.point[s_.at(a)];
+    const vec3 ab = s_.point[b] - s_.point[a], ac = s_.point[c] - s_.point[a];
     const double x = norm_squared(ab), y = norm_squared(ac), z = norm_squared(ac - ab);
-    const double size = (s_.size[s_.at(a)] + s_.size[s_.at(b)] + s_.size[s_.at(c)]) / 3;
+    const double size = (s_.size[a] + s_.size[b] + s_.size[c]) / 3;
     // circumradius^2 = x y z / (4 |ab x ac|^2)
     const double limit = parameters_.finished * size;
     return x * y * z <= 4 * limit * limit * norm_squared(cross(ab, ac));
@@ -101,22 +100,22 @@ private:
 
   /// Places one point in front of the side opposite c; no_id when there is no room for it.
   local_id advance(local_id c, flip_queue& flips) {
-    const local_id a = s_.table.tail(c), b = s_.table.head(c), apex = s_.table.vertex[s_.at(c)];
-    const vec3 base = s_.point[s_.at(b)] - s_.point[s_.at(a)];
+    const local_id a = s_.table.tail(c), b = s_.table.head(c), apex = s_.table.vertex[c];
+    const vec3 base = s_.point[b] - s_.point[a];
     const double base_length = norm(base);
-    vec3 normal = s_.normal[s_.at(a)] + s_.normal[s_.at(b)];
+    vec3 normal = s_.normal[a] + s_.normal[b];
     const vec3 inward = normalized(cross(normal, base));
     if (!(base_length > 0) || !(norm_squared(inward) > 0))
       return no_id;
     const double height = front_height(a, b, apex, base_length, inward);
     if (!(height > 0))
       return no_id;
-    const vec3 wanted = midpoint(s_.point[s_.at(a)], s_.point[s_.at(b)]) + height * inward;
+    const vec3 wanted = midpoint(s_.point[a], s_.point[b]) + height * inward;
 
-    const vec3 along_u = 0.5 * (s_.du[s_.at(a)] + s_.du[s_.at(b)]);
-    const vec3 along_v = 0.5 * (s_.dv[s_.at(a)] + s_.dv[s_.at(b)]);
+    const vec3 along_u = 0.5 * (s_.du[a] + s_.du[b]);
+    const vec3 along_v = 0.5 * (s_.dv[a] + s_.dv[b]);
     const vec2 step = patch_state<S>::parameter_step(along_u, along_v, height * inward);
-    vec2 xy = 0.5 * (s_.xy[s_.at(a)] + s_.xy[s_.at(b)]) + step;
+    vec2 xy = 0.5 * (s_.xy[a] + s_.xy[b]) + step;
     local_id t = locate(xy, corner_table::triangle_of(c));
     if (t == no_id)
       return no_id;
@@ -133,7 +132,7 @@ private:
         }
       }
     }
-    const double near = distance(f.point, midpoint(s_.point[s_.at(a)], s_.point[s_.at(b)]));
+    const double near = distance(f.point, midpoint(s_.point[a], s_.point[b]));
     const double size = graded_size(f.point, s_.target(a, b), near);
     if (!has_room(t, xy, f.point, size))
       return no_id;
@@ -151,9 +150,8 @@ private:
     const vec3 normal = normalized(cross(f.du, f.dv));
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
       const local_id a = s_.table.tail(c), b = s_.table.head(c);
-      if (!s_.vanishes(a, b, s_.table.vertex[s_.at(c)]) &&
-          oriented_quality(s_.point[s_.at(a)], s_.point[s_.at(b)], f.point,
-                           s_.normal[s_.at(a)] + s_.normal[s_.at(b)] + normal) <= 0)
+      if (!s_.vanishes(a, b, s_.table.vertex[c]) &&
+          oriented_quality(s_.point[a], s_.point[b], f.point, s_.normal[a] + s_.normal[b] + normal) <= 0)
         return s_.quality(t) > 0;
     }
     return false;
@@ -165,10 +163,9 @@ private:
     const double size = s_.target(a, b);
     const double edge = std::clamp(size, 0.71 * base, 1.35 * base);
     const double ideal = std::sqrt(edge * edge - 0.25 * base * base);
-    const vec3 pa = s_.point[s_.at(a)] - s_.point[s_.at(apex)],
-               pb = s_.point[s_.at(b)] - s_.point[s_.at(apex)];
+    const vec3 pa = s_.point[a] - s_.point[apex], pb = s_.point[b] - s_.point[apex];
     const double sine = norm(cross(pa, pb));
-    if (dot(s_.point[s_.at(apex)] - s_.point[s_.at(a)], inward) <= 0)
+    if (dot(s_.point[apex] - s_.point[a], inward) <= 0)
       return ideal;
     if (!(sine > 0))
       return 0;
@@ -192,9 +189,9 @@ private:
       bool on_side = false;
       for (local_id i = 0; i < 3; ++i) {
         const local_id c = 3 * t + (i + steps) % 3;
-        if (came_from != no_id && s_.table.twin[s_.at(c)] == came_from)
+        if (came_from != no_id && s_.table.twin[c] == came_from)
           continue;
-        const double o = orient2d(s_.xy[s_.at(s_.table.tail(c))], s_.xy[s_.at(s_.table.head(c))], p);
+        const double o = orient2d(s_.xy[s_.table.tail(c)], s_.xy[s_.table.head(c)], p);
         if (o < 0) {
           leave = c;
           break;
@@ -206,7 +203,7 @@ private:
       if (!s_.table.free_side(leave))
         return no_id;
       came_from = leave;
-      t = corner_table::triangle_of(s_.table.twin[s_.at(leave)]);
+      t = corner_table::triangle_of(s_.table.twin[leave]);
     }
     return no_id;
   }
@@ -215,21 +212,21 @@ private:
   bool has_room(local_id t, vec2 xy, vec3 p, double size) const {
     const double room = parameters_.closest * size;
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
-      const local_id v = s_.table.vertex[s_.at(c)];
-      if (distance(s_.point[s_.at(v)], p) < parameters_.closest * std::min(size, s_.size[s_.at(v)]))
+      const local_id v = s_.table.vertex[c];
+      if (distance(s_.point[v], p) < parameters_.closest * std::min(size, s_.size[v]))
         return false;
       const local_id a = s_.table.tail(c), b = s_.table.head(c);
-      const vec3 base = s_.point[s_.at(b)] - s_.point[s_.at(a)];
+      const vec3 base = s_.point[b] - s_.point[a];
       const double length = norm(base);
       if (!s_.table.free_side(c)) {
-        if (norm(cross(base, p - s_.point[s_.at(a)])) < 0.45 * std::min(size, length) * length)
+        if (norm(cross(base, p - s_.point[a])) < 0.45 * std::min(size, length) * length)
           return false;
       } else {
-        const local_id d = s_.table.vertex[s_.at(s_.table.twin[s_.at(c)])];
-        if (distance(s_.point[s_.at(d)], p) < std::min(room, parameters_.closest * s_.size[s_.at(d)]))
+        const local_id d = s_.table.vertex[s_.table.twin[c]];
+        if (distance(s_.point[d], p) < std::min(room, parameters_.closest * s_.size[d]))
           return false;
       }
-      if (!(orient2d(s_.xy[s_.at(a)], s_.xy[s_.at(b)], xy) > 0))
+      if (!(orient2d(s_.xy[a], s_.xy[b], xy) > 0))
         return false;
     }
     return true;

@@ -34,12 +34,12 @@ void set_boundary_sizes(patch_state<S>& s, const patch_boundary& boundary) {
   std::vector<double> length_sum(boundary.points.size(), 0);
   std::vector<int> count(boundary.points.size(), 0);
   for (const auto& [a, b] : boundary.segments) {
-    const double length = distance(boundary.points[s.at(a)], boundary.points[s.at(b)]);
-    if (boundary.labels[s.at(a)] == boundary.labels[s.at(b)])
+    const double length = distance(boundary.points[a], boundary.points[b]);
+    if (boundary.labels[a] == boundary.labels[b])
       continue;
     for (const local_id v : {a, b}) {
-      length_sum[s.at(v)] += length;
-      ++count[s.at(v)];
+      length_sum[v] += length;
+      ++count[v];
     }
   }
   for (std::size_t v = 0; v < length_sum.size(); ++v)
@@ -107,8 +107,8 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
     box.include(p);
   s.extent = box.diagonal();
   for (const auto& [a, b] : boundary.segments)
-    if (boundary.labels[s.at(a)] == boundary.labels[s.at(b)])
-      s.pole[s.at(a)] = s.pole[s.at(b)] = 1;
+    if (boundary.labels[a] == boundary.labels[b])
+      s.pole[a] = s.pole[b] = 1;
   s.table = std::move(loops.table);
   set_boundary_sizes(s, boundary);
   return true;
@@ -119,15 +119,15 @@ bool start_patch(patch_state<S>& s, const patch_boundary& boundary, patch_mesh& 
 template <class S>
 bool bridges_curvature(const patch_state<S>& s, local_id a, local_id b) {
   const double chord = s.length(a, b);
-  const vec2 d = s.xy[s.at(b)] - s.xy[s.at(a)];
-  const double at_a = norm(d.x * s.du[s.at(a)] + d.y * s.dv[s.at(a)]);
-  const double at_b = norm(d.x * s.du[s.at(b)] + d.y * s.dv[s.at(b)]);
-  if (std::max(at_a, at_b) < 1.05 * chord && dot(s.normal[s.at(a)], s.normal[s.at(b)]) > 0.9)
+  const vec2 d = s.xy[b] - s.xy[a];
+  const double at_a = norm(d.x * s.du[a] + d.y * s.dv[a]);
+  const double at_b = norm(d.x * s.du[b] + d.y * s.dv[b]);
+  if (std::max(at_a, at_b) < 1.05 * chord && dot(s.normal[a], s.normal[b]) > 0.9)
     return false;
   double length = 0;
-  vec3 from = s.point[s.at(a)];
+  vec3 from = s.point[a];
   for (int i = 1; i <= 4; ++i) {
-    const vec3 to = i == 4 ? s.point[s.at(b)] : s.frame_at(s.xy[s.at(a)] + (0.25 * i) * d).point;
+    const vec3 to = i == 4 ? s.point[b] : s.frame_at(s.xy[a] + (0.25 * i) * d).point;
     length += distance(from, to);
     from = to;
   }
@@ -144,8 +144,8 @@ local_id most_bent_side(const patch_state<S>& s, local_id t) {
     if (!s.table.free_side(c))
       continue;
     const local_id a = s.table.tail(c), b = s.table.head(c);
-    const vec3 on_surface = s.frame_at(0.5 * (s.xy[s.at(a)] + s.xy[s.at(b)])).point;
-    const double off = distance(on_surface, midpoint(s.point[s.at(a)], s.point[s.at(b)]));
+    const vec3 on_surface = s.frame_at(0.5 * (s.xy[a] + s.xy[b])).point;
+    const double off = distance(on_surface, midpoint(s.point[a], s.point[b]));
     if (off > bend) {
       bend = off;
       most = c;
@@ -172,7 +172,7 @@ void unfold(patch_state<S>& s, flip_queue& flips) {
       const local_id v = split_at_middle(s, c, flips);
       if (v == no_id)
         continue;
-      s.size[s.at(v)] = s.target_size(s.point[s.at(v)]);
+      s.size[v] = s.target_size(s.point[v]);
       flips.raise_quality(s);
       any = true;
     }
@@ -189,9 +189,9 @@ void make_plane_delaunay(patch_state<S>& s, std::vector<local_id>& queue) {
     queue.pop_back();
     if (!s.table.free_side(c))
       continue;
-    const local_id d = s.table.twin[s.at(c)];
-    if (in_circle(s.xy[s.at(s.table.vertex[s.at(c)])], s.xy[s.at(s.table.tail(c))],
-                  s.xy[s.at(s.table.head(c))], s.xy[s.at(s.table.vertex[s.at(d)])]) <= 0)
+    const local_id d = s.table.twin[c];
+    if (in_circle(s.xy[s.table.vertex[c]], s.xy[s.table.tail(c)], s.xy[s.table.head(c)],
+                  s.xy[s.table.vertex[d]]) <= 0)
       continue;
     s.table.flip(c);
     for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
@@ -207,20 +207,20 @@ void resolve_curvature(patch_state<S>& s) {
   for (int round = 0; round < 30; ++round) {
     bool any = false;
     for (local_id c = 0; c < static_cast<local_id>(s.table.vertex.size()); ++c) {
-      if (!s.table.alive(c / 3) || !s.table.free_side(c) || s.table.twin[s.at(c)] < c ||
+      if (!s.table.alive(c / 3) || !s.table.free_side(c) || s.table.twin[c] < c ||
           s.point.size() > most_vertices)
         continue;
       const local_id a = s.table.tail(c), b = s.table.head(c);
       if (!bridges_curvature(s, a, b))
         continue;
-      const vec2 middle = 0.5 * (s.xy[s.at(a)] + s.xy[s.at(b)]);
-      if (middle == s.xy[s.at(a)] || middle == s.xy[s.at(b)])
+      const vec2 middle = 0.5 * (s.xy[a] + s.xy[b]);
+      if (middle == s.xy[a] || middle == s.xy[b])
         continue;
       flip_queue unused;
       const local_id v = split_at_middle(s, c, unused);
       if (v == no_id)
         continue;
-      s.size[s.at(v)] = s.target_size(s.point[s.at(v)]);
+      s.size[v] = s.target_size(s.point[v]);
       s.table.for_each_corner(v, [&](local_id e) { queue.push_back(e); });
       make_plane_delaunay(s, queue);
       any = true;

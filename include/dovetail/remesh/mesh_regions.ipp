@@ -65,9 +65,7 @@ DOVETAIL_INLINE void check_points_of(const patch_mesh& made, const any_surface& 
 inline bool closes_up(const patch_boundary& boundary, const patch_mesh& made) {
   const auto frozen = static_cast<local_id>(boundary.labels.size());
   const auto pass = [&](chain_sum& sum, local_id a, local_id b) {
-    const auto name = [&](local_id v) {
-      return v < frozen ? boundary.labels[static_cast<std::size_t>(v)] : ~v;
-    };
+    const auto name = [&](local_id v) { return v < frozen ? boundary.labels[v] : ~v; };
     if (name(a) != name(b)) // else along a pole
       sum.add(simplex<1>{name(a), name(b)});
   };
@@ -234,8 +232,7 @@ private:
   bool forbid_shared_chords() {
     const auto labelled = [this](std::size_t r, const simplex<1>& edge) {
       const auto labels = std::as_const(result_.labels)[r];
-      return sorted_vertices(
-          simplex<1>{labels[static_cast<std::size_t>(edge[0])], labels[static_cast<std::size_t>(edge[1])]});
+      return sorted_vertices(simplex<1>{labels[edge[0]], labels[edge[1]]});
     };
     std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region
     for (std::size_t r = 0; r < set_.count; ++r)

@@ -78,7 +78,7 @@ private:
   std::size_t collapse_short_edges(State& state, flip_queue& flips) const {
     std::size_t removed = 0;
     for (local_id v = state.frozen; v < static_cast<local_id>(state.point.size()); ++v) {
-      if (state.table.corner_of[state.at(v)] == no_id)
+      if (state.table.corner_of[v] == no_id)
         continue;
       double shortest = std::numeric_limits<double>::infinity();
       int valence = 0;
@@ -106,7 +106,7 @@ private:
     std::size_t added = 0;
     const auto corners = static_cast<local_id>(state.table.vertex.size());
     for (local_id c = 0; c < corners && state.point.size() < most_points; ++c) {
-      if (!state.table.alive(c / 3) || !state.table.free_side(c) || state.table.twin[state.at(c)] < c)
+      if (!state.table.alive(c / 3) || !state.table.free_side(c) || state.table.twin[c] < c)
         continue;
       if (state.relative_length(state.table.tail(c), state.table.head(c)) <= long_edge)
         continue;
@@ -124,12 +124,12 @@ private:
   public:
     template <class State>
     bool has(const State& state, local_id v) const {
-      return state.at(v) < keys_.size() && keys_[state.at(v)] == key_of(state, v);
+      return static_cast<std::size_t>(v) < keys_.size() && keys_[v] == key_of(state, v);
     }
     template <class State>
     void add(const State& state, local_id v) {
       keys_.resize(state.point.size(), 0);
-      keys_[state.at(v)] = key_of(state, v);
+      keys_[v] = key_of(state, v);
     }
 
   private:
@@ -139,8 +139,8 @@ private:
       content_hash hash;
       const auto add_vertex = [&](local_id w) {
         hash.word(static_cast<std::uint64_t>(w));
-        hash.number(state.xy[state.at(w)].x);
-        hash.number(state.xy[state.at(w)].y);
+        hash.number(state.xy[w].x);
+        hash.number(state.xy[w].y);
       };
       add_vertex(v);
       state.table.for_each_corner(v, [&](local_id c) { add_vertex(state.table.tail(c)); });
@@ -166,7 +166,7 @@ private:
       if (flips.raise_quality(state) > 0)
         ++improved;
       for (local_id i = 0; i < 3 && state.table.alive(t) && state.quality(t) < thirty_degrees; ++i) {
-        const local_id v = state.table.vertex[state.at(3 * t + i)];
+        const local_id v = state.table.vertex[3 * t + i];
         if (!state.inner(v) || hopeless.has(state, v))
           continue;
         const double worst = star_quality(state, v);
@@ -193,8 +193,7 @@ private:
     local_id longest = no_id;
     double length = 0;
     for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-      if (const double l =
-              norm(state.xy[state.at(state.table.head(c))] - state.xy[state.at(state.table.tail(c))]);
+      if (const double l = norm(state.xy[state.table.head(c)] - state.xy[state.table.tail(c)]);
           state.table.free_side(c) && l > length) {
         longest = c;
         length = l;
@@ -210,14 +209,13 @@ private:
   static void export_mesh(const State& state, patch_mesh& mesh) {
     std::vector<local_id> number(state.point.size(), no_id);
     for (local_id v = 0; v < state.frozen; ++v)
-      number[state.at(v)] = v;
+      number[v] = v;
     for (local_id v = state.frozen; v < static_cast<local_id>(state.point.size()); ++v) {
-      if (state.table.corner_of[state.at(v)] == no_id)
+      if (state.table.corner_of[v] == no_id)
         continue;
-      number[state.at(v)] = state.frozen + static_cast<local_id>(mesh.inner_uv.size());
-      mesh.inner_uv.push_back(
-          {state.xy[state.at(v)].x / state.scale.x, state.xy[state.at(v)].y / state.scale.y});
-      mesh.inner_points.push_back(state.point[state.at(v)]);
+      number[v] = state.frozen + static_cast<local_id>(mesh.inner_uv.size());
+      mesh.inner_uv.push_back({state.xy[v].x / state.scale.x, state.xy[v].y / state.scale.y});
+      mesh.inner_points.push_back(state.point[v]);
     }
     double angle_sum = 0, least = 0.75, length_sum = 0;
     std::size_t below_thirty = 0, lengths = 0;
@@ -226,7 +224,7 @@ private:
         continue;
       simplex<2> triangle;
       for (local_id i = 0; i < 3; ++i)
-        triangle[state.at(i)] = state.table.vertex[state.at(3 * t + i)];
+        triangle[i] = state.table.vertex[3 * t + i];
       if (state.vanishes(triangle[0], triangle[1], triangle[2]))
         continue;
       const double q = state.quality(t);
@@ -236,12 +234,12 @@ private:
       below_thirty += q < 0.25 - 1e-12;
       angle_sum += q > 0 ? std::asin(std::sqrt(q)) : 0;
       for (local_id c = 3 * t; c < 3 * t + 3; ++c)
-        if (state.table.twin[state.at(c)] > c) {
+        if (state.table.twin[c] > c) {
           length_sum += state.relative_length(state.table.tail(c), state.table.head(c));
           ++lengths;
         }
       for (local_id& v : triangle)
-        v = number[state.at(v)];
+        v = number[v];
       mesh.triangles.push_back(triangle);
     }
     constexpr double degrees = 57.29577951308232;

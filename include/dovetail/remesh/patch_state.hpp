@@ -43,7 +43,6 @@ public:
 
   patch_state(const S& s, const any_sizing& h) : surface(s), sizing(h) {}
 
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
   bool inner(local_id v) const { return v >= frozen; }
 
   surface_frame frame_at(vec2 scaled) const {
@@ -71,37 +70,35 @@ public:
     vec2 xy;
     vec3 point, du, dv, normal;
   };
-  location location_of(local_id v) const {
-    return {xy[at(v)], point[at(v)], du[at(v)], dv[at(v)], normal[at(v)]};
-  }
+  location location_of(local_id v) const { return {xy[v], point[v], du[v], dv[v], normal[v]}; }
   void place(local_id v, const location& where) {
-    xy[at(v)] = where.xy;
-    point[at(v)] = where.point;
-    du[at(v)] = where.du;
-    dv[at(v)] = where.dv;
-    normal[at(v)] = where.normal;
+    xy[v] = where.xy;
+    point[v] = where.point;
+    du[v] = where.du;
+    dv[v] = where.dv;
+    normal[v] = where.normal;
   }
   /// Where inner vertex v gets by a step in 3-space, if its star stays valid.
   std::optional<location> displaced(local_id v, vec3 step,
                                     std::span<const std::array<local_id, 2>> link) const {
-    const vec2 to = xy[at(v)] + parameter_step(du[at(v)], dv[at(v)], step);
-    if (to == xy[at(v)])
+    const vec2 to = xy[v] + parameter_step(du[v], dv[v], step);
+    if (to == xy[v])
       return std::nullopt;
     for (const auto& [a, b] : link)
-      if (!(orient2d(xy[at(a)], xy[at(b)], to) > 0))
+      if (!(orient2d(xy[a], xy[b], to) > 0))
         return std::nullopt;
     const surface_frame f = frame_at(to);
     return location{to, f.point, f.du, f.dv, normalized(cross(f.du, f.dv))};
   }
   /// A unit vector of the surface at v.
-  vec3 tangent(local_id v) const { return normalized(du[at(v)]); }
+  vec3 tangent(local_id v) const { return normalized(du[v]); }
 
   /// Adds a vertex at the middle of the parameters of the free side opposite c, if both triangles can be
   /// split there. The caller splits the side.
   local_id add_middle(local_id c) {
-    const vec2 a = xy[at(table.tail(c))], b = xy[at(table.head(c))];
+    const vec2 a = xy[table.tail(c)], b = xy[table.head(c)];
     const vec2 middle = 0.5 * (a + b);
-    const vec2 p = xy[at(table.vertex[at(c)])], q = xy[at(table.vertex[at(table.twin[at(c)])])];
+    const vec2 p = xy[table.vertex[c]], q = xy[table.vertex[table.twin[c]]];
     if (!(orient2d(p, a, middle) > 0 && orient2d(b, p, middle) > 0 && orient2d(q, b, middle) > 0 &&
           orient2d(a, q, middle) > 0))
       return no_id;
@@ -118,14 +115,11 @@ public:
     return {(vv * su - uv * sv) / determinant, (uu * sv - uv * su) / determinant};
   }
 
-  bool positive(local_id a, local_id b, local_id c) const {
-    return orient2d(xy[at(a)], xy[at(b)], xy[at(c)]) > 0;
-  }
+  bool positive(local_id a, local_id b, local_id c) const { return orient2d(xy[a], xy[b], xy[c]) > 0; }
   /// True for a triangle that exists in the parameter plane only, as it has a side on a pole.
   bool vanishes(local_id a, local_id b, local_id c) const {
-    return (pole[at(a)] && ((pole[at(b)] && label[at(a)] == label[at(b)]) ||
-                            (pole[at(c)] && label[at(a)] == label[at(c)]))) ||
-           (pole[at(b)] && pole[at(c)] && label[at(b)] == label[at(c)]);
+    return (pole[a] && ((pole[b] && label[a] == label[b]) || (pole[c] && label[a] == label[c]))) ||
+           (pole[b] && pole[c] && label[b] == label[c]);
   }
   /// Quality of a triangle over existing vertices.
   double quality(local_id a, local_id b, local_id c) const {
@@ -133,13 +127,12 @@ public:
       if (vanishes(a, b, c))
         return 0.75;
     if constexpr (std::same_as<S, remesh::plane_surface>) // its scaled parameters are lengths
-      return oriented_quality(xy[at(a)], xy[at(b)], xy[at(c)]);
+      return oriented_quality(xy[a], xy[b], xy[c]);
     else
-      return oriented_quality(point[at(a)], point[at(b)], point[at(c)],
-                              normal[at(a)] + normal[at(b)] + normal[at(c)]);
+      return oriented_quality(point[a], point[b], point[c], normal[a] + normal[b] + normal[c]);
   }
   double quality(local_id t) const {
-    return quality(table.vertex[at(3 * t)], table.vertex[at(3 * t + 1)], table.vertex[at(3 * t + 2)]);
+    return quality(table.vertex[3 * t], table.vertex[3 * t + 1], table.vertex[3 * t + 2]);
   }
 
   /// True for a triangle with a boundary edge that is shorter than the accuracy of its ends, or next to
@@ -147,8 +140,7 @@ public:
   bool within_misfit(local_id t) const {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
       const local_id a = table.tail(c), b = table.head(c);
-      if (a < frozen && b < frozen &&
-          length(a, b) <= std::max(2 * (misfit[at(a)] + misfit[at(b)]), 1e-6 * extent))
+      if (a < frozen && b < frozen && length(a, b) <= std::max(2 * (misfit[a] + misfit[b]), 1e-6 * extent))
         return true;
     }
     return false;
@@ -159,8 +151,8 @@ public:
   double target_size(vec3 p) const { return calibration * checked_size(sizing, p); }
   static constexpr double calibration = 1.045;
 
-  double length(local_id a, local_id b) const { return distance(point[at(a)], point[at(b)]); }
-  double target(local_id a, local_id b) const { return 0.5 * (size[at(a)] + size[at(b)]); }
+  double length(local_id a, local_id b) const { return distance(point[a], point[b]); }
+  double target(local_id a, local_id b) const { return 0.5 * (size[a] + size[b]); }
   /// Edge length relative to the target.
   double relative_length(local_id a, local_id b) const { return length(a, b) / target(a, b); }
 
@@ -173,8 +165,8 @@ public:
   bool may_flip(local_id c) const {
     if (!table.free_side(c))
       return false;
-    const local_id d = table.twin[at(c)];
-    const local_id p = table.vertex[at(c)], q = table.vertex[at(d)];
+    const local_id d = table.twin[c];
+    const local_id p = table.vertex[c], q = table.vertex[d];
     return positive(p, table.tail(c), q) && positive(q, table.head(c), p);
   }
 

@@ -57,7 +57,7 @@ public:
 
   /// The first vertex of the enclosing triangle; the number of points given.
   local_id enclosing() const { return enclosing_; }
-  vec2 xy(local_id v) const { return points_[at(v)]; }
+  vec2 xy(local_id v) const { return points_[v]; }
 
   /// Flips the sides opposite the queued corners, and those their flips expose, until all are Delaunay or
   /// constrained. Empties the queue.
@@ -67,7 +67,7 @@ public:
       corners.pop_back();
       if (!table.free_side(c))
         continue;
-      const local_id d = table.twin[at(c)];
+      const local_id d = table.twin[c];
       if (in_circle(corner_xy(c), xy(table.tail(c)), xy(table.head(c)), corner_xy(d)) <= 0)
         continue;
       table.flip(c); // inside the circle implies strictly convex
@@ -77,8 +77,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  vec2 corner_xy(local_id c) const { return xy(table.vertex[at(c)]); }
+  vec2 corner_xy(local_id c) const { return xy(table.vertex[c]); }
 
   void insert_points() {
     const std::size_t count = points_.size();
@@ -123,7 +122,7 @@ private:
     for (bool moved = true; moved;) { // walk; exact orientations and a Delaunay triangulation: it ends
       moved = false;
       for (local_id i = 0; i < 3 && !moved; ++i) {
-        const local_id c = 3 * t + i, across = table.twin[at(c)];
+        const local_id c = 3 * t + i, across = table.twin[c];
         if (across == no_id || across == came_from)
           continue;
         if (orient2d(xy(table.tail(c)), xy(table.head(c)), p) < 0) {
@@ -138,7 +137,7 @@ private:
     for (local_id i = 0; i < 3; ++i) {
       const local_id c = 3 * t + i;
       if (corner_xy(c) == p) {
-        same_as[at(v)] = table.vertex[at(c)];
+        same_as[v] = table.vertex[c];
         return;
       }
       if (orient2d(xy(table.tail(c)), xy(table.head(c)), p) == 0)
@@ -152,21 +151,21 @@ private:
         legalise_.push_back(c);
     }
     restore_delaunay(legalise_);
-    last_ = corner_table::triangle_of(table.corner_of[at(v)]);
+    last_ = corner_table::triangle_of(table.corner_of[v]);
   }
 
   void rename_to_lowest(local_id v) {
-    const local_id group = same_as[at(v)];
+    const local_id group = same_as[v];
     if (group <= v)
       return;
     // v is the lowest index of its group, as indices are visited upwards: it takes over the group's corners.
-    const local_id first = table.corner_of[at(group)];
-    table.for_each_corner(group, [&](local_id c) { table.vertex[at(c)] = v; });
-    table.corner_of[at(v)] = first;
-    table.corner_of[at(group)] = no_id;
+    const local_id first = table.corner_of[group];
+    table.for_each_corner(group, [&](local_id c) { table.vertex[c] = v; });
+    table.corner_of[v] = first;
+    table.corner_of[group] = no_id;
     for (local_id w = v; w < enclosing_; ++w)
-      if (same_as[at(w)] == group)
-        same_as[at(w)] = v;
+      if (same_as[w] == group)
+        same_as[w] = v;
   }
 
   std::vector<vec2> points_; // the given points, then the enclosing triangle's

@@ -25,7 +25,7 @@ template <class S>
 std::vector<local_id> repeated_chords(const patch_state<S>& s, const patch_boundary& boundary) {
   std::map<label_pair, int> edges;
   for (const auto& [a, b] : boundary.segments)
-    edges[ordered(s.label[s.at(a)], s.label[s.at(b)])] = 1;
+    edges[ordered(s.label[a], s.label[b])] = 1;
   for (const label_pair& pair : boundary.forbidden_edges)
     edges[ordered(pair[0], pair[1])] = 1;
   const auto is_chord = [&](local_id c) {
@@ -33,21 +33,21 @@ std::vector<local_id> repeated_chords(const patch_state<S>& s, const patch_bound
   };
   const auto corners = static_cast<local_id>(s.table.vertex.size());
   for (local_id c = 0; c < corners; ++c) {
-    if (s.table.vertex[s.at(c)] == no_id)
+    if (s.table.vertex[c] == no_id)
       continue;
     const local_id a = s.table.tail(c), b = s.table.head(c);
-    if (is_chord(c) && s.table.twin[s.at(c)] > c)
-      ++edges[ordered(s.label[s.at(a)], s.label[s.at(b)])];
+    if (is_chord(c) && s.table.twin[c] > c)
+      ++edges[ordered(s.label[a], s.label[b])];
     // The apex of a vanishing triangle sees both its sides as one edge.
-    const local_id apex = s.table.vertex[s.at(c)];
-    if (!s.inner(apex) && s.pole[s.at(a)] && s.pole[s.at(b)] && s.label[s.at(a)] == s.label[s.at(b)])
-      --edges[ordered(s.label[s.at(apex)], s.label[s.at(a)])];
+    const local_id apex = s.table.vertex[c];
+    if (!s.inner(apex) && s.pole[a] && s.pole[b] && s.label[a] == s.label[b])
+      --edges[ordered(s.label[apex], s.label[a])];
   }
   std::vector<local_id> repeated;
   for (local_id c = 0; c < corners; ++c) {
-    if (s.table.vertex[s.at(c)] == no_id || !is_chord(c) || s.table.twin[s.at(c)] < c)
+    if (s.table.vertex[c] == no_id || !is_chord(c) || s.table.twin[c] < c)
       continue;
-    const local_id a = s.label[s.at(s.table.tail(c))], b = s.label[s.at(s.table.head(c))];
+    const local_id a = s.label[s.table.tail(c)], b = s.label[s.table.head(c)];
     if (a == b || edges[ordered(a, b)] > 1)
       repeated.push_back(c);
   }
@@ -76,7 +76,7 @@ void separate_repeated_edges(patch_state<S>& s, const patch_boundary& boundary, 
       smooth.maximise_worst(v);
   }
   for (const local_id c : repeated_chords(s, boundary))
-    mesh.repeated_edges.push_back(ordered(s.label[s.at(s.table.tail(c))], s.label[s.at(s.table.head(c))]));
+    mesh.repeated_edges.push_back(ordered(s.label[s.table.tail(c)], s.label[s.table.head(c)]));
 }
 
 } // namespace dovetail::detail

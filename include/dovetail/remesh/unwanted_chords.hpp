@@ -22,9 +22,7 @@ inline line_passages passages_of(const patch_boundary& boundary, const patch_mes
   std::vector<simplex<1>> listed, passed;
   const auto add_to = [&](std::vector<simplex<1>>& edges) {
     return [&](const simplex<1>& edge) {
-      if (const simplex<1> named{boundary.labels[static_cast<std::size_t>(edge[0])],
-                                 boundary.labels[static_cast<std::size_t>(edge[1])]};
-          named[0] != named[1])
+      if (const simplex<1> named{boundary.labels[edge[0]], boundary.labels[edge[1]]}; named[0] != named[1])
         edges.push_back(named);
     };
   };
@@ -45,7 +43,7 @@ public:
     append(unwanted_, passages_of(boundary, made).repeated());
     append(unwanted_, made.repeated_edges);
     for_each_edge_before(frozen_, made.triangles, [&](const simplex<1>& edge) {
-      if (const local_id label = boundary.labels[at(edge[0])]; label == boundary.labels[at(edge[1])])
+      if (const local_id label = boundary.labels[edge[0]]; label == boundary.labels[edge[1]])
         unwanted_.push_back({label, label});
     });
     for (label_pair& pair : unwanted_)
@@ -65,14 +63,11 @@ public:
   }
 
 private:
-  static std::size_t at(local_id v) { return static_cast<std::size_t>(v); }
-
   /// Segments by their ends; of ends with one label and the same parameters triangles name the first.
   void name_segments() {
     std::map<std::tuple<local_id, double, double>, local_id> first;
     const auto named = [&](local_id v) {
-      return first.try_emplace({boundary_.labels[at(v)], boundary_.uv[at(v)].x, boundary_.uv[at(v)].y}, v)
-          .first->second;
+      return first.try_emplace({boundary_.labels[v], boundary_.uv[v].x, boundary_.uv[v].y}, v).first->second;
     };
     for (local_id v = 0; v < frozen_; ++v)
       named(v);
@@ -90,15 +85,15 @@ private:
       return;
     std::vector<local_id> poles;
     for (const auto& [a, b] : boundary_.segments)
-      if (boundary_.labels[at(a)] == boundary_.labels[at(b)])
-        poles.push_back(boundary_.labels[at(a)]);
+      if (boundary_.labels[a] == boundary_.labels[b])
+        poles.push_back(boundary_.labels[a]);
     sort_all(poles);
     std::vector<std::array<local_id, 3>> passages; // the label, the inner point, 1 for a way outwards
     for (const simplex<2>& triangle : made_.triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         const local_id a = triangle[k], b = triangle[(k + 1) % 3];
         if ((a < frozen_) != (b < frozen_))
-          passages.push_back({boundary_.labels[at(std::min(a, b))], std::max(a, b), a < b ? 1 : 0});
+          passages.push_back({boundary_.labels[std::min(a, b)], std::max(a, b), a < b ? 1 : 0});
       }
     sort_all(passages);
     for (std::size_t i = 1; i < passages.size(); ++i)
@@ -112,8 +107,8 @@ private:
       return false;
     if (a >= frozen_ || b >= frozen_)
       return std::binary_search(spokes_.begin(), spokes_.end(),
-                                label_pair{boundary_.labels[at(std::min(a, b))], std::max(a, b)});
-    const auto pair = sorted_vertices(label_pair{boundary_.labels[at(a)], boundary_.labels[at(b)]});
+                                label_pair{boundary_.labels[std::min(a, b)], std::max(a, b)});
+    const auto pair = sorted_vertices(label_pair{boundary_.labels[a], boundary_.labels[b]});
     return std::binary_search(unwanted_.begin(), unwanted_.end(), pair) &&
            !std::binary_search(segments_.begin(), segments_.end(), sorted_vertices(simplex<1>{a, b}));
   }
@@ -139,7 +134,7 @@ private:
     return found->second;
   }
 
-  vec2 uv(local_id v) const { return v < frozen_ ? boundary_.uv[at(v)] : made_.inner_uv[at(v - frozen_)]; }
+  vec2 uv(local_id v) const { return v < frozen_ ? boundary_.uv[v] : made_.inner_uv[v - frozen_]; }
 
   const any_surface& surface_;
   const patch_boundary& boundary_;

@@ -28,7 +28,7 @@ DOVETAIL_INLINE side_judgement aspect_ratio::operator()(const simplicial_mesh<2>
   side_judgement judged{std::vector<double>(sides.size(), 1.0), surface_ratio, surface_dihedral_deg};
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const local_id side : sides.of_element[e]) {
-      double& quality = judged.quality[static_cast<std::size_t>(side)];
+      double& quality = judged.quality[side];
       quality = std::min(quality, ratio(corners(span_of(mesh.points), mesh.elements[e])));
     }
   return judged;

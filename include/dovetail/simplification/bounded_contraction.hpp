@@ -175,8 +175,8 @@ private:
                     n > 0 ? bound.always_allowed_elements * total / n : 0.0);
   }
 
-  bool is_fixed(local_id side) const { return fixed_[static_cast<std::size_t>(side)] != 0; }
-  bool is_refused(local_id side) const { return refusals_[static_cast<std::size_t>(side)].side != no_id; }
+  bool is_fixed(local_id side) const { return fixed_[side] != 0; }
+  bool is_refused(local_id side) const { return refusals_[side].side != no_id; }
   bool is_small(double angle) const { return angle < judged_.wanted_angle_deg; }
   /// Both elements are in one super-element, so the side can never become an interface.
   bool is_internal(local_id side) {
@@ -230,8 +230,7 @@ private:
       return is_fixed(a) ? b : a;
     const auto seen = [&](local_id side) {
       const auto [e, f] = elements_.elements(side); // not in one super-element yet
-      return dihedral_side{side, judged_.quality[static_cast<std::size_t>(side)],
-                           supers_.weight(e) + supers_.weight(f)};
+      return dihedral_side{side, judged_.quality[side], supers_.weight(e) + supers_.weight(f)};
     };
     return rule_.prefer_removal(seen(a), seen(b)) ? a : b;
   }
@@ -248,7 +247,7 @@ private:
   }
 
   void refuse(local_id side, const deficit& missed) {
-    refused_side& refusal = refusals_[static_cast<std::size_t>(side)];
+    refused_side& refusal = refusals_[side];
     if (refusal.side == no_id || missed.fraction() < refusal.missed.fraction())
       refusal = {side, missed};
   }
@@ -265,7 +264,7 @@ private:
   csr_graph contracted_graph(const simplification& out) const {
     std::vector<double> weights(static_cast<std::size_t>(out.super_count), 0.0);
     for (std::size_t e = 0; e < weights_.size(); ++e)
-      weights[static_cast<std::size_t>(out.super_of_element[e])] += weights_[e];
+      weights[out.super_of_element[e]] += weights_[e];
     std::vector<weighted_edge> edges;
     for (std::size_t s = 0; s < fixed_.size(); ++s) {
       if (out.side_states[s] == side_state::removed)
@@ -275,9 +274,8 @@ private:
         continue;
       const refused_side& refusal = refusals_[s];
       const double factor = refusal.side == no_id ? 1.0 : penalty_of(refusal.missed);
-      edges.push_back({out.super_of_element[static_cast<std::size_t>(a)],
-                       out.super_of_element[static_cast<std::size_t>(b)],
-                       factor * side_weight(static_cast<local_id>(s))});
+      edges.push_back(
+          {out.super_of_element[a], out.super_of_element[b], factor * side_weight(static_cast<local_id>(s))});
     }
     return make_csr_graph(std::move(weights), edges);
   }

@@ -41,7 +41,7 @@ public:
   /// Angle in degrees of the run with an end at `dihedral`.
   double angle(dihedral_id dihedral) const { return angle_[dihedral]; }
   /// Whether `side` has been removed.
-  bool is_removed(local_id side) const { return removed_[static_cast<std::size_t>(side)] != 0; }
+  bool is_removed(local_id side) const { return removed_[side] != 0; }
 
   /// The two remaining sides that bound the run with an end at `dihedral`; the same one twice when it is the
   /// last of its ridge.
@@ -57,7 +57,7 @@ public:
   /// Removes a side that is not fixed from all its ridges and calls `on_run(name)` for every run that grew.
   template <class OnRun>
   void remove(local_id side, const OnRun& on_run) {
-    removed_[static_cast<std::size_t>(side)] = 1;
+    removed_[side] = 1;
     graph_->for_each_joint(side, [&](dihedral_id v, dihedral_id w) { join(v, w, on_run); });
   }
 

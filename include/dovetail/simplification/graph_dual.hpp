@@ -35,12 +35,10 @@ public:
 
   std::size_t element_count() const { return node_weights_.size(); }
   std::size_t side_count() const { return ends_.size(); }
-  double weight(local_id node) const { return node_weights_[static_cast<std::size_t>(node)]; }
-  std::array<local_id, 2> elements(local_id edge) const { return ends_[static_cast<std::size_t>(edge)]; }
-  bool is_fixed(local_id edge) const {
-    return !fixed_.empty() && fixed_[static_cast<std::size_t>(edge)] != 0;
-  }
-  double side_weight(local_id edge) const { return edge_weights_[static_cast<std::size_t>(edge)]; }
+  double weight(local_id node) const { return node_weights_[node]; }
+  std::array<local_id, 2> elements(local_id edge) const { return ends_[edge]; }
+  bool is_fixed(local_id edge) const { return !fixed_.empty() && fixed_[edge] != 0; }
+  double side_weight(local_id edge) const { return edge_weights_[edge]; }
 
   std::vector<double> angles() const { return {}; }
   std::array<local_id, 2> sides(dihedral_id) const { return {no_id, no_id}; }

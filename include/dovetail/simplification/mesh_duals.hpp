@@ -37,15 +37,13 @@ public:
 
   std::size_t element_count() const { return sides_->of_element.size(); }
   std::size_t side_count() const { return sides_->size(); }
-  double weight(local_id element) const {
-    return weights_.empty() ? 1.0 : weights_[static_cast<std::size_t>(element)];
-  }
+  double weight(local_id element) const { return weights_.empty() ? 1.0 : weights_[element]; }
   std::array<local_id, 2> elements(local_id side) const {
-    const auto& pair = sides_->elements[static_cast<std::size_t>(side)]; // {element, no_id} on the boundary
+    const auto& pair = sides_->elements[side]; // {element, no_id} on the boundary
     return is_manifold_ || !sides_->is_non_manifold(side) ? pair : std::array<local_id, 2>{pair[0], no_id};
   }
   bool is_fixed(local_id side) const {
-    return (!fixed_.empty() && fixed_[static_cast<std::size_t>(side)] != 0) || elements(side)[1] == no_id;
+    return (!fixed_.empty() && fixed_[side] != 0) || elements(side)[1] == no_id;
   }
 
   double side_weight(local_id) const { return 1; }
@@ -59,7 +57,7 @@ public:
   }
   template <class Visit>
   void for_each_neighbour(local_id element, const Visit& visit) const {
-    for (const local_id side : sides_->of_element[static_cast<std::size_t>(element)])
+    for (const local_id side : sides_->of_element[element])
       if (!is_fixed(side)) {
         const auto [a, b] = elements(side);
         visit(a == element ? b : a);
@@ -101,12 +99,12 @@ public:
   std::array<local_id, 2> sides(dihedral_id dihedral) const {
     const auto& of_element = sides_->of_element[dihedral / dihedrals_per_element];
     const auto& local = numbering::sides_of_ridge<D>[dihedral % dihedrals_per_element];
-    return {of_element[static_cast<std::size_t>(local[0])], of_element[static_cast<std::size_t>(local[1])]};
+    return {of_element[local[0]], of_element[local[1]]};
   }
   template <class Visit>
   void for_each_joint(local_id side, const Visit& visit) const {
-    const auto [a, b] = sides_->elements[static_cast<std::size_t>(side)];
-    const auto& of_a = sides_->of_element[static_cast<std::size_t>(a)];
+    const auto [a, b] = sides_->elements[side];
+    const auto& of_a = sides_->of_element[a];
     const auto local = static_cast<int>(std::find(of_a.begin(), of_a.end(), side) - of_a.begin());
     for (std::size_t r = 0; r < dihedrals_per_element; ++r) {
       const auto& ends = numbering::sides_of_ridge<D>[r];
@@ -121,8 +119,8 @@ private:
   }
   /// The local ridge of element `to` with the vertices of local ridge r of element `from`.
   std::size_t same_ridge(local_id from, std::size_t r, local_id to) const {
-    const auto& here = mesh_->elements[static_cast<std::size_t>(from)];
-    const auto& there = mesh_->elements[static_cast<std::size_t>(to)];
+    const auto& here = mesh_->elements[from];
+    const auto& there = mesh_->elements[to];
     const auto key = sorted_vertices(detail::pick(here, numbering::ridges<D>[r]));
     std::size_t match = 0;
     while (sorted_vertices(detail::pick(there, numbering::ridges<D>[match])) != key)
@@ -148,8 +146,7 @@ std::vector<std::uint8_t> fixed_inside(const simplicial_mesh<D>& mesh, const sid
   sort_all(given);
   const auto changes_tag = [&](std::size_t side) {
     const auto [a, b] = sides.elements[side];
-    return !mesh.tags.empty() && b != no_id &&
-           mesh.tags[static_cast<std::size_t>(a)] != mesh.tags[static_cast<std::size_t>(b)];
+    return !mesh.tags.empty() && b != no_id && mesh.tags[a] != mesh.tags[b];
   };
   std::vector<std::uint8_t> fixed(sides.size(), 0);
   for (std::size_t s = 0; s < sides.size(); ++s) {

@@ -28,8 +28,7 @@ DOVETAIL_INLINE std::vector<double> side_shapes(const simplicial_mesh<2>& mesh, 
     const auto angles = dihedral_angles(corners(span_of(mesh.points), mesh.elements[e]));
     for (std::size_t r = 0; r < angles.size(); ++r)
       for (const int local : numbering::sides_of_ridge<2>[r]) {
-        double& shape =
-            shapes[static_cast<std::size_t>(sides.of_element[e][static_cast<std::size_t>(local)])];
+        double& shape = shapes[sides.of_element[e][local]];
         shape = std::min(shape, angles[r]);
       }
   }

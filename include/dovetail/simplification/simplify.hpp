@@ -34,15 +34,14 @@ std::vector<coupled_side> sides_at_ridges(const side_table<D>& sides, std::size_
   for (auto& ridge : ridges) {
     ridge.vertices = sorted_vertices(ridge.vertices);
     for (const local_id v : ridge.vertices)
-      is_end[static_cast<std::size_t>(v)] = true;
+      is_end[v] = true;
   }
   const auto by_vertices = [](const auto& a, const auto& b) { return a.vertices < b.vertices; };
   sort_all(ridges, by_vertices);
   for (std::size_t s = 0; s < sides.size(); ++s)
     for (const auto& local : numbering::sides<D - 1>) { // the ridges of a side are the sides of a side
       const auto vertices = sorted_vertices(pick(sides.vertices[s], local));
-      if (!std::all_of(vertices.begin(), vertices.end(),
-                       [&](local_id v) { return is_end[static_cast<std::size_t>(v)]; }))
+      if (!std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return is_end[v]; }))
         continue;
       const auto ridge =
           std::lower_bound(ridges.begin(), ridges.end(), coupled_ridge<D>{vertices, {}}, by_vertices);

@@ -29,7 +29,7 @@ std::vector<coupled_ridge<3>> coupled_ridges(const side_table<2>& edges, const s
     coupled_ridge<3> ridge{edges.vertices[s], *decision};
     if (!volume_point.empty())
       for (local_id& v : ridge.vertices)
-        v = volume_point[static_cast<std::size_t>(v)];
+        v = volume_point[v];
     ridges.push_back(ridge);
   }
   return ridges;

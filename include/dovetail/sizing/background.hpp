@@ -51,8 +51,8 @@ private:
     double distance = std::numeric_limits<double>::infinity();
   };
 
-  vec3 point(local_id i) const { return points_[static_cast<std::size_t>(i)]; }
-  double size_of(local_id i) const { return sizes_[static_cast<std::size_t>(i)]; }
+  vec3 point(local_id i) const { return points_[i]; }
+  double size_of(local_id i) const { return sizes_[i]; }
 
   template <std::size_t N>
   box3 box_of(const std::array<local_id, N>& nodes) const {

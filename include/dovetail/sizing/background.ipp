@@ -67,7 +67,7 @@ DOVETAIL_INLINE double background_field::smallest_size_in(const box3& box) const
     boundary_tree_.for_each(
         [&](const box3& b, std::size_t) { return distance_squared(b, center) <= within * within; },
         [&](local_id side) {
-          for (const local_id node : boundary_[static_cast<std::size_t>(side)])
+          for (const local_id node : boundary_[side])
             least = std::min(least, size_of(node));
         });
   }
@@ -89,7 +89,7 @@ DOVETAIL_INLINE std::optional<double> background_field::interpolated(vec3 p) con
   std::optional<double> value;
   element_tree_.for_each([&](const box3& box, std::size_t) { return contains(box, p); },
                          [&](local_id id) {
-                           const auto& e = elements_[static_cast<std::size_t>(id)];
+                           const auto& e = elements_[id];
                            const auto weights = barycentric(e, p);
                            const double depth = *std::min_element(weights.begin(), weights.end());
                            if (depth < deepest || (value && depth == deepest))
@@ -124,7 +124,7 @@ DOVETAIL_INLINE background_field::nearest_boundary background_field::nearest(vec
 }
 
 DOVETAIL_INLINE double background_field::bound_of_element(local_id id, vec3 center, double radius) const {
-  const auto& e = elements_[static_cast<std::size_t>(id)];
+  const auto& e = elements_[id];
   const vec3 a = point(e[0]);
   const vec3 b = point(e[1]) - a;
   const vec3 c = point(e[2]) - a;

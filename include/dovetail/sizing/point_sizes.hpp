@@ -60,7 +60,7 @@ private:
   private:
     static constexpr std::size_t leaf_size = 6;
 
-    const sized_point& at(local_id k) const { return points_[static_cast<std::size_t>(k)]; }
+    const sized_point& at(local_id k) const { return points_[k]; }
     double least_from(std::size_t id, const box3& box) const {
       return sizes_[id] + growth_ * distance(tree_.box(id), box);
     }

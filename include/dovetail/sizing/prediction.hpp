@@ -70,7 +70,7 @@ template <int D>
 integration_cell<D> cell_of_element(const simplicial_mesh<D>& mesh, std::size_t element) {
   std::array<vec3, D + 1> corners;
   for (std::size_t i = 0; i <= D; ++i)
-    corners[i] = mesh.points[static_cast<std::size_t>(mesh.elements[element][i])];
+    corners[i] = mesh.points[mesh.elements[element][i]];
   return {corners, measure_of<D>(corners), element};
 }
 

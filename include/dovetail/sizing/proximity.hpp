@@ -77,7 +77,7 @@ std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options
   const facing_search search(sample_surface(model, spacing, {.per_face = 20000}));
   std::vector<sized_point> points;
   for (const surface_sample& s : search.samples()) {
-    const auto& solids = model.topology().faces[static_cast<std::size_t>(s.face)].solids;
+    const auto& solids = model.topology().faces[s.face].solids;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (!(solids[side] == no_id ? options.outside : options.inside))
         continue;

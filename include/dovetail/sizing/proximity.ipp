@@ -16,7 +16,7 @@ DOVETAIL_INLINE const surface_sample* facing_search::find(const surface_sample& 
   query q{from, direction, reach, slack, nullptr};
   const auto height_of = [&](std::size_t id) { return dot(tree_.box(id).center() - from.point, direction); };
   tree_.search([&](std::size_t id) { return may_hold(tree_.box(id), q); },
-               [&](local_id k) { consider(samples_[static_cast<std::size_t>(k)], q); },
+               [&](local_id k) { consider(samples_[k], q); },
                [&](std::size_t a, std::size_t b) { return height_of(a) < height_of(b); });
   return q.best;
 }

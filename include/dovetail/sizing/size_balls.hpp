@@ -39,7 +39,7 @@ private:
   static constexpr std::size_t leaf_size = 8;
 
   node of_ball(local_id k) const {
-    const size_ball& ball = balls_[static_cast<std::size_t>(k)];
+    const size_ball& ball = balls_[k];
     return {ball.size, ball.radius};
   }
 

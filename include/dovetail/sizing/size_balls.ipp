@@ -33,7 +33,7 @@ DOVETAIL_INLINE double graded_balls::operator()(vec3 p, double bound) const {
     return nodes_[id].size + growth_ * std::max(0.0, gap - nodes_[id].radius);
   };
   return tree_.least(bound, lower_bound, [&](local_id k) {
-    const size_ball& ball = balls_[static_cast<std::size_t>(k)];
+    const size_ball& ball = balls_[k];
     return ball.size + growth_ * std::max(0.0, distance(p, ball.center) - ball.radius);
   });
 }

@@ -46,7 +46,7 @@ DOVETAIL_INLINE double source_field::operator()(vec3 p) const {
   minimum found{log_ambient_};
   std::size_t tried = 0;
   for (const local_id i : located_.candidates(p)) {
-    if (laws_[static_cast<std::size_t>(i)].log_least >= found.log_size) // so are those after it
+    if (laws_[i].log_least >= found.log_size) // so are those after it
       break;
     if (++tried > most_tried) {
       search(p, found);
@@ -57,7 +57,7 @@ DOVETAIL_INLINE double source_field::operator()(vec3 p) const {
   if (found.source == no_id)
     return ambient_;
   // Inside the inner radius of a source of one spacing, that spacing to the last bit, not exp(log(.)).
-  const law& of_winner = laws_[static_cast<std::size_t>(found.source)];
+  const law& of_winner = laws_[found.source];
   if (found.log_size == of_winner.log_least)
     return of_winner.least;
   return std::exp(found.log_size);
@@ -79,14 +79,14 @@ DOVETAIL_INLINE source_field source_field::within(const box3& box) const {
   std::vector<local_id> counting;
   tree_.for_each([&](const box3& reached, std::size_t) { return reached.overlaps(box); },
                  [&](local_id i) {
-                   if (laws_[static_cast<std::size_t>(i)].reached.overlaps(box))
+                   if (laws_[i].reached.overlaps(box))
                      counting.push_back(i);
                  });
   remove_outdone(box, counting);
   sort_all(counting);
   std::vector<grid_source> sources;
   for (const local_id i : counting)
-    sources.push_back(sources_[static_cast<std::size_t>(i)]);
+    sources.push_back(sources_[i]);
   return {ambient_, std::move(sources), largest_slope_};
 }
 
@@ -140,12 +140,12 @@ DOVETAIL_INLINE double source_field::least_from(const node_bound& node, vec3 p, 
 }
 
 DOVETAIL_INLINE void source_field::take(local_id i, vec3 p, minimum& found) const {
-  const law& l = laws_[static_cast<std::size_t>(i)];
+  const law& l = laws_[i];
   if (!contains(l.reached, p))
     return;
   const double candidate = log_size(i, p, 0.0);
   const auto is_before = [&](local_id j) {
-    return std::pair(l.log_least, i) < std::pair(laws_[static_cast<std::size_t>(j)].log_least, j);
+    return std::pair(l.log_least, i) < std::pair(laws_[j].log_least, j);
   };
   if (candidate < found.log_size ||
       (candidate == found.log_size && found.source != no_id && is_before(found.source)))
@@ -169,9 +169,7 @@ DOVETAIL_INLINE void source_field::search(vec3 p, minimum& found) const {
 DOVETAIL_INLINE void source_field::locate() {
   std::vector<local_id> order(sources_.size());
   std::iota(order.begin(), order.end(), local_id{0});
-  stable_sort_all(order, [&](local_id a, local_id b) {
-    return laws_[static_cast<std::size_t>(a)].log_least < laws_[static_cast<std::size_t>(b)].log_least;
-  });
+  stable_sort_all(order, [&](local_id a, local_id b) { return laws_[a].log_least < laws_[b].log_least; });
   located_ = candidate_octree(
       tree_.bounds(), order,
       [&](local_id id, const box3& box) {
@@ -187,7 +185,7 @@ DOVETAIL_INLINE void source_field::remove_outdone(const box3& box, std::vector<l
   const double radius = 0.5001 * box.diagonal();
   double most = log_ambient_; // the size is at most this
   for (const local_id i : items)
-    if (laws_[static_cast<std::size_t>(i)].constant)
+    if (laws_[i].constant)
       most = std::min(most, log_size(i, center, -radius));
   std::erase_if(items, [&](local_id i) { return log_size(i, center, radius) > most + rounding; });
 }
@@ -195,7 +193,7 @@ DOVETAIL_INLINE void source_field::remove_outdone(const box3& box, std::vector<l
 DOVETAIL_INLINE box3 source_field::core_box(const grid_source& s) {
   box3 box;
   for (int k = 0; k <= s.dimension; ++k)
-    box.include(s.corners[static_cast<std::size_t>(k)]);
+    box.include(s.corners[k]);
   return box;
 }
 

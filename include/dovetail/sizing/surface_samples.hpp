@@ -51,7 +51,7 @@ private:
 
   surface_sample sample_at(local_id f, vec2 uv) const {
     const surface_frame frame = model_.face_frame(f, uv);
-    const bool reversed = model_.topology().faces[static_cast<std::size_t>(f)].reversed;
+    const bool reversed = model_.topology().faces[f].reversed;
     const vec3 n = normalized(cross(frame.du, frame.dv));
     const double curvature = model_.face_curvature(f, uv);
     surface_sample sample{frame.point, reversed ? -n : n, uv, std::isfinite(curvature) ? curvature : 0, f};
@@ -62,7 +62,7 @@ private:
   void sample_face(local_id f) {
     outline_.clear();
     budget_ = limits_.per_face;
-    const auto& face = model_.topology().faces[static_cast<std::size_t>(f)];
+    const auto& face = model_.topology().faces[f];
     for (std::size_t k = 0; k < face.coedges.size(); ++k)
       sample_coedge(f, static_cast<int>(k), face.coedges[k]);
     vec2 lower{1e300, 1e300};
@@ -76,7 +76,7 @@ private:
   }
 
   void sample_coedge(local_id f, int k, const geometry_topology::coedge& coedge) {
-    const auto& curve = model_.topology().curves[static_cast<std::size_t>(coedge.curve)];
+    const auto& curve = model_.topology().curves[coedge.curve];
     const auto uv_at = [&](double s) {
       return model_.curve_uv(f, k, curve.t[0] + s * (curve.t[1] - curve.t[0]));
     };

@@ -18,14 +18,14 @@ namespace dovetail::detail {
 
 /// The mean length of the edges at each point of triangles that has some.
 inline std::vector<sized_point> mean_edges_at_points(const simplicial_mesh<2>& surface) {
-  const auto at = [&](local_id v) { return surface.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return surface.points[v]; };
   std::vector<double> sum(surface.points.size(), 0), count(surface.points.size(), 0);
   for (const simplex<2>& triangle : surface.elements)
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = distance(at(triangle[k]), at(triangle[(k + 1) % 3]));
       for (const local_id v : {triangle[k], triangle[(k + 1) % 3]}) {
-        sum[static_cast<std::size_t>(v)] += length;
-        ++count[static_cast<std::size_t>(v)];
+        sum[v] += length;
+        ++count[v];
       }
     }
   std::vector<sized_point> sizes;

@@ -35,9 +35,7 @@ struct numbered_lines {
   /// The numbers along a line, both ends included, from coarse vertex `from`.
   std::vector<local_id> along(local_id line, local_id from) const;
   /// The number of a point of the coarse skeleton.
-  local_id number_of(local_id coarse_point) const {
-    return number_of_coarse_point[static_cast<std::size_t>(coarse_point)];
-  }
+  local_id number_of(local_id coarse_point) const { return number_of_coarse_point[coarse_point]; }
 };
 
 /// Numbers the points of remeshed lines. `coarse_hosts` may be shorter than `coarse_points`: the others lie

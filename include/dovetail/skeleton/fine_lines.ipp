@@ -31,7 +31,7 @@ DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, std
   numbered_lines result;
   result.keys = skeleton.lines;
   result.number_of_coarse_point.assign(coarse_points.size(), no_id);
-  const auto use = [&](local_id v) { result.number_of_coarse_point[static_cast<std::size_t>(v)] = 0; };
+  const auto use = [&](local_id v) { result.number_of_coarse_point[v] = 0; };
   for (const skeleton_line& line : skeleton.lines)
     std::for_each(line.vertices.begin(), line.vertices.end(), use);
   for (const skeleton_region& region : skeleton.regions)

@@ -41,9 +41,7 @@ DOVETAIL_INLINE simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& sur
   simplicial_skeleton<2> skeleton;
   skeleton.points = lines.points;
   skeleton.point_hosts = lines.hosts;
-  const auto part = [&](local_id triangle) {
-    return subdomain_of_triangle[static_cast<std::size_t>(triangle)];
-  };
+  const auto part = [&](local_id triangle) { return subdomain_of_triangle[triangle]; };
   for (std::size_t l = 0; l < lines.keys.size(); ++l) {
     const auto line = static_cast<local_id>(l);
     const local_id side = find_side<2>(sides, lines.keys[l].vertices);
@@ -71,15 +69,15 @@ DOVETAIL_INLINE chord_rule::chord_rule(const coarse_skeleton& skeleton, const si
   sort_unique(edges_);
   for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
     for (const local_id t : skeleton.regions[r].triangles)
-      add_region(static_cast<local_id>(r), surface.mesh.elements[static_cast<std::size_t>(t)], lines);
+      add_region(static_cast<local_id>(r), surface.mesh.elements[t], lines);
   for (auto& regions : regions_at_) {
     sort_unique(regions);
   }
 }
 
 DOVETAIL_INLINE bool chord_rule::forbids(local_id region, local_id a, local_id b) const {
-  const auto& at_a = regions_at_[static_cast<std::size_t>(a)];
-  const auto& at_b = regions_at_[static_cast<std::size_t>(b)];
+  const auto& at_a = regions_at_[a];
+  const auto& at_b = regions_at_[b];
   const bool an_earlier_region = std::any_of(at_a.begin(), at_a.end(), [&](local_id r) {
     return r < region && std::binary_search(at_b.begin(), at_b.end(), r);
   });
@@ -106,14 +104,14 @@ DOVETAIL_INLINE std::vector<std::int64_t>
 chord_rule::earlier_regions(local_id region, std::span<const local_id> points) const {
   std::map<local_id, std::size_t> met;
   for (const local_id point : points)
-    for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
+    for (const local_id r : regions_at_[point])
       ++met[r];
   std::map<local_id, std::int64_t> number;
   std::vector<std::int64_t> listed;
   for (const local_id point : points) {
     const std::size_t at = listed.size();
     listed.push_back(0);
-    for (const local_id r : regions_at_[static_cast<std::size_t>(point)])
+    for (const local_id r : regions_at_[point])
       if (r < region && met[r] > 1) {
         listed.push_back(number.try_emplace(r, static_cast<std::int64_t>(number.size())).first->second);
         ++listed[at];
@@ -126,12 +124,11 @@ DOVETAIL_INLINE void chord_rule::add_region(local_id region, const simplex<2>& t
                                             const numbered_lines& lines) {
   for (std::size_t i = 0; i < 3; ++i) {
     const local_id line = find_line(lines.keys, triangle[i], triangle[(i + 1) % 3]);
-    if (line != no_id && lines.keys[static_cast<std::size_t>(line)].on.dimension == 1)
+    if (line != no_id && lines.keys[line].on.dimension == 1)
       for (const local_id v : lines.along(line, triangle[i]))
-        regions_at_[static_cast<std::size_t>(v)].push_back(region);
-    if (const local_id v = lines.number_of(triangle[i]);
-        v != no_id && lines.hosts[static_cast<std::size_t>(v)].dimension < 2)
-      regions_at_[static_cast<std::size_t>(v)].push_back(region);
+        regions_at_[v].push_back(region);
+    if (const local_id v = lines.number_of(triangle[i]); v != no_id && lines.hosts[v].dimension < 2)
+      regions_at_[v].push_back(region);
   }
 }
 
@@ -139,7 +136,7 @@ DOVETAIL_INLINE std::vector<std::vector<local_id>> regions_of_subdomains(const c
                                                                          std::size_t subdomains) {
   std::vector<std::vector<local_id>> regions(subdomains);
   for (std::size_t r = 0; r < skeleton.regions.size(); ++r)
-    regions[static_cast<std::size_t>(skeleton.regions[r].subdomains[0])].push_back(static_cast<local_id>(r));
+    regions[skeleton.regions[r].subdomains[0]].push_back(static_cast<local_id>(r));
   return regions;
 }
 

@@ -27,13 +27,13 @@ public:
   local_id vertex(local_id number, vec2 uv) {
     patch_boundary& made = patch_.boundary;
     local_id& newest = newest_.try_emplace(number, no_id).first->second;
-    for (local_id v = newest; v != no_id; v = older_[static_cast<std::size_t>(v)])
-      if (const vec2 at = made.uv[static_cast<std::size_t>(v)]; at.x == uv.x && at.y == uv.y)
+    for (local_id v = newest; v != no_id; v = older_[v])
+      if (const vec2 at = made.uv[v]; at.x == uv.x && at.y == uv.y)
         return v;
     older_.push_back(newest);
     newest = static_cast<local_id>(made.uv.size());
     made.uv.push_back(uv);
-    made.points.push_back(points_[static_cast<std::size_t>(number)]);
+    made.points.push_back(points_[number]);
     made.labels.push_back(number);
     return newest;
   }
@@ -55,7 +55,7 @@ private:
 /// `end_t`.
 inline local_id coedge_beside(const any_geometry& model, local_id face, local_id curve,
                               std::array<double, 2> end_t, std::array<vec2, 2> end_uv) {
-  const auto& coedges = model.topology().faces[static_cast<std::size_t>(face)].coedges;
+  const auto& coedges = model.topology().faces[face].coedges;
   local_id best = no_id;
   double least = 0;
   for (std::size_t k = 0; k < coedges.size(); ++k) {
@@ -101,7 +101,7 @@ struct inner_passage {
 
 DOVETAIL_INLINE skeleton_patch region_patch(const any_geometry& model, const surface_mesh& surface,
                                             const skeleton_region& region, const numbered_lines& lines) {
-  const bool reversed = model.topology().faces[static_cast<std::size_t>(region.cad_face)].reversed;
+  const bool reversed = model.topology().faces[region.cad_face].reversed;
   detail::patch_builder patch(lines.points);
   std::map<std::array<local_id, 2>, detail::inner_passage>
       waiting; // inner edges seen once, by sorted vertices
@@ -198,10 +198,10 @@ DOVETAIL_INLINE interface_face_patch interface_patch(const skeleton_face& face,
   std::array<std::vector<local_id>, 3> labels;
   const std::array<local_id, 3> line_of_side = lines_of(face, lines.keys);
   for (std::size_t i = 0; i < 3; ++i) {
-    corners[i] = coarse_points[static_cast<std::size_t>(key[i])];
+    corners[i] = coarse_points[key[i]];
     labels[i] = lines.along(line_of_side[i], key[(i + 1) % 3]);
     for (const local_id number : labels[i])
-      sides[i].push_back(lines.points[static_cast<std::size_t>(number)]);
+      sides[i].push_back(lines.points[number]);
   }
   remesh::triangle_surface surface(corners, sides);
   skeleton_patch patch;

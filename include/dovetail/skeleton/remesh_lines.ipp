@@ -106,8 +106,8 @@ inline fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last
 
 DOVETAIL_INLINE fine_line remesh_line(const any_geometry& model, const skeleton_line& line,
                                       std::span<const vec3> coarse_points, const any_sizing& size) {
-  const vec3 first = coarse_points[static_cast<std::size_t>(line.vertices[0])];
-  const vec3 last = coarse_points[static_cast<std::size_t>(line.vertices[1])];
+  const vec3 first = coarse_points[line.vertices[0]];
+  const vec3 last = coarse_points[line.vertices[1]];
   if (line.on.dimension == 1)
     return detail::space_on_curve(model, line, size);
   if (line.on.dimension == 2)
@@ -116,8 +116,7 @@ DOVETAIL_INLINE fine_line remesh_line(const any_geometry& model, const skeleton_
 }
 
 DOVETAIL_INLINE box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_points) {
-  const std::array ends{coarse_points[static_cast<std::size_t>(line.vertices[0])],
-                        coarse_points[static_cast<std::size_t>(line.vertices[1])]};
+  const std::array ends{coarse_points[line.vertices[0]], coarse_points[line.vertices[1]]};
   return roomy_box_around(ends);
 }
 
@@ -126,7 +125,7 @@ DOVETAIL_INLINE content_key key_of(const skeleton_line& line, std::span<const ve
   key_maker make(size.key_near(place_of(line, coarse_points)));
   make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id})(std::int64_t{line.segments})(line.bias);
   for (std::size_t end = 0; end < 2; ++end) {
-    const vec3 p = coarse_points[static_cast<std::size_t>(line.vertices[end])];
+    const vec3 p = coarse_points[line.vertices[end]];
     make(p.x)(p.y)(p.z)(line.t[end])(line.uv[end].x)(line.uv[end].y);
   }
   return make.key();

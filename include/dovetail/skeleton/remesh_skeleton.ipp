@@ -27,7 +27,7 @@ public:
         lines_(of.lines) {}
 
   bool is_reversed(std::size_t p) const {
-    return is_region(p) ? model_.topology().faces[at(skeleton_.regions[p].cad_face)].reversed
+    return is_region(p) ? model_.topology().faces[skeleton_.regions[p].cad_face].reversed
                         : !same_turn(key_order(face_of(p)), face_of(p).vertices);
   }
 
@@ -43,7 +43,7 @@ public:
     for (const skeleton_face& face : skeleton_.faces) {
       std::vector<vec3> corners;
       for (const local_id v : key_order(face))
-        corners.push_back(coarse_points_[at(v)]);
+        corners.push_back(coarse_points_[v]);
       set.surface_keys.push_back(key_maker{}(corners).key());
     }
     return set;
@@ -53,7 +53,7 @@ public:
     if (!is_region(p))
       return "interface face " + std::to_string(p - skeleton_.regions.size());
     const local_id f = skeleton_.regions[p].cad_face;
-    const std::string& name = model_.topology().faces[at(f)].name;
+    const std::string& name = model_.topology().faces[f].name;
     return "a region of face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
   }
 
@@ -67,13 +67,13 @@ public:
     for (const auto& pair : mesh.crossings)
       segments.insert(pair.begin(), pair.end());
     for (const local_id s : segments) {
-      const auto [a, b] = boundary.segments[at(s)];
-      const vec3 from = boundary.points[at(a)], to = boundary.points[at(b)];
+      const auto [a, b] = boundary.segments[s];
+      const vec3 from = boundary.points[a], to = boundary.points[b];
       failure.edges.push_back({midpoint(from, to), 0, distance(from, to)});
-      lines.insert(made.line_of_segment[at(s)]);
+      lines.insert(made.line_of_segment[s]);
     }
     for (const local_id line : lines)
-      if (line != no_id && lines_.keys[at(line)].on.dimension > 1)
+      if (line != no_id && lines_.keys[line].on.dimension > 1)
         failure.removable_lines.push_back(line);
     if (mesh.folded.empty()) {
       failure.reason =
@@ -85,7 +85,7 @@ public:
     for (const local_id t : mesh.folded) {
       std::array<vec3, 3> corners;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t v = at(mesh.triangles[at(t)][k]);
+        const std::size_t v = mesh.triangles[t][k];
         corners[k] = v < frozen.size() ? frozen[v] : mesh.inner_points[v - frozen.size()];
       }
       failure.folded.push_back(corners);
@@ -108,7 +108,6 @@ private:
     return built;
   }
 
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
   bool is_region(std::size_t patch) const { return patch < skeleton_.regions.size(); }
   const skeleton_face& face_of(std::size_t patch) const {
     return skeleton_.faces[patch - skeleton_.regions.size()];

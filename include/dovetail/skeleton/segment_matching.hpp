@@ -52,8 +52,6 @@ private:
   static constexpr int sweeps = 3;
   static constexpr double faces_per_task = 16;
 
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-
   /// A face comes behind all before it that change what it looks at, or look at what it changes.
   std::vector<std::vector<local_id>> levels_of(const std::vector<local_id>& faces) const {
     std::vector<std::vector<local_id>> levels;
@@ -87,7 +85,7 @@ private:
       for (const vec3& p : skeleton_.corners(other))
         make(p.x)(p.y)(p.z);
       for (const local_id line : skeleton_.sides(other))
-        make(static_cast<std::int64_t>(line_keys_[at(line)].value));
+        make(static_cast<std::int64_t>(line_keys_[line].value));
       make(static_cast<std::int64_t>(skeleton_.size.key_near(skeleton_.place(other)).value));
     };
     add(f);
@@ -120,12 +118,12 @@ private:
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0) {
-        skeleton_line& line = skeleton_.coarse.lines[at(sides[i])];
+        skeleton_line& line = skeleton_.coarse.lines[sides[i]];
         line.segments = chosen[i].count;
         line.bias = chosen[i].bias;
-        skeleton_.lines[at(sides[i])] =
+        skeleton_.lines[sides[i]] =
             remesh_line(model_, line, skeleton_.coarse_points, skeleton_.size_near(sides[i]));
-        line_keys_[at(sides[i])] = dovetail::key_of(line, skeleton_.coarse_points, skeleton_.size);
+        line_keys_[sides[i]] = dovetail::key_of(line, skeleton_.coarse_points, skeleton_.size);
         append(touched_, skeleton_.faces_of_line[sides[i]]);
       }
   }

@@ -35,14 +35,12 @@ struct matched_skeleton {
   double threshold;
   compressed_rows<local_id> faces_of_line;
 
-  const skeleton_line& line(local_id l) const { return coarse.lines[static_cast<std::size_t>(l)]; }
-  vec3 point(local_id v) const { return coarse_points[static_cast<std::size_t>(v)]; }
+  const skeleton_line& line(local_id l) const { return coarse.lines[l]; }
+  vec3 point(local_id v) const { return coarse_points[v]; }
   any_sizing size_near(local_id l) const { return size.near(place_of(line(l), coarse_points)); }
-  std::array<local_id, 3> sides(local_id face) const {
-    return lines_of(coarse.faces[static_cast<std::size_t>(face)], coarse.lines);
-  }
+  std::array<local_id, 3> sides(local_id face) const { return lines_of(coarse.faces[face], coarse.lines); }
   std::array<vec3, 3> corners(local_id face) const {
-    const simplex<2> key = key_order(coarse.faces[static_cast<std::size_t>(face)]);
+    const simplex<2> key = key_order(coarse.faces[face]);
     return {point(key[0]), point(key[1]), point(key[2])};
   }
   box3 place(local_id face) const { return roomy_box_around(corners(face)); }
@@ -107,8 +105,6 @@ private:
     line_segments segments{};
   };
 
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-
   /// The changes of a face that may gain, the cheapest first.
   std::vector<change> changes_of(local_id f, double before) {
     const std::array<local_id, 3> sides = skeleton_.sides(f);
@@ -159,7 +155,7 @@ private:
   std::vector<choice> choices_of(local_id l) {
     const skeleton_line& line = skeleton_.line(l);
     const double wanted = wanted_segments(l);
-    const int now = static_cast<int>(skeleton_.lines[at(l)].points.size()) + 1;
+    const int now = static_cast<int>(skeleton_.lines[l].points.size()) + 1;
     std::vector<choice> choices{{}};
     for (int n = std::max(1, now - 2); n <= now + 2; ++n)
       for (const double bias : {0.0, -0.4, 0.4}) {
@@ -182,7 +178,7 @@ private:
       sum += distance(before, p) / size(midpoint(before, p));
       before = p;
     };
-    for (const vec3& p : skeleton_.lines[at(l)].points)
+    for (const vec3& p : skeleton_.lines[l].points)
       pass(p);
     pass(skeleton_.point(line.vertices[1]));
     return sum;
@@ -190,7 +186,7 @@ private:
 
   const std::vector<vec3>& points_of(local_id l, line_segments wanted) {
     if (wanted.count == 0)
-      return skeleton_.lines[at(l)].points;
+      return skeleton_.lines[l].points;
     const auto [found, is_new] = tried_.try_emplace({l, wanted});
     if (is_new) {
       skeleton_line line = skeleton_.line(l);
@@ -226,7 +222,7 @@ private:
   /// The largest that the smallest angle at a corner can be when some lines are changed: its first segments
   /// and the edge between their ends make a triangle, or something halves it.
   double corner_limit(local_id f, const face_segments& changed, std::size_t corner) {
-    const local_id vertex = key_order(skeleton_.coarse.faces[at(f)])[corner];
+    const local_id vertex = key_order(skeleton_.coarse.faces[f])[corner];
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     const vec3 p = skeleton_.point(vertex);
     const auto beside = [&](std::size_t i) {
@@ -262,7 +258,7 @@ private:
   }
 
   double least_angle(local_id f, const face_segments& changed) {
-    const simplex<2> key = key_order(skeleton_.coarse.faces[at(f)]);
+    const simplex<2> key = key_order(skeleton_.coarse.faces[f]);
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     std::array<std::vector<vec3>, 3> points;
     std::array<std::vector<local_id>, 3> labels;
@@ -285,7 +281,7 @@ private:
       return 0;
     const auto frozen = static_cast<local_id>(boundary.points.size());
     const auto place = [&](local_id v) {
-      return v < frozen ? boundary.points[at(v)] : made.inner_points[at(v - frozen)];
+      return v < frozen ? boundary.points[v] : made.inner_points[v - frozen];
     };
     double least = 180;
     for (const simplex<2>& t : made.triangles)

@@ -5,7 +5,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
-#include "dovetail/parallel/common_memory.hpp"
+#include "dovetail/parallel/common_arrays.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,15 @@ struct patches_to_join {
   const skeleton_face& face(std::size_t patch) const { return coarse.faces[patch - coarse.regions.size()]; }
 };
 
+/// Consecutive patches of a skeleton, in its numbers.
+struct patches_joined {
+  std::vector<vec3> points;
+  std::vector<host> point_hosts;
+  std::vector<simplex<2>> sides;
+  std::vector<std::array<local_id, 2>> subdomains;
+  std::vector<local_id> side_hosts;
+};
+
 /// The points of lines are the first of a fine skeleton; the own points of patches follow, in their order.
 class skeleton_assembly {
 public:
@@ -50,40 +60,30 @@ public:
   /// Points and sides; linear. On each rank the same.
   fine_skeleton run(const any_executor& run, const progress& on_progress) const {
     const std::size_t points = first_point_.back(), sides = first_triangle_.back();
-    const std::size_t hosts_at = points * sizeof(vec3);
-    const std::size_t subdomains_at = hosts_at + points * sizeof(host);
-    const std::size_t sides_at = subdomains_at + sides * sizeof(std::array<local_id, 2>);
-    const std::size_t side_hosts_at = sides_at + sides * sizeof(simplex<2>);
-    common_memory memory(run, *from_.store.entities, "assembled", side_hosts_at + sides * sizeof(local_id));
+    common_arrays<vec3, host, simplex<2>, std::array<local_id, 2>, local_id> assembled(
+        run, *from_.store.entities, "assembled", {points, points, sides, sides, sides});
     const std::vector<std::size_t> begins = tasks();
-    memory.fill(begins.size() - 1,
-                [&](std::size_t task) {
-                  const std::size_t begin = begins[task], end = begins[task + 1];
-                  const std::size_t point = task == 0 ? 0 : first_point_[begin],
-                                    side = first_triangle_[begin];
-                  const fine_skeleton part = join(begin, end, task == 0);
-                  memory.write(point * sizeof(vec3), part.points);
-                  memory.write(hosts_at + point * sizeof(host), part.point_hosts);
-                  memory.write(subdomains_at + side * sizeof(std::array<local_id, 2>), part.subdomains);
-                  memory.write(sides_at + side * sizeof(simplex<2>), part.sides);
-                  memory.write(side_hosts_at + side * sizeof(local_id), part.side_hosts);
-                },
-                {.on_progress = on_progress, .stage = "skeleton"});
-    memory.close();
+    assembled.fill(begins.size() - 1,
+                   [&](std::size_t task) {
+                     const std::size_t begin = begins[task], end = begins[task + 1];
+                     const std::size_t point = task == 0 ? 0 : first_point_[begin],
+                                       side = first_triangle_[begin];
+                     const patches_joined part = join(begin, end, task == 0);
+                     assembled.template write<0>(point, part.points);
+                     assembled.template write<1>(point, part.point_hosts);
+                     assembled.template write<2>(side, part.sides);
+                     assembled.template write<3>(side, part.subdomains);
+                     assembled.template write<4>(side, part.side_hosts);
+                   },
+                   {.on_progress = on_progress, .stage = "skeleton"});
     fine_skeleton fine;
-    fine.points = memory.array<vec3>(0, points);
-    fine.point_hosts = memory.array<host>(hosts_at, points);
-    fine.subdomains = memory.array<std::array<local_id, 2>>(subdomains_at, sides);
-    fine.sides = memory.array<simplex<2>>(sides_at, sides);
-    fine.side_hosts = memory.array<local_id>(side_hosts_at, sides);
+    std::tie(fine.points, fine.point_hosts, fine.sides, fine.subdomains, fine.side_hosts) = assembled.close();
     add_curve_edges(fine);
     return fine;
   }
 
 private:
   static constexpr std::size_t triangles_per_task = 1 << 16;
-
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
 
   /// The first patch of each task, and the end of the last.
   std::vector<std::size_t> tasks() const {
@@ -97,12 +97,9 @@ private:
   }
 
   /// What consecutive patches are in the skeleton, with the points of lines before them or without.
-  fine_skeleton join(std::size_t begin, std::size_t end, bool with_lines) const {
-    std::vector<vec3> points;
-    std::vector<host> hosts;
-    std::vector<std::array<local_id, 2>> subdomains;
-    std::vector<simplex<2>> sides;
-    std::vector<local_id> side_hosts;
+  patches_joined join(std::size_t begin, std::size_t end, bool with_lines) const {
+    patches_joined result;
+    auto& [points, hosts, sides, subdomains, side_hosts] = result;
     if (with_lines) {
       points = from_.lines.points;
       hosts = hosts_of_lines();
@@ -123,13 +120,7 @@ private:
       append(points, mesh.inner_points);
       hosts.resize(points.size(), host_of_inner_points(p));
     });
-    return {.points = std::move(points),
-            .point_hosts = std::move(hosts),
-            .sides = std::move(sides),
-            .subdomains = std::move(subdomains),
-            .side_hosts = std::move(side_hosts),
-            .curve_edges = {},
-            .curves = {}};
+    return result;
   }
 
   host host_of_inner_points(std::size_t p) const {
@@ -137,14 +128,14 @@ private:
   }
   /// Interfaces lie in the solid of the subdomains beside them.
   host inside(const skeleton_face& face) const {
-    return {3, from_.material_of_subdomain[at(face.subdomains[0])]};
+    return {3, from_.material_of_subdomain[face.subdomains[0]]};
   }
 
   std::vector<host> hosts_of_lines() const {
     std::vector<host> hosts = from_.lines.hosts;
     for (std::size_t p = from_.coarse.regions.size(); p < from_.meshes.keys.size(); ++p)
       for (const local_id number : from_.meshes.labels[p])
-        if (host& on = hosts[at(number)]; on.dimension == 3)
+        if (host& on = hosts[number]; on.dimension == 3)
           on = inside(from_.face(p));
     return hosts;
   }

@@ -38,7 +38,7 @@ inline local_id id_along(const discrete_model& model, local_id curve, edge_ids& 
 }
 
 inline double area_of(const std::vector<vec3>& points, const simplex<2>& triangle) {
-  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(triangle[k])]; };
+  const auto at = [&](std::size_t k) { return points[triangle[k]]; };
   return 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
 }
 
@@ -51,13 +51,13 @@ struct chord_gaps {
 inline chord_gaps gaps_of(const simplicial_mesh<2>& surface, double feature_angle_deg) {
   chord_gaps gaps;
   const auto sides = build_sides(surface);
-  const auto at = [&](local_id v) { return surface.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return surface.points[v]; };
   const auto normal = [&](local_id t) {
-    const auto& [a, b, c] = surface.elements[static_cast<std::size_t>(t)];
+    const auto& [a, b, c] = surface.elements[t];
     return cross(at(b) - at(a), at(c) - at(a));
   };
   const auto centre = [&](local_id t) {
-    const auto& [a, b, c] = surface.elements[static_cast<std::size_t>(t)];
+    const auto& [a, b, c] = surface.elements[t];
     return (at(a) + at(b) + at(c)) / 3.0;
   };
   for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -80,7 +80,7 @@ inline chord_gaps gaps_of(const simplicial_mesh<2>& surface, double feature_angl
 inline mesh_extent extent_of(const adaptable_mesh<3>& old, const oriented_surfaces& surfaces,
                              double feature_angle_deg) {
   mesh_extent extent;
-  const auto at = [&](local_id v) { return old.mesh.points[static_cast<std::size_t>(v)]; };
+  const auto at = [&](local_id v) { return old.mesh.points[v]; };
   for (const auto& [a, b, c, d] : old.mesh.elements)
     extent.volume += signed_volume(at(a), at(b), at(c), at(d));
   simplicial_mesh<2> outer{surfaces.mesh.points, {}, {}};
@@ -285,7 +285,7 @@ adaptable_mesh<D> whole_mesh(const adapted<D>& made) {
   io::gathered_mesh<D> whole = io::gather(made.mesh);
   const auto replace = [](std::vector<local_id>& numbers, const std::vector<local_id>& by) {
     for (local_id& n : numbers)
-      n = by[static_cast<std::size_t>(n)];
+      n = by[n];
   };
   replace(whole.side_hosts, D == 3 ? made.id_of_face : made.id_of_curve);
   adaptable_mesh<D> result{.mesh = std::move(whole.mesh), .subdomains = std::move(whole.subdomains)};

@@ -41,7 +41,6 @@ public:
   }
 
 private:
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   void refuse(local_id rank, const std::string& what) {
     faults_.push_back("rank " + std::to_string(rank) + ": " + what);
   }
@@ -57,7 +56,7 @@ private:
       const auto& rank = ranks_[q];
       const auto& mesh = rank.mesh;
       const auto points = mesh.points.size(), elements = mesh.elements.size();
-      if (rank.rank != static_cast<local_id>(q) || at(rank.ranks) != ranks_.size())
+      if (rank.rank != static_cast<local_id>(q) || static_cast<std::size_t>(rank.ranks) != ranks_.size())
         refuse(static_cast<local_id>(q), "it is called another rank");
       if (rank.owned_corners > rank.owned_vertices || rank.owned_vertices > rank.held_vertices ||
           rank.held_vertices > points || rank.owned_elements > elements || rank.vertex_ids.size() != points ||
@@ -82,7 +81,8 @@ private:
       for (std::size_t e = 0; e < elements; ++e) {
         bool there = true;
         for_each_node(rank, e, [&](local_id v) {
-          there = there && v >= 0 && at(v) < (e < rank.owned_elements ? rank.held_vertices : points);
+          there = there && v >= 0 &&
+                  static_cast<std::size_t>(v) < (e < rank.owned_elements ? rank.held_vertices : points);
         });
         if (!there)
           return refuse(rank.rank, "an element has a vertex that is not there");
@@ -106,11 +106,11 @@ private:
         holders_[rank.vertex_ids[v]].push_back(rank.rank);
     for (const auto& rank : ranks_)
       for (std::size_t v = rank.owned_vertices; v < rank.mesh.points.size(); ++v) {
-        const auto& owner = ranks_[at(rank.vertex_owners[v])];
+        const auto& owner = ranks_[rank.vertex_owners[v]];
         const global_id there = rank.vertex_ids[v] - (owner.vertex_ids.empty() ? 0 : owner.vertex_ids[0]);
-        if (there < 0 || at(there) >= owner.owned_vertices ||
-            owner.mesh.points[at(there)] != rank.mesh.points[v] ||
-            owner.vertex_numbers[at(there)] != rank.vertex_numbers[v] ||
+        if (there < 0 || static_cast<std::size_t>(there) >= owner.owned_vertices ||
+            owner.mesh.points[there] != rank.mesh.points[v] ||
+            owner.vertex_numbers[there] != rank.vertex_numbers[v] ||
             holders_[rank.vertex_ids[v]].front() != owner.rank)
           return refuse(rank.rank, "vertex " + std::to_string(v) + " is not as its owner has it");
       }
@@ -120,7 +120,7 @@ private:
   std::array<global_id, N> ids_of(const rank_mesh<D>& rank, const std::array<local_id, N>& vertices) const {
     std::array<global_id, N> ids;
     for (std::size_t k = 0; k < N; ++k)
-      ids[k] = rank.vertex_ids[at(vertices[k])];
+      ids[k] = rank.vertex_ids[vertices[k]];
     return ids;
   }
   template <std::size_t N>
@@ -134,12 +134,12 @@ private:
   std::vector<global_id> ids_of(const rank_mesh<D>& rank, const std::vector<local_id>& list) const {
     std::vector<global_id> ids;
     for (const local_id v : list)
-      ids.push_back(rank.vertex_ids[at(v)]);
+      ids.push_back(rank.vertex_ids[v]);
     return ids;
   }
   std::vector<global_id> ids_of_element(const rank_mesh<D>& rank, std::size_t e) const {
     std::vector<global_id> ids;
-    for_each_node(rank, e, [&](local_id v) { ids.push_back(rank.vertex_ids[at(v)]); });
+    for_each_node(rank, e, [&](local_id v) { ids.push_back(rank.vertex_ids[v]); });
     return ids;
   }
 
@@ -157,7 +157,7 @@ private:
           return;
         }
         for (; next <= D; ++next) {
-          ids[taken] = rank.vertex_ids[at(rank.mesh.elements[e][next])];
+          ids[taken] = rank.vertex_ids[rank.mesh.elements[e][next]];
           const auto& holders = holders_[ids[taken]];
           if (std::find(holders.begin(), holders.end(), other) != holders.end())
             self(self, taken + 1, next + 1);
@@ -194,7 +194,7 @@ private:
       const auto name = "what it shares with rank " + std::to_string(shared.rank);
       if (expected.find(shared.rank) == expected.end())
         return refuse(rank.rank, name + " is nothing");
-      const auto& other = ranks_[at(shared.rank)];
+      const auto& other = ranks_[shared.rank];
       const auto back = std::find_if(other.neighbours.begin(), other.neighbours.end(),
                                      [&](const auto& there) { return there.rank == rank.rank; });
       if (back == other.neighbours.end() || ids_of(rank, shared.vertices) != ids_of(other, back->vertices) ||
@@ -228,21 +228,20 @@ private:
         for (const global_id id : ids)
           for (const local_id r : holders_[id])
             if (r != rank.rank)
-              expected[at(r)][rank.element_ids[e]] = ids;
+              expected[r][rank.element_ids[e]] = ids;
       }
     for (const auto& rank : ranks_) {
       std::map<global_id, std::vector<global_id>> found;
       for (std::size_t e = rank.owned_elements; e < rank.mesh.elements.size(); ++e) {
         found[rank.element_ids[e]] = ids_of_element(rank, e);
-        const auto& owner = ranks_[at(rank.element_owners[e])];
+        const auto& owner = ranks_[rank.element_owners[e]];
         const global_id there = rank.element_ids[e] - (owner.element_ids.empty() ? 0 : owner.element_ids[0]);
-        if (there < 0 || at(there) >= owner.owned_elements ||
-            owner.element_numbers[at(there)] != rank.element_numbers[e] ||
-            owner.subdomains[at(there)] != rank.subdomains[e] ||
-            owner.mesh.tags[at(there)] != rank.mesh.tags[e])
+        if (there < 0 || static_cast<std::size_t>(there) >= owner.owned_elements ||
+            owner.element_numbers[there] != rank.element_numbers[e] ||
+            owner.subdomains[there] != rank.subdomains[e] || owner.mesh.tags[there] != rank.mesh.tags[e])
           return refuse(rank.rank, "ghost " + std::to_string(e) + " is not as its owner has it");
       }
-      if (found != expected[at(rank.rank)] || found.size() != rank.mesh.elements.size() - rank.owned_elements)
+      if (found != expected[rank.rank] || found.size() != rank.mesh.elements.size() - rank.owned_elements)
         refuse(rank.rank, "its ghosts are not the elements of others that touch it");
     }
   }
@@ -257,11 +256,11 @@ private:
         for (std::size_t k = 0; k < middles.size(); ++k) {
           auto key = ids_of(rank, vertices_of_edge(vertices, edges[k]));
           std::sort(key.begin(), key.end());
-          const global_id middle = rank.vertex_ids[at(middles[k])];
-          const bool owned = at(middles[k]) < rank.owned_vertices;
+          const global_id middle = rank.vertex_ids[middles[k]];
+          const bool owned = static_cast<std::size_t>(middles[k]) < rank.owned_vertices;
           if (middle_of.try_emplace(key, middle).first->second != middle ||
               edge_of.try_emplace(middle, key).first->second != key ||
-              (owned && at(middles[k]) < rank.owned_corners))
+              (owned && static_cast<std::size_t>(middles[k]) < rank.owned_corners))
             return false;
         }
         return true;
@@ -273,7 +272,8 @@ private:
         agreed = agreed && meet(rank.sides[s], rank.side_middles[s], numbering::edges<D - 1>);
       for (const auto& element : rank.mesh.elements)
         for (const local_id v : element)
-          agreed = agreed && (at(v) < rank.owned_corners || at(v) >= rank.owned_vertices);
+          agreed = agreed && (static_cast<std::size_t>(v) < rank.owned_corners ||
+                              static_cast<std::size_t>(v) >= rank.owned_vertices);
       if (!agreed)
         refuse(rank.rank, "the middle of an edge is not the same vertex for all who have the edge");
     }
@@ -310,7 +310,7 @@ void hash_rank_mesh(mesh_hasher& hasher, const rank_mesh<D>& rank) {
   for (std::size_t e = 0; e < rank.owned_elements; ++e) {
     std::array<global_id, D + 1> vertices;
     for (std::size_t k = 0; k < vertices.size(); ++k)
-      vertices[k] = rank.vertex_numbers[static_cast<std::size_t>(rank.mesh.elements[e][k])];
+      vertices[k] = rank.vertex_numbers[rank.mesh.elements[e][k]];
     hasher.element(vertices);
   }
 }

@@ -49,7 +49,7 @@ DOVETAIL_INLINE std::vector<edge_middles::sample> edge_middles::nearest_samples(
 }
 
 DOVETAIL_INLINE std::vector<edge_middles::sample> edge_middles::of_curve(local_id c) const {
-  const auto& curve = model_.topology().curves[static_cast<std::size_t>(c)];
+  const auto& curve = model_.topology().curves[c];
   std::vector<sample> samples;
   for (int i = 0; i < curve_samples && !curve.degenerate; ++i) {
     const double t = curve.t[0] + (curve.t[1] - curve.t[0]) * i / (curve_samples - 1);
@@ -63,10 +63,10 @@ DOVETAIL_INLINE std::vector<edge_middles::sample> edge_middles::of_curve(local_i
 
 DOVETAIL_INLINE std::vector<edge_middles::sample> edge_middles::of_face(local_id f) const {
   const auto& topology = model_.topology();
-  const auto& coedges = topology.faces[static_cast<std::size_t>(f)].coedges;
+  const auto& coedges = topology.faces[f].coedges;
   box3 parameters;
   for (std::size_t k = 0; k < coedges.size(); ++k) {
-    const auto& t = topology.curves[static_cast<std::size_t>(coedges[k].curve)].t;
+    const auto& t = topology.curves[coedges[k].curve].t;
     constexpr int steps = 8;
     for (int i = 0; i <= steps; ++i) {
       const vec2 uv = model_.curve_uv(f, static_cast<int>(k), t[0] + (t[1] - t[0]) * i / steps);

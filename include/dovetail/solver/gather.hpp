@@ -63,7 +63,7 @@ gathered_mesh<D> gather(const distributed_simplicial_mesh<D>& mesh) {
                           {},
                           {}};
   const auto vertex = [&](local_id point) {
-    const global_id id = one_rank.point_ids[static_cast<std::size_t>(point)];
+    const global_id id = one_rank.point_ids[point];
     if (id < 0)
       throw mesh_error("an edge of the skeleton that lies on the CAD model belongs to no element");
     return static_cast<local_id>(id);

@@ -83,7 +83,7 @@ struct xdmf_format {
       const auto groups = collect_face_groups(source.mesh).of_face;
       std::vector<local_id> patches;
       for (const local_id face : rank.side_hosts)
-        patches.push_back(groups[static_cast<std::size_t>(face)]);
+        patches.push_back(groups[face]);
       file.write("sides/patch", first_side, patches);
     }
     file.close();

@@ -118,9 +118,7 @@ private:
     require_room(static_cast<global_id>(result_.held_vertices));
   }
 
-  local_id rank_of(local_id piece) const {
-    return piece == no_id ? no_id : ranks_.rank_of_piece[static_cast<std::size_t>(piece)];
-  }
+  local_id rank_of(local_id piece) const { return piece == no_id ? no_id : ranks_.rank_of_piece[piece]; }
   bool is_ours(std::size_t side) const {
     const auto [behind, front] = skeleton_.subdomains[side];
     return rank_of(behind) == result_.rank || rank_of(front) == result_.rank;
@@ -148,9 +146,9 @@ private:
   local_id local_of(const piece_nodes<D>& nodes, std::size_t piece, std::size_t i) const {
     const auto shared = nodes.shared();
     if (i < shared.size())
-      return local_[static_cast<std::size_t>(shared[i])];
+      return local_[shared[i]];
     return static_cast<local_id>(id_of_own(piece, static_cast<global_id>(i - shared.size())) -
-                                 ranks_.first_vertex[static_cast<std::size_t>(result_.rank)]);
+                                 ranks_.first_vertex[result_.rank]);
   }
 
   /// `vertices` are the corners and, of second order, the middles of its edges.
@@ -178,8 +176,7 @@ private:
     const piece_nodes<D> nodes(source_, piece);
     require_announced(nodes, p);
     for (std::size_t i = 0; i < nodes.own().size(); ++i)
-      result_.mesh.points[static_cast<std::size_t>(local_of(nodes, p, nodes.shared().size() + i))] =
-          nodes.own()[i];
+      result_.mesh.points[local_of(nodes, p, nodes.shared().size() + i)] = nodes.own()[i];
     std::vector<local_id> vertices(nodes.per_element());
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -200,7 +197,7 @@ private:
     for (local_id& v : side) {
       if (static_cast<std::size_t>(v) >= piece.skeleton_points.size())
         return;
-      v = piece.skeleton_points[static_cast<std::size_t>(v)];
+      v = piece.skeleton_points[v];
     }
     const auto key = sorted_vertices(side);
     const auto found = std::lower_bound(keys_.begin(), keys_.end(), key,
@@ -229,10 +226,9 @@ private:
   void require_used() const {
     std::vector<bool> used(result_.held_vertices, false);
     for (std::size_t e = 0; e < result_.mesh.elements.size(); ++e)
-      for_each_node(result_, e, [&](local_id v) { used[static_cast<std::size_t>(v)] = true; });
+      for_each_node(result_, e, [&](local_id v) { used[v] = true; });
     if (const auto at = std::find(used.begin(), used.end(), false); at != used.end())
-      throw mesh_error("point " +
-                       std::to_string(result_.vertex_numbers[static_cast<std::size_t>(at - used.begin())]) +
+      throw mesh_error("point " + std::to_string(result_.vertex_numbers[at - used.begin()]) +
                        " is in no element of the subdomains that it should be in");
     for (const auto& elements : result_.side_elements)
       if (elements[0] == no_id)
@@ -260,7 +256,7 @@ private:
   }
 
   bool is_shared(local_id point) const {
-    return local_[static_cast<std::size_t>(point)] != no_id && ranks_.ranks_at_point[point].size() > 1;
+    return local_[point] != no_id && ranks_.ranks_at_point[point].size() > 1;
   }
 
   /// An edge has elements of two ranks only if it is on the boundary of a piece of each.
@@ -282,9 +278,7 @@ private:
         ours = ours || met[last].second == result_.rank;
       for (std::size_t i = first; ours && i < last; ++i)
         if (met[i].second != result_.rank)
-          neighbour(met[i].second)
-              .edges.push_back({local_[static_cast<std::size_t>(met[i].first[0])],
-                                local_[static_cast<std::size_t>(met[i].first[1])]});
+          neighbour(met[i].second).edges.push_back({local_[met[i].first[0]], local_[met[i].first[1]]});
     }
   }
 
@@ -299,7 +293,7 @@ private:
       if (behind != result_.rank)
         std::swap(face[1], face[2]);
       for (local_id& v : face)
-        v = local_[static_cast<std::size_t>(v)];
+        v = local_[v];
       neighbour(behind == result_.rank ? front : behind).faces.push_back(face);
     }
   }
@@ -312,7 +306,7 @@ private:
                       [this](local_id v) { return is_shared(v); }))
         for (const local_id p : skeleton_.subdomains[s])
           if (p != no_id && rank_of(p) != result_.rank)
-            touches[static_cast<std::size_t>(p)] = true;
+            touches[p] = true;
     std::vector<local_id> pieces;
     for (std::size_t p = 0; p < touches.size(); ++p)
       if (touches[p])
@@ -332,7 +326,7 @@ private:
     std::map<std::size_t, local_id> inner; // own nodes of the piece that are vertices of ghosts
     const auto is_held = [&](local_id v) {
       const auto at = static_cast<std::size_t>(v);
-      const local_id ours = at < shared.size() ? local_[static_cast<std::size_t>(shared[at])] : no_id;
+      const local_id ours = at < shared.size() ? local_[shared[at]] : no_id;
       return ours != no_id && static_cast<std::size_t>(ours) < result_.held_vertices;
     };
     const auto place = [&](local_id v) {

@@ -31,8 +31,8 @@ public:
     if (!rank.middles.empty())
       for (std::size_t e = 0; e < rank.owned_elements; ++e)
         for (const std::size_t edge : {0u, 2u, 3u, 1u, 4u, 5u}) // MFEM's: 01, 02, 03, 12, 13, 23
-          if (const local_id v = rank.middles[e][edge]; !is_middle[index(v)]) {
-            is_middle[index(v)] = true;
+          if (const local_id v = rank.middles[e][edge]; !is_middle[v]) {
+            is_middle[v] = true;
             middles.push_back(v);
           }
     for (std::size_t v = 0; v < rank.held_vertices; ++v)
@@ -41,7 +41,7 @@ public:
     corners_ = in_order_.size();
     append(in_order_, middles);
     for (std::size_t n = 0; n < in_order_.size(); ++n)
-      numbers_[index(in_order_[n])] = static_cast<local_id>(n);
+      numbers_[in_order_[n]] = static_cast<local_id>(n);
   }
 
   std::size_t corners() const { return corners_; }
@@ -49,20 +49,18 @@ public:
   template <std::size_t N>
   std::array<local_id, N> operator()(std::array<local_id, N> vertices) const {
     for (local_id& v : vertices)
-      v = numbers_[index(v)];
+      v = numbers_[v];
     return vertices;
   }
   std::vector<local_id> corners_of(const std::vector<local_id>& vertices) const {
     std::vector<local_id> corners;
     for (const local_id v : vertices)
-      if (const local_id number = numbers_[index(v)]; index(number) < corners_)
+      if (const local_id number = numbers_[v]; static_cast<std::size_t>(number) < corners_)
         corners.push_back(number);
     return corners;
   }
 
 private:
-  static std::size_t index(local_id i) { return static_cast<std::size_t>(i); }
-
   std::vector<local_id> numbers_, in_order_;
   std::size_t corners_ = 0;
 };
@@ -159,7 +157,7 @@ inline std::vector<std::array<local_id, 5>> mfem_boundary(const rank_mesh<3>& ra
     if (const auto& side = rank.sides[s];
         !std::binary_search(of_lower.begin(), of_lower.end(), sorted_vertices(side))) {
       const auto [a, b, c] = nodes(side);
-      boundary.push_back({groups.of_face[static_cast<std::size_t>(rank.side_hosts[s])] + 1, 2, a, b, c});
+      boundary.push_back({groups.of_face[rank.side_hosts[s]] + 1, 2, a, b, c});
     }
   return boundary;
 }
@@ -227,7 +225,7 @@ DOVETAIL_INLINE void mfem_format::write(const rank_source<3>& source, const rank
                                     "VDim: 3\nOrdering: 1\n"
                                   : "3");
   for (const local_id v : nodes.in_order()) {
-    const vec3 p = rank.mesh.points[static_cast<std::size_t>(v)];
+    const vec3 p = rank.mesh.points[v];
     file.line(std::array{p.x, p.y, p.z});
   }
   file.text("\nmfem_serial_mesh_end");

@@ -71,9 +71,9 @@ void settle(const simplicial_mesh<D>& mesh, const edge_table<D>& edges, moving_m
     for (const std::size_t e : elements) {
       std::array<vec3, quadratic_nodes<D>> nodes;
       for (std::size_t k = 0; k <= D; ++k)
-        nodes[k] = mesh.points[static_cast<std::size_t>(mesh.elements[e][k])];
+        nodes[k] = mesh.points[mesh.elements[e][k]];
       for (std::size_t k = 0; k < edges_per_element<D>; ++k)
-        nodes[D + 1 + k] = middles.at(static_cast<std::size_t>(edges.of_element[e][k]));
+        nodes[D + 1 + k] = middles.at(edges.of_element[e][k]);
       if (least_jacobian(nodes) >= least)
         continue;
       for (const local_id k : edges.of_element[e])

@@ -34,7 +34,7 @@ DOVETAIL_INLINE std::vector<vec3> straight_middles(const std::vector<simplex<1>>
   std::vector<vec3> middles;
   middles.reserve(edges.size());
   for (const auto& [a, b] : edges)
-    middles.push_back(midpoint(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]));
+    middles.push_back(midpoint(points[a], points[b]));
   return middles;
 }
 
@@ -42,7 +42,7 @@ DOVETAIL_INLINE std::vector<host> faces_of_edges(const simplicial_mesh<2>& mesh,
   std::vector<host> hosts(edges.vertices.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const local_id k : edges.of_element[e])
-      hosts[static_cast<std::size_t>(k)] = {2, mesh.tags[e]};
+      hosts[k] = {2, mesh.tags[e]};
   return hosts;
 }
 

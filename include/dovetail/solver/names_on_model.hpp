@@ -47,7 +47,7 @@ public:
   double mean_longest_edge() const;
 
 private:
-  vec3 point(local_id v) const { return mesh_->points[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) const { return mesh_->points[v]; }
   std::array<vec3, 3> corners(std::size_t t) const {
     const auto& v = mesh_->elements[t];
     return {point(v[0]), point(v[1]), point(v[2])};

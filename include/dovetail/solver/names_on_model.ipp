@@ -67,9 +67,7 @@ public:
   number_votes(std::string entity, std::string number, std::size_t entities)
       : entity_(std::move(entity)), number_(std::move(number)), votes_(entities) {}
 
-  void add(local_id entity, local_id number, double size) {
-    votes_[static_cast<std::size_t>(entity)][number] += size;
-  }
+  void add(local_id entity, local_id number, double size) { votes_[entity][number] += size; }
   /// Per entity the number that most of it has, or `otherwise` where nothing is known. Throws `mesh_error`
   /// where a number cannot come back, since no entity has it as a whole.
   std::vector<local_id> winners(local_id otherwise) const {
@@ -118,9 +116,7 @@ void for_each_sample(const any_geometry& model, const surface_mesh& coarse, doub
                      const Visit& visit) {
   constexpr int most = 16;
   for (std::size_t t = 0; t < coarse.mesh.elements.size(); ++t) {
-    const auto at = [&](std::size_t k) {
-      return coarse.mesh.points[static_cast<std::size_t>(coarse.mesh.elements[t][k])];
-    };
+    const auto at = [&](std::size_t k) { return coarse.mesh.points[coarse.mesh.elements[t][k]]; };
     const local_id face = coarse.mesh.tags[t];
     const double longest = std::max({distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
     const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, double{most}));
@@ -156,7 +152,7 @@ DOVETAIL_INLINE void strays::look(const face_sample& at, bool is_stray, double a
 DOVETAIL_INLINE void strays::refuse_many(const geometry_topology& topology) const {
   if (stray_ <= 0.1 * all_)
     return;
-  const std::string& name = topology.faces[static_cast<std::size_t>(face_)].name;
+  const std::string& name = topology.faces[face_].name;
   throw mesh_error("the mesh is not one of the model: of the model's face " + std::to_string(face_) +
                    (name.empty() ? name : " '" + name + "'") + " the point (" + number_text(point_.x) + ", " +
                    number_text(point_.y) + ", " + number_text(point_.z) + ") is " +
@@ -175,11 +171,9 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
   detail::number_votes ids("face", "id", topology.faces.size());
   detail::number_votes materials("solid", "material", topology.solids.size());
   detail::strays strays;
-  const auto id_of = [&](local_id group) {
-    return group == no_id ? no_id : old.group_numbers[static_cast<std::size_t>(group)];
-  };
+  const auto id_of = [&](local_id group) { return group == no_id ? no_id : old.group_numbers[group]; };
   detail::for_each_sample(model, coarse, surface.mean_longest_edge(), [&](const detail::face_sample& at) {
-    const auto [behind, front] = topology.faces[static_cast<std::size_t>(at.face)].solids;
+    const auto [behind, front] = topology.faces[at.face].solids;
     if (behind == no_id && front == no_id)
       return;
     const bool both = behind != no_id && front != no_id;
@@ -192,10 +186,10 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
     const std::size_t t = found.triangle;
     ids.add(at.face, id_of(old.groups[t]), at.area);
     const auto& v = old.mesh.elements[t];
-    const auto corner = [&](std::size_t k) { return old.mesh.points[static_cast<std::size_t>(v[k])]; };
+    const auto corner = [&](std::size_t k) { return old.mesh.points[v[k]]; };
     const bool same_way = dot(cross(corner(1) - corner(0), corner(2) - corner(0)), at.normal) > 0;
     const auto material = [&](local_id solid) {
-      return solid == no_id ? no_id : boundary.material_of_solid[static_cast<std::size_t>(solid)];
+      return solid == no_id ? no_id : boundary.material_of_solid[solid];
     };
     if (behind != no_id)
       materials.add(behind, material(same_way ? old.solid_of[t] : old.front_of[t]), at.area);
@@ -244,9 +238,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
   edge_ids known(mesh.points, edges, edge_ids_given);
   detail::number_votes curves("curve", "id", topology.curves.size());
   for (const auto& edge : coarse.curve_edges) {
-    const auto end = [&](std::size_t k) {
-      return coarse.mesh.points[static_cast<std::size_t>(edge.vertices[k])];
-    };
+    const auto end = [&](std::size_t k) { return coarse.mesh.points[edge.vertices[k]]; };
     const double length = distance(end(0), end(1));
     const int parts = static_cast<int>(std::clamp(std::ceil(2 * length / spacing), 1.0, 64.0));
     for (int k = 0; k < parts; ++k) {

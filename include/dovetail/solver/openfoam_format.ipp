@@ -81,7 +81,7 @@ inline foam_patches collect_foam_patches(const distributed_mesh& mesh) {
     if (const local_id face = mesh.skeleton.side_hosts[s]; face == no_id)
       patches.has_default = true;
     else
-      on_boundary[static_cast<std::size_t>(patches.groups.of_face[static_cast<std::size_t>(face)])] = true;
+      on_boundary[patches.groups.of_face[face]] = true;
   }
   for (std::size_t g = 0; g < on_boundary.size(); ++g) {
     patches.of_group.push_back(patches.names.size());
@@ -119,19 +119,17 @@ inline foam_faces number_foam_faces(const rank_mesh<3>& rank, const foam_patches
   std::vector<bool> placed(table.size(), false);
   const auto add = [&](std::size_t patch, const simplex<2>& vertices) {
     const local_id side = find_side(table, vertices);
-    if (side == no_id || !table.is_boundary(side) || placed[static_cast<std::size_t>(side)])
+    if (side == no_id || !table.is_boundary(side) || placed[side])
       return;
-    placed[static_cast<std::size_t>(side)] = true;
-    outer.push_back({patch, outer.size(), vertices, table.elements[static_cast<std::size_t>(side)][0]});
+    placed[side] = true;
+    outer.push_back({patch, outer.size(), vertices, table.elements[side][0]});
   };
   for (std::size_t n = 0; n < rank.neighbours.size(); ++n)
     for (const auto& face : rank.neighbours[n].faces)
       add(patches.names.size() + n, face);
   for (std::size_t s = 0; s < rank.sides.size(); ++s)
     if (rank.side_elements[s][1] == no_id)
-      add(patches.of_group[static_cast<std::size_t>(
-              patches.groups.of_face[static_cast<std::size_t>(rank.side_hosts[s])])],
-          rank.sides[s]);
+      add(patches.of_group[patches.groups.of_face[rank.side_hosts[s]]], rank.sides[s]);
   for (std::size_t s = 0; s < table.size(); ++s)
     if (table.is_boundary(static_cast<local_id>(s)) && !placed[s])
       add(patches.names.size() - 1, table.vertices[s]);

@@ -55,8 +55,7 @@ void pvtu_format::write(const rank_source<D>& source, const rank_mesh<D>& rank,
   append_values(file, span_of(rank.vertex_ids));
   append_values(file, span_of(rank.vertex_numbers));
   append_values(file, span_of(rank.vertex_owners));
-  append_computed<std::uint8_t>(
-      file, points, [&](auto v) { return is_of_another(rank.vertex_owners[static_cast<std::size_t>(v)]); });
+  append_computed<std::uint8_t>(file, points, [&](auto v) { return is_of_another(rank.vertex_owners[v]); });
   file.value<std::uint64_t>(nodes * elements * sizeof(local_id));
   for (std::size_t e = 0; e < elements; ++e)
     for_each_node(rank, e, [&](local_id v) { file.value(v); });
@@ -68,9 +67,8 @@ void pvtu_format::write(const rank_source<D>& source, const rank_mesh<D>& rank,
   append_values(file, span_of(rank.element_numbers));
   append_values(file, span_of(rank.subdomains));
   append_values(file, span_of(rank.mesh.tags));
-  append_computed<std::uint8_t>(file, elements, [&](auto e) {
-    return is_of_another(rank.element_owners[static_cast<std::size_t>(e)]);
-  });
+  append_computed<std::uint8_t>(file, elements,
+                                [&](auto e) { return is_of_another(rank.element_owners[e]); });
   file.text("\n</AppendedData>\n</VTKFile>\n");
   file.commit();
 }

@@ -50,7 +50,7 @@ inline rank_skeleton skeleton_of_ranks(const rank_source<3>& source) {
     auto volumes = from.skeleton.subdomains[s];
     for (local_id& v : volumes)
       if (v != no_id) {
-        const auto& [rank, material] = of_piece[static_cast<std::size_t>(v)];
+        const auto& [rank, material] = of_piece[v];
         v = result.volume(rank, material);
       }
     if (volumes[0] == volumes[1] && from.skeleton.side_hosts[s] == no_id)
@@ -88,7 +88,7 @@ public:
     for (auto& dimension : document_.parts.entities.of_dimension)
       for (auto& entity : dimension) {
         for (local_id& s : entity.sharers)
-          s = ranks_.volumes[static_cast<std::size_t>(s)][0];
+          s = ranks_.volumes[s][0];
         sort_unique(entity.sharers);
       }
     list_inner_vertices();
@@ -117,11 +117,10 @@ public:
   }
 
 private:
-  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
   const msh_entities& parts() const { return document_.parts; }
-  local_id ghost_tag() const { return document_.ghost_tags[index(rank_.rank)]; }
+  local_id ghost_tag() const { return document_.ghost_tags[rank_.rank]; }
   std::size_t volume_of(std::size_t element) const {
-    return index(ranks_.volume(rank_.rank, rank_.mesh.tags[element]));
+    return static_cast<std::size_t>(ranks_.volume(rank_.rank, rank_.mesh.tags[element]));
   }
   bool has_rank(const skeleton_entity& entity) const {
     return std::binary_search(entity.sharers.begin(), entity.sharers.end(), rank_.rank);
@@ -133,15 +132,15 @@ private:
     for (std::size_t d = 0; d < 3; ++d)
       for (const auto& nodes : parts().points[d])
         for (const local_id node : nodes)
-          on_skeleton[index(node)] = true;
+          on_skeleton[node] = true;
     inner_.resize(ranks_.volumes.size());
     std::vector<bool> listed(rank_.held_vertices, false);
     for (std::size_t e = 0; e < rank_.owned_elements; ++e)
       for_each_node(rank_, e, [&](local_id v) {
-        const auto number = index(rank_.vertex_numbers[index(v)]);
-        if (listed[index(v)] || (number < on_skeleton.size() && on_skeleton[number]))
+        const std::size_t number = rank_.vertex_numbers[v];
+        if (listed[v] || (number < on_skeleton.size() && on_skeleton[number]))
           return;
-        listed[index(v)] = true;
+        listed[v] = true;
         inner_[volume_of(e)].push_back(v);
       });
   }
@@ -160,7 +159,7 @@ private:
     for_each_node_block([&](std::size_t, std::size_t, std::size_t count) { ++blocks, nodes += count; });
     const auto& ids = rank_.vertex_ids;
     const std::size_t of_ghosts = ids.size() - rank_.held_vertices;
-    const auto place = [&](local_id v) { return rank_.mesh.points[index(v)]; };
+    const auto place = [&](local_id v) { return rank_.mesh.points[v]; };
     out.begin("Nodes");
     out.count(blocks + (of_ghosts > 0 ? 1 : 0));
     out.count(nodes + of_ghosts);
@@ -187,7 +186,7 @@ private:
   static void write_node_list(msh_encoder& out, const std::vector<local_id>& members,
                               const std::vector<global_id>& ids, const Place& place) {
     for (const local_id v : members) {
-      out.count(msh_tag(ids[index(v)]));
+      out.count(msh_tag(ids[v]));
       out.line();
     }
     for (const local_id v : members) {
@@ -202,7 +201,7 @@ private:
   void write_simplex(msh_encoder& out, std::uint64_t tag, const std::array<local_id, N>& points) const {
     std::vector<global_id> nodes = nodes_of(document_, points);
     for (global_id& node : nodes)
-      node = numbers_.point_ids[index(node)];
+      node = numbers_.point_ids[node];
     write_element(out, tag, nodes);
   }
   /// Elements of the skeleton in one entity: `members(i)` of them, numbered over all ranks.
@@ -227,7 +226,7 @@ private:
     std::uint64_t least = total > 0 ? msh_tag(rank_.element_ids.front()) : next;
     std::uint64_t last = total > 0 ? least + total - 1 : 0;
     for (const local_id e : ghosts_) {
-      const std::uint64_t tag = msh_tag(rank_.element_ids[index(e)]);
+      const std::uint64_t tag = msh_tag(rank_.element_ids[e]);
       ++total, least = std::min(least, tag), last = std::max(last, tag);
     }
     for (std::size_t d = 0; d < 3; ++d)
@@ -250,17 +249,17 @@ private:
     const auto& skeleton = parts().entities;
     for (std::size_t i = 0; i < parts().tags[0].size(); ++i)
       tag = write_shared_block(out, 0, i, 1, tag, [&](std::size_t, std::uint64_t t) {
-        write_element(out, t, std::array{numbers_.point_ids[index(parts().points[0][i].front())]});
+        write_element(out, t, std::array{numbers_.point_ids[parts().points[0][i].front()]});
       });
     for (std::size_t i = 0; i < parts().tags[1].size(); ++i)
       tag = write_shared_block(out, 1, i, shared_count(1, i), tag, [&](std::size_t k, std::uint64_t t) {
         const local_id e = parts().simplices[1][i][k];
-        write_simplex(out, t, skeleton.edges[index(e)].vertices);
+        write_simplex(out, t, skeleton.edges[e].vertices);
       });
     for (std::size_t i = 0; i < parts().tags[2].size(); ++i)
       tag = write_shared_block(out, 2, i, shared_count(2, i), tag, [&](std::size_t k, std::uint64_t t) {
         const local_id s = parts().simplices[2][i][k];
-        write_simplex(out, t, skeleton.triangles[index(s)]);
+        write_simplex(out, t, skeleton.triangles[s]);
       });
     for (std::size_t volume = 0; volume < elements_.size(); ++volume)
       write_tetrahedra(out, parts().tags[3][volume], elements_[volume]);
@@ -275,8 +274,9 @@ private:
     std::vector<global_id> ids;
     for (const local_id e : elements) {
       ids.clear();
-      for_each_node(rank_, index(e), [&](local_id v) { ids.push_back(rank_.vertex_ids[index(v)]); });
-      write_element(out, msh_tag(rank_.element_ids[index(e)]), ids);
+      for_each_node(rank_, static_cast<std::size_t>(e),
+                    [&](local_id v) { ids.push_back(rank_.vertex_ids[v]); });
+      write_element(out, msh_tag(rank_.element_ids[e]), ids);
     }
   }
   /// Tag, partition of the owner, and the one partition that has it as a ghost in this file.
@@ -285,8 +285,8 @@ private:
     out.count(ghosts_.size());
     out.line();
     for (const local_id e : ghosts_) {
-      out.count(msh_tag(rank_.element_ids[index(e)]));
-      out.integer(partition_tag(rank_.element_owners[index(e)]));
+      out.count(msh_tag(rank_.element_ids[e]));
+      out.integer(partition_tag(rank_.element_owners[e]));
       out.count(1);
       out.integer(partition_tag(rank_.rank));
       out.line();

@@ -53,7 +53,7 @@ compressed_rows<local_id> ranks_at_points(const distributed_simplicial_mesh<D>& 
       for_each_node(mesh, skeleton.sides[s], [&](local_id v) {
         for (const local_id p : skeleton.subdomains[s])
           if (p != no_id)
-            put(v, rank_of_piece[static_cast<std::size_t>(p)]);
+            put(v, rank_of_piece[p]);
       });
   });
   compressed_rows<local_id> ranks;
@@ -104,7 +104,7 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
   const auto is_middle = [&](std::size_t v) { return std::size_t{v >= mesh.skeleton.points.size()}; };
   for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      ++owned[static_cast<std::size_t>(owner)][is_middle(v)];
+      ++owned[owner][is_middle(v)];
   numbers.first_vertex = {0};
   numbers.first_element = {0};
   numbers.first_inner_of_piece.resize(mesh.counts.size());
@@ -135,7 +135,7 @@ rank_numbering number_by_ranks(const distributed_simplicial_mesh<D>& mesh,
   numbers.point_ids.assign(nodes, -1);
   for (std::size_t v = 0; v < nodes; ++v)
     if (const local_id owner = numbers.owner_of_point(static_cast<local_id>(v)); owner != no_id)
-      numbers.point_ids[v] = next_id[static_cast<std::size_t>(owner)][is_middle(v)]++;
+      numbers.point_ids[v] = next_id[owner][is_middle(v)]++;
   return numbers;
 }
 

@@ -104,7 +104,7 @@ private:
       throw mesh_error("an edge of the skeleton that lies on a CAD curve belongs to none of its sides");
     return edge;
   }
-  host& host_of(local_id edge) { return hosts_[static_cast<std::size_t>(edge)]; }
+  host& host_of(local_id edge) { return hosts_[edge]; }
 
   void find_hosts() {
     const auto& skeleton = mesh_.skeleton;
@@ -157,9 +157,9 @@ private:
       edge_middles middle(model_);
       found_middles found;
       for (std::size_t i = t * batch; i < std::min((t + 1) * batch, order.size()); ++i) {
-        const auto& [a, b] = nodes_->edges[static_cast<std::size_t>(order[i])];
-        const auto point = [&](local_id v) { return mesh_.skeleton.points[static_cast<std::size_t>(v)]; };
-        found.find(middle, point(a), point(b), hosts_[static_cast<std::size_t>(order[i])]);
+        const auto& [a, b] = nodes_->edges[order[i]];
+        const auto point = [&](local_id v) { return mesh_.skeleton.points[v]; };
+        found.find(middle, point(a), point(b), hosts_[order[i]]);
       }
       return std::pair(found.not_found, std::move(found.points));
     };
@@ -169,7 +169,7 @@ private:
       not_found_ += not_found;
       std::size_t i = t * batch;
       for (const vec3 p : points)
-        middles_.curved[static_cast<std::size_t>(order[i++])] = p;
+        middles_.curved[order[i++]] = p;
     }
   }
 
@@ -184,8 +184,8 @@ private:
           [&](std::size_t piece, const std::pair<checked_piece, std::vector<moved_edge>>& checked) {
             of_piece_[piece] = checked.first;
             for (const auto& [edge, moved] : checked.second) {
-              auto& known = middles_.moved[static_cast<std::size_t>(edge)];
-              changed[static_cast<std::size_t>(edge)] = true;
+              auto& known = middles_.moved[edge];
+              changed[edge] = true;
               known = std::max(known, moved);
             }
           });
@@ -204,7 +204,7 @@ private:
       return pieces;
     for (std::size_t s = 0; s < skeleton.sides.size(); ++s)
       for (const auto& local : numbering::edges<D - 1>)
-        if (changed[static_cast<std::size_t>(edge_of(vertices_of_edge(skeleton.sides[s], local)))])
+        if (changed[edge_of(vertices_of_edge(skeleton.sides[s], local))])
           for (const local_id p : skeleton.subdomains[s])
             if (p != no_id)
               pieces.push_back(static_cast<std::size_t>(p));
@@ -219,8 +219,8 @@ private:
     moving_middles middles = middles_of(model_, piece, edges, inner);
     for (std::size_t k = 0; k < edges.in_skeleton.size(); ++k)
       if (const local_id shared = edges.in_skeleton[k]; shared != no_id) {
-        middles.curved[k] = middles_.curved[static_cast<std::size_t>(shared)];
-        middles.moved[k] = middles_.moved[static_cast<std::size_t>(shared)];
+        middles.curved[k] = middles_.curved[shared];
+        middles.moved[k] = middles_.moved[shared];
       }
     settle(piece.mesh, edges.edges, middles, options_.least_jacobian, [](std::size_t) { return true; });
     checked_piece result{.not_found = inner.not_found};
@@ -230,7 +230,7 @@ private:
         ++result.inner;
         result.moved += middles.moved[k] > 0 ? 1 : 0;
         result.straightened += middles.moved[k] == all_the_way ? 1 : 0;
-      } else if (middles.moved[k] > middles_.moved[static_cast<std::size_t>(shared)])
+      } else if (middles.moved[k] > middles_.moved[shared])
         moved.push_back({shared, middles.moved[k]});
     return {result, std::move(moved)};
   }
@@ -248,8 +248,7 @@ private:
       const auto faces = faces_of_edges(piece.mesh, edges.edges);
       for (std::size_t k = 0; k < vertices.size(); ++k)
         if (edges.in_skeleton[k] == no_id) {
-          inner.find(middle, piece.mesh.points[static_cast<std::size_t>(vertices[k][0])],
-                     piece.mesh.points[static_cast<std::size_t>(vertices[k][1])], faces[k]);
+          inner.find(middle, piece.mesh.points[vertices[k][0]], piece.mesh.points[vertices[k][1]], faces[k]);
           middles.curved[k] = inner.points.back();
         }
     }
@@ -265,7 +264,7 @@ private:
     const auto is_inner = [&](std::size_t k) { return edges.in_skeleton[k] == no_id; };
     for (std::size_t k = 0; k < edges.in_skeleton.size(); ++k)
       if (!is_inner(k))
-        middles.curved[k] = nodes.points[static_cast<std::size_t>(edges.in_skeleton[k])];
+        middles.curved[k] = nodes.points[edges.in_skeleton[k]];
     settle(piece.mesh, edges.edges, middles, least, is_inner);
     std::vector<vec3> points;
     for (std::size_t k = 0; k < edges.in_skeleton.size(); ++k)
@@ -328,7 +327,7 @@ std::vector<host> hosts_of_edges(const gathered_mesh<D>& mesh, const edge_table<
   if constexpr (D == 2)
     hosts = faces_of_edges(mesh.mesh, edges);
   const auto at = [&](const simplex<1>& vertices) -> host& {
-    return hosts[static_cast<std::size_t>(find_edge(edges.vertices, vertices))];
+    return hosts[find_edge(edges.vertices, vertices)];
   };
   for (std::size_t s = 0; s < mesh.sides.size(); ++s)
     for (const auto& local : numbering::edges<D - 1>) {
@@ -367,7 +366,7 @@ second_order_mesh<D> second_order(const gathered_mesh<D>& mesh, const any_geomet
   detail::found_middles found;
   for (std::size_t k = 0; k < hosts.size(); ++k) {
     const auto& [a, b] = edges.vertices[k];
-    found.find(middle, corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)], hosts[k]);
+    found.find(middle, corners[a], corners[b], hosts[k]);
   }
   middles.curved = std::move(found.points);
   detail::settle(mesh.mesh, edges, middles, options.least_jacobian, [](std::size_t) { return true; });

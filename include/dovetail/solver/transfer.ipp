@@ -47,7 +47,7 @@ public:
         if (v < 0 || v >= points)
           throw mesh_error("fields cannot be transferred: element " + std::to_string(e) +
                            " names a point that does not exist");
-        box.include(mesh.points[static_cast<std::size_t>(v)]);
+        box.include(mesh.points[v]);
       }
       boxes.push_back(box);
     }
@@ -60,7 +60,7 @@ public:
   corners corners_of(local_id e) const {
     corners at;
     for (std::size_t i = 0; i < at.size(); ++i)
-      at[i] = mesh_.points[static_cast<std::size_t>(mesh_.elements[static_cast<std::size_t>(e)][i])];
+      at[i] = mesh_.points[mesh_.elements[e][i]];
     return at;
   }
 
@@ -229,9 +229,7 @@ std::vector<element_share> element_shares(const element_places<D>& old_mesh, con
     const double whole = measure_of(corners);
     if (!(whole > 0))
       throw mesh_error("fields cannot be transferred: element " + std::to_string(n) + " is flat");
-    const auto is_of_tag = [&](local_id o) {
-      return !by_tag || old_tags[static_cast<std::size_t>(o)] == mesh.tags[n];
-    };
+    const auto is_of_tag = [&](local_id o) { return !by_tag || old_tags[o] == mesh.tags[n]; };
     box3 box;
     for (const vec3 p : corners)
       box.include(p);
@@ -286,7 +284,7 @@ std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::s
     if (at.element == no_id)
       throw mesh_error("fields cannot be transferred: point " + std::to_string(p) + " is at " +
                        place_text(to[p]) + "; give finite coordinates");
-    const auto& element = from.elements[static_cast<std::size_t>(at.element)];
+    const auto& element = from.elements[at.element];
     for (std::size_t i = 0; i < element.size(); ++i)
       for (std::size_t c = 0; c < count; ++c)
         result[p * count + c] += at.weights[i] * values[static_cast<std::size_t>(element[i]) * count + c];
@@ -303,15 +301,14 @@ std::vector<double> transferred_to_elements(const simplicial_mesh<D>& from, std:
 
   std::vector<double> given(from.elements.size(), 0); // to how much of the new mesh an old element gives
   for (const auto& share : shares)
-    given[static_cast<std::size_t>(share.old_element)] += share.measure;
+    given[share.old_element] += share.measure;
   for (std::size_t o = 0; o < given.size(); ++o) { // what is outside of the new mesh
     if (given[o] > 0)
       continue;
     const auto id = static_cast<local_id>(o);
     const bool by_tag = !from.tags.empty() && !to.tags.empty();
-    auto nearest = new_mesh.nearest(old_mesh.centre_of(id), [&](local_id n) {
-      return !by_tag || to.tags[static_cast<std::size_t>(n)] == from.tags[o];
-    });
+    auto nearest = new_mesh.nearest(old_mesh.centre_of(id),
+                                    [&](local_id n) { return !by_tag || to.tags[n] == from.tags[o]; });
     if (nearest.element == no_id)
       nearest = new_mesh.nearest(old_mesh.centre_of(id), [](local_id) { return true; });
     shares.push_back({id, nearest.element, 1});

@@ -41,7 +41,7 @@ public:
 private:
   enum class state : std::uint8_t { unknown, inside, outside };
 
-  state& state_of(local_id e) { return states_[at(e)]; }
+  state& state_of(local_id e) { return states_[e]; }
 
   static bool in_conflict(const triangulation<D>& t, const box_predicates<D>& predicates, local_id e,
                           point_of<D> p) {
@@ -85,7 +85,7 @@ private:
         rim_side side;
         side.outer = outer;
         for (std::size_t k = 0; k < side_corners; ++k)
-          side.vertices[k] = cell.vertices[static_cast<std::size_t>(numbering::sides<D>[i][k])];
+          side.vertices[k] = cell.vertices[numbering::sides<D>[i][k]];
         rim_.push_back(side);
       }
     }
@@ -102,7 +102,7 @@ private:
     for (rim_side& side : rim_)
       for (std::size_t k = 0; k < side_corners; ++k) {
         const local_id v = side.vertices[k];
-        std::uint32_t& rank = rank_of_[at(v + 1)]; // `infinite` is -1
+        std::uint32_t& rank = rank_of_[v + 1]; // `infinite` is -1
         if (rank >= rim_vertices_.size() || rim_vertices_[rank] != v) {
           rank = static_cast<std::uint32_t>(rim_vertices_.size());
           rim_vertices_.push_back(v);

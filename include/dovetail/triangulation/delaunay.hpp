@@ -48,7 +48,7 @@ void rename_vertices(triangulation<D>& t, const std::vector<local_id>& names) {
   for (auto& cell : t.cells)
     for (local_id& v : cell.vertices)
       if (v >= 0)
-        v = names[at(v)];
+        v = names[v];
 }
 
 } // namespace detail
@@ -75,7 +75,7 @@ point_triangulation_result<D> triangulate_points(std::span<const point_of<D>> po
   triangulation<D> t;
   t.points.reserve(points.size());
   for (const local_id i : order)
-    t.points.push_back(points[detail::at(i)]);
+    t.points.push_back(points[i]);
   t.cells.reserve(detail::expected_elements<D>(points.size()));
   detail::begin_with_simplex(t, predicates);
   std::vector<local_id> names = order;
@@ -92,17 +92,17 @@ point_triangulation_result<D> triangulate_points(std::span<const point_of<D>> po
       last = cavity.insert(t, predicates, v, e);
     } else {
       doubles.push_back({v, *same});
-      names[detail::at(*same)] = std::min(names[detail::at(*same)], order[detail::at(v)]);
+      names[*same] = std::min(names[*same], order[v]);
     }
   }
   for (const auto& [v, same] : doubles)
-    names[detail::at(v)] = names[detail::at(same)];
+    names[v] = names[same];
   detail::rename_vertices(t, names);
 
   point_triangulation_result<D> result{std::move(t), std::vector<local_id>(points.size())};
   result.triangulation.points.assign(points.begin(), points.end());
   for (std::size_t k = 0; k < order.size(); ++k)
-    result.same_as[detail::at(order[k])] = names[k];
+    result.same_as[order[k]] = names[k];
   return result;
 }
 
@@ -114,15 +114,15 @@ delaunay_elements<D> elements_of(const triangulation<D>& t) {
   local_id count = 0;
   for (local_id e = 0; e < static_cast<local_id>(t.cells.size()); ++e)
     if (t.is_alive(e) && !t.is_ghost(e))
-      numbers[detail::at(e)] = count++;
-  result.elements.reserve(detail::at(count));
-  result.neighbours.reserve(detail::at(count));
+      numbers[e] = count++;
+  result.elements.reserve(count);
+  result.neighbours.reserve(count);
   for (std::size_t e = 0; e < t.cells.size(); ++e)
     if (numbers[e] != no_id) {
       result.elements.push_back(t.cells[e].vertices);
       auto& neighbours = result.neighbours.emplace_back();
       for (std::size_t i = 0; i < neighbours.size(); ++i)
-        neighbours[i] = numbers[detail::at(triangulation<D>::element_of(t.cells[e].across[i]))];
+        neighbours[i] = numbers[triangulation<D>::element_of(t.cells[e].across[i])];
     }
   return result;
 }

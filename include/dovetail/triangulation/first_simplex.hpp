@@ -37,7 +37,7 @@ void require_finite(std::span<const point_of<D>> points) {
 /// Throws `geometry_error` when all are on one line (D = 2) or in one plane (D = 3).
 template <int D>
 void spanning_points_first(std::span<const point_of<D>> points, std::vector<local_id>& order) {
-  const auto at_place = [&](std::size_t k) { return points[at(order[k])]; };
+  const auto at_place = [&](std::size_t k) { return points[order[k]]; };
   const auto independent = [&](std::size_t found, std::size_t k) {
     switch (found) {
     case 0:
@@ -85,7 +85,7 @@ void begin_with_simplex(triangulation<D>& t, const box_predicates<D>& predicates
   // Across the side opposite v lies, from each ghost, the ghost that lacks v; from the simplex as well.
   const auto place_of_vertex = [&](local_id e, local_id v) {
     local_id i = 0;
-    while (t[e].vertices[at(i)] != v)
+    while (t[e].vertices[i] != v)
       ++i;
     return i;
   };

@@ -56,10 +56,10 @@ public:
   template <class Visit, class Crosses>
   void spread_from(local_id v, const Visit& visit, const Crosses& crosses) {
     front_.clear();
-    if (element_at_[at(v)] == no_id)
+    if (element_at_[v] == no_id)
       return;
     ++stamp_;
-    push(element_at_[at(v)]);
+    push(element_at_[v]);
     for (std::size_t next = 0; next < front_.size(); ++next) {
       const local_id e = front_[next];
       ++work_;
@@ -76,7 +76,7 @@ public:
   }
 
   /// Of a vertex that may have been removed.
-  bool is_in_element(local_id v) const { return element_at_[at(v)] != no_id; }
+  bool is_in_element(local_id v) const { return element_at_[v] != no_id; }
   /// The elements at a vertex; none when it is in no element.
   void find_star(local_id v, std::vector<local_id>& elements) {
     elements.clear();
@@ -92,8 +92,7 @@ public:
   simplex<2> side_vertices(local_id e, std::size_t i) const {
     const auto& v = mesh_[e].vertices;
     const auto& local = numbering::sides<3>[i];
-    return {v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
-            v[static_cast<std::size_t>(local[2])]};
+    return {v[local[0]], v[local[1]], v[local[2]]};
   }
   /// The sides of a region of elements, oriented outwards of it, and the elements beyond.
   void find_rim(std::span<const local_id> elements, std::vector<simplex<2>>& sides,
@@ -104,11 +103,11 @@ public:
       beyond->clear();
     ++stamp_;
     for (const local_id e : elements)
-      seen_[at(e)] = stamp_;
+      seen_[e] = stamp_;
     for (const local_id e : elements)
       for (std::size_t i = 0; i < 4; ++i) {
         const local_id other = triangulation<3>::element_of(mesh_[e].across[i]);
-        if (seen_[at(other)] == stamp_)
+        if (seen_[other] == stamp_)
           continue;
         sides.push_back(side_vertices(e, i));
         if (beyond != nullptr)
@@ -170,15 +169,15 @@ public:
     faces_.clear();
     ++stamp_;
     for (const local_id e : old)
-      seen_[at(e)] = stamp_;
+      seen_[e] = stamp_;
     for (const local_id e : old)
       for (const local_id side : mesh_[e].across)
-        if (seen_[at(triangulation<3>::element_of(side))] != stamp_)
+        if (seen_[triangulation<3>::element_of(side)] != stamp_)
           add_face(side);
     for (const local_id e : old) {
       for (const local_id v : mesh_[e].vertices)
         if (v >= 0)
-          element_at_[at(v)] = no_id; // unless one of the fresh has it
+          element_at_[v] = no_id; // unless one of the fresh has it
       mesh_.remove(e);
     }
     for (const simplex<3>& vertices : fresh) {
@@ -225,12 +224,12 @@ private:
   void remember(local_id e) {
     for (const local_id v : mesh_[e].vertices)
       if (v >= 0)
-        element_at_[at(v)] = e;
+        element_at_[v] = e;
   }
   void push(local_id e) {
-    if (seen_[at(e)] == stamp_)
+    if (seen_[e] == stamp_)
       return;
-    seen_[at(e)] = stamp_;
+    seen_[e] = stamp_;
     front_.push_back(e);
   }
   std::size_t place_of_vertex(local_id e, local_id v) const {
@@ -252,7 +251,7 @@ private:
     return inversions % 2 == 0 ? v[k] : v[l];
   }
   void add_face(local_id side) {
-    simplex<2> key = side_vertices(triangulation<3>::element_of(side), at(triangulation<3>::place_of(side)));
+    simplex<2> key = side_vertices(triangulation<3>::element_of(side), triangulation<3>::place_of(side));
     sort_all(key);
     faces_.push_back({key, side});
   }

@@ -23,10 +23,6 @@ using corner_points = std::array<point_of<D>, static_cast<std::size_t>(D) + 1>;
 
 namespace detail {
 
-constexpr std::size_t at(local_id i) {
-  return static_cast<std::size_t>(i);
-}
-
 constexpr std::array<double, 2> coordinates(vec2 p) {
   return {p.x, p.y};
 }

@@ -42,12 +42,10 @@ struct triangulation {
   /// Which side of its element it is.
   static constexpr local_id place_of(local_id side) { return side % corners; }
 
-  const cell& operator[](local_id e) const { return cells[detail::at(e)]; }
-  cell& operator[](local_id e) { return cells[detail::at(e)]; }
-  const point_of<D>& point(local_id v) const { return points[detail::at(v)]; } ///< where a vertex is
-  local_id across(local_id side) const {
-    return (*this)[element_of(side)].across[detail::at(place_of(side))];
-  }
+  const cell& operator[](local_id e) const { return cells[e]; }
+  cell& operator[](local_id e) { return cells[e]; }
+  const point_of<D>& point(local_id v) const { return points[v]; } ///< where a vertex is
+  local_id across(local_id side) const { return (*this)[element_of(side)].across[place_of(side)]; }
 
   bool is_alive(local_id e) const { return (*this)[e].vertices[0] != dead_mark; }
   /// Of a living element.
@@ -74,8 +72,8 @@ struct triangulation {
 
   /// Makes two sides each other's neighbour.
   void join(local_id side, local_id other) {
-    (*this)[element_of(side)].across[detail::at(place_of(side))] = other;
-    (*this)[element_of(other)].across[detail::at(place_of(other))] = side;
+    (*this)[element_of(side)].across[place_of(side)] = other;
+    (*this)[element_of(other)].across[place_of(other)] = side;
   }
   /// A place for a new element, whose content is undefined.
   local_id add() {

@@ -33,7 +33,7 @@ public:
       if (!is_interface(mesh.skeleton, s))
         continue;
       const auto [behind, front] = mesh.skeleton.subdomains[s];
-      const local_id material = mesh.counts[static_cast<std::size_t>(behind)].material;
+      const local_id material = mesh.counts[behind].material;
       for (const local_id v : mesh.skeleton.sides[s])
         least_.push_back({v, material, std::min(behind, front)});
     }
@@ -66,10 +66,10 @@ inline std::vector<local_id> least_within_layers(const simplicial_mesh<3>& mesh,
   for (int layer = 0; layer < layers; ++layer) {
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       for (const local_id v : mesh.elements[e])
-        of_element[e] = std::min(of_element[e], of_point[static_cast<std::size_t>(v)]);
+        of_element[e] = std::min(of_element[e], of_point[v]);
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       for (const local_id v : mesh.elements[e]) {
-        local_id& at = of_point[static_cast<std::size_t>(v)];
+        local_id& at = of_point[v];
         at = std::min(at, of_element[e]);
       }
   }

@@ -24,18 +24,18 @@ inline std::vector<local_id> nearest_labels(const side_table<3>& table, std::spa
                                             std::span<const local_id> label_behind, local_id otherwise) {
   std::vector<local_id> labels(table.of_element.size(), no_piece), reached;
   for (std::size_t i = 0; i < at_sides.size(); ++i) {
-    local_id& label = labels[static_cast<std::size_t>(at_sides[i])];
+    local_id& label = labels[at_sides[i]];
     if (label_behind[i] != no_piece && label == no_piece)
       reached.push_back(at_sides[i]);
     label = std::min(label, label_behind[i]);
   }
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const local_id e = reached[k];
-    for (const local_id side : table.of_element[static_cast<std::size_t>(e)]) {
+    for (const local_id side : table.of_element[e]) {
       const local_id next = table.across(side, e);
-      if (next == no_id || labels[static_cast<std::size_t>(next)] != no_piece)
+      if (next == no_id || labels[next] != no_piece)
         continue;
-      labels[static_cast<std::size_t>(next)] = labels[static_cast<std::size_t>(e)];
+      labels[next] = labels[e];
       reached.push_back(next);
     }
   }
@@ -81,9 +81,7 @@ DOVETAIL_INLINE improved_pieces ito_improvement::operator()(const distributed_me
   collected.mesh.reset();
 
   const stopwatch writing;
-  const auto label_of = [&](local_id piece) {
-    return piece == no_id ? no_piece : collected.labels[static_cast<std::size_t>(piece)];
-  };
+  const auto label_of = [&](local_id piece) { return piece == no_id ? no_piece : collected.labels[piece]; };
   const labelled_mesh back = divide_by_labels(
       second.mesh, collected.labels,
       [&](const mesh_piece& piece, const side_table<3>& table, std::span<const local_id> listed,

@@ -105,7 +105,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
           counts.push_back({l, elements});
         std::vector<local_id> labels_at_sides;
         for (const local_id e : at_sides)
-          labels_at_sides.push_back(labels[static_cast<std::size_t>(e)]);
+          labels_at_sides.push_back(labels[e]);
         io::mesh_hasher hash;
         io::hash_elements_by_place(hash, piece);
         key_maker make;
@@ -131,7 +131,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
   moves.sizes.clear();
   for (const auto& [l, from] : elements_of) {
     result.labels.push_back(l);
-    moves.materials.push_back(mesh.counts[static_cast<std::size_t>(from.begin()->first)].material);
+    moves.materials.push_back(mesh.counts[from.begin()->first].material);
     moves.sources.emplace_back();
     moves.sizes.push_back(0);
     for (const auto& [p, count] : from) {
@@ -149,7 +149,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
     moves.beside.push_back({numbered({pair[0]})[0], pair[1] == no_id ? no_id : numbered({pair[1]})[0]});
   moves.penalty_of_side.assign(mesh.skeleton.sides.size(), 1);
   moves.of_piece = [&](local_id p) -> moves_of_piece {
-    return {numbered(store->value<std::vector<local_id>>(keys[static_cast<std::size_t>(p)]))};
+    return {numbered(store->value<std::vector<local_id>>(keys[p]))};
   };
   key_maker all;
   for (const content_key key : keys)

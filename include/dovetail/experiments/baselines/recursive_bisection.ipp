@@ -48,14 +48,14 @@ public:
     for (std::size_t t = 0; t < fine_.sides.size(); ++t)
       for (const local_id s : fine_.subdomains[t])
         if (s != no_id)
-          sides_[index(s)].push_back(static_cast<local_id>(t));
+          sides_[s].push_back(static_cast<local_id>(t));
     while (given_.most_subdomains == 0 || sides_.size() < given_.most_subdomains) {
       given_.on_progress("recursive bisection", sides_.size(), given_.most_subdomains);
       const local_id s = largest();
       if (s == no_id)
         break;
       if (!divide(s)) {
-        stays_whole_[index(s)] = 1;
+        stays_whole_[s] = 1;
         ++counts_.whole;
       }
     }
@@ -69,8 +69,6 @@ public:
   }
 
 private:
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
-
   /// Of the subdomains that have too many faces and may be divided, the one with the most; or no_id.
   local_id largest() const {
     local_id found = no_id;
@@ -87,14 +85,14 @@ private:
   subdomain_sides<3> boundary_of(local_id s) const {
     subdomain_sides<3> made;
     auto& numbers = made.skeleton_points;
-    for (const local_id t : sides_[index(s)])
-      append(numbers, fine_.sides[index(t)]);
+    for (const local_id t : sides_[s])
+      append(numbers, fine_.sides[t]);
     sort_unique(numbers);
     for (const local_id v : numbers)
-      made.boundary.points.push_back(fine_.points[index(v)]);
-    for (const local_id t : sides_[index(s)]) {
-      simplex<2> side = fine_.sides[index(t)];
-      if (fine_.subdomains[index(t)][0] != s)
+      made.boundary.points.push_back(fine_.points[v]);
+    for (const local_id t : sides_[s]) {
+      simplex<2> side = fine_.sides[t];
+      if (fine_.subdomains[t][0] != s)
         std::swap(side[1], side[2]);
       for (local_id& v : side)
         v = static_cast<local_id>(std::lower_bound(numbers.begin(), numbers.end(), v) - numbers.begin());
@@ -112,13 +110,13 @@ private:
     std::array<std::vector<double>, 3> places;
     for (std::size_t t = 0; t < surface.elements.size(); ++t)
       for (int axis = 0; axis < 3; ++axis)
-        places[static_cast<std::size_t>(axis)].push_back(centre_of_triangle(surface, t)[axis]);
+        places[axis].push_back(centre_of_triangle(surface, t)[axis]);
     for (auto& along : places)
       sort_all(along);
     std::vector<cut_plane> planes;
     for (const double share : {0.5, 0.42, 0.58, 0.34, 0.66})
       for (const int axis : axes) {
-        const auto& along = places[static_cast<std::size_t>(axis)];
+        const auto& along = places[axis];
         cut_plane plane;
         plane.normal[axis] = 1;
         plane.offset = along[static_cast<std::size_t>(share * static_cast<double>(along.size()))];
@@ -194,12 +192,12 @@ private:
     const auto first_own = static_cast<local_id>(fine_.points.size());
     const auto known = static_cast<local_id>(whole.skeleton_points.size());
     append(fine_.points.own(), made.spanning.inner_points);
-    fine_.point_hosts.own().resize(fine_.points.size(), {3, materials_[index(s)]});
+    fine_.point_hosts.own().resize(fine_.points.size(), {3, materials_[s]});
     for (simplex<2> triangle : made.spanning.triangles) {
       for (local_id& v : triangle)
-        v = v < known ? whole.skeleton_points[index(v)] : first_own + v - known;
+        v = v < known ? whole.skeleton_points[v] : first_own + v - known;
       for (const local_id side_of : {s, above})
-        sides_[index(side_of)].push_back(static_cast<local_id>(fine_.sides.size()));
+        sides_[side_of].push_back(static_cast<local_id>(fine_.sides.size()));
       fine_.sides.own().push_back(triangle);
       fine_.subdomains.own().push_back({s, above});
       fine_.side_hosts.own().push_back(no_id);
@@ -239,18 +237,18 @@ private:
   /// Gives the k-th side of a subdomain to `new_subdomain(k)`, which may not be there yet.
   template <class NewSubdomain>
   void move_sides(local_id s, const NewSubdomain& new_subdomain) {
-    const auto listed = std::move(sides_[index(s)]);
-    sides_[index(s)].clear();
+    const auto listed = std::move(sides_[s]);
+    sides_[s].clear();
     for (std::size_t k = 0; k < listed.size(); ++k) {
       const local_id to = new_subdomain(k);
-      if (index(to) >= sides_.size()) {
-        sides_.resize(index(to) + 1);
-        stays_whole_.resize(index(to) + 1, 0);
-        materials_.resize(index(to) + 1, materials_[index(s)]);
+      if (static_cast<std::size_t>(to) >= sides_.size()) {
+        sides_.resize(to + 1);
+        stays_whole_.resize(to + 1, 0);
+        materials_.resize(to + 1, materials_[s]);
       }
-      auto& pair = fine_.subdomains.own()[index(listed[k])];
+      auto& pair = fine_.subdomains.own()[listed[k]];
       (pair[0] == s ? pair[0] : pair[1]) = to;
-      sides_[index(to)].push_back(listed[k]);
+      sides_[to].push_back(listed[k]);
     }
   }
 

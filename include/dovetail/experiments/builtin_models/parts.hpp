@@ -43,8 +43,8 @@ inline TopoDS_Edge spline_edge(const std::vector<vec3>& points, const std::vecto
   const Handle(TColgp_HArray1OfPnt) at = new TColgp_HArray1OfPnt(1, count);
   const Handle(TColStd_HArray1OfReal) t = new TColStd_HArray1OfReal(1, count);
   for (int i = 0; i < count; ++i) {
-    at->SetValue(i + 1, occt::to_pnt(points[static_cast<std::size_t>(i)]));
-    t->SetValue(i + 1, parameters[static_cast<std::size_t>(i)]);
+    at->SetValue(i + 1, occt::to_pnt(points[i]));
+    t->SetValue(i + 1, parameters[i]);
   }
   GeomAPI_Interpolate interpolation(at, t, false, 1e-9);
   const auto vec = [](vec3 v) { return gp_Vec(v.x, v.y, v.z); };

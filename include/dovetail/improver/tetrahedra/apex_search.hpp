@@ -57,16 +57,15 @@ public:
 
 private:
   using values = typename batch::values;
-  static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   void linearise(const batch& star, triple<float> p) {
     constexpr float h = 1e-3F;
     for (int axis = 0; axis < 3; ++axis) {
       const triple<float> q{p.x + (axis == 0 ? h : 0), p.y + (axis == 1 ? h : 0), p.z + (axis == 2 ? h : 0)};
-      auto& slope = gradients_[index(axis)];
+      auto& slope = gradients_[axis];
       star.measure(q, slope);
       for (int i = 0; i < star.padded_size(); ++i)
-        slope[index(i)] = (slope[index(i)] - values_[index(i)]) / h;
+        slope[i] = (slope[i] - values_[i]) / h;
     }
   }
 
@@ -82,7 +81,7 @@ private:
         best_step = step;
       }
       const float weight = 2.0F / static_cast<float>(round + 2);
-      const triple<float> g{gradients_[0][index(at)], gradients_[1][index(at)], gradients_[2][index(at)]};
+      const triple<float> g{gradients_[0][at], gradients_[1][at], gradients_[2][at]};
       mix = {mix.x + weight * (g.x - mix.x), mix.y + weight * (g.y - mix.y), mix.z + weight * (g.z - mix.z)};
       const float length = std::sqrt(dot(mix, mix));
       if (!(length > 1e-12F))
@@ -100,7 +99,7 @@ private:
   prediction lowest_prediction(int n, triple<float> step) const {
     prediction lowest{3e38F, 0};
     for (int i = 0; i < n; ++i) {
-      const auto k = index(i);
+      const int k = i;
       const float value =
           values_[k] + gradients_[0][k] * step.x + gradients_[1][k] * step.y + gradients_[2][k] * step.z;
       if (value < lowest.value)

@@ -61,7 +61,7 @@ inline void rename_and_sort(simplicial_mesh<3>& mesh, const std::vector<local_id
   };
   for (auto& element : mesh.elements)
     for (auto& v : element)
-      v = names[static_cast<std::size_t>(v)];
+      v = names[v];
   const auto sorted = sorted_into_rows<std::uint32_t>(names.size(), [&](const auto& put) {
     for (std::size_t e = 0; e < mesh.elements.size(); ++e)
       put(first_of(mesh.elements[e]), static_cast<std::uint32_t>(e));

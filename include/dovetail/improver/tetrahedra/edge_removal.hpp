@@ -41,7 +41,7 @@ public:
     a_ = mesh.point(shell.a);
     b_ = mesh.point(shell.b);
     for (int i = 0; i < n; ++i)
-      ring_[index(i)] = mesh.point(shell.ring[i]);
+      ring_[i] = mesh.point(shell.ring[i]);
     if (!(triangulate(shell, bar, passing) > bar))
       return false;
     change.clear();
@@ -64,8 +64,7 @@ private:
     return std::any_of(edges.begin(), edges.end(),
                        [&](const edge_ends& edge) { return has(edge[0]) && has(edge[1]); });
   }
-  static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  cell& at(int i, int j) { return cells_[index(i * max_shell + j)]; }
+  cell& at(int i, int j) { return cells_[i * max_shell + j]; }
 
   /// Fills the table; the result is the worst value of the best triangulation, or -2 when none beats `bar`.
   float triangulate(const edge_shell& shell, float bar, std::span<const edge_ends> passing) {
@@ -86,13 +85,11 @@ private:
           const float needed = std::max(bar, best.worst);
           if (!(parts > needed))
             continue;
-          const auto above =
-              static_cast<float>(measure_of<Measure>(b_, ring_[index(i)], ring_[index(j)], ring_[index(k)]));
+          const auto above = static_cast<float>(measure_of<Measure>(b_, ring_[i], ring_[j], ring_[k]));
           const float counted_above = counted(above, shell.b, i, j, k);
           if (!(counted_above > needed))
             continue;
-          const auto below =
-              static_cast<float>(measure_of<Measure>(a_, ring_[index(i)], ring_[index(k)], ring_[index(j)]));
+          const auto below = static_cast<float>(measure_of<Measure>(a_, ring_[i], ring_[k], ring_[j]));
           const float counted_below = counted(below, shell.a, i, j, k);
           if (counted_below > needed)
             best = {std::min({parts, counted_above, counted_below}), above, below, k};
@@ -113,8 +110,8 @@ private:
   }
 
   edge_shell shell_;
-  std::array<cell, index(max_shell* max_shell)> cells_;
-  std::array<vec3, index(max_shell)> ring_;
+  std::array<cell, static_cast<std::size_t>(max_shell* max_shell)> cells_;
+  std::array<vec3, static_cast<std::size_t>(max_shell)> ring_;
   vec3 a_, b_;
 };
 

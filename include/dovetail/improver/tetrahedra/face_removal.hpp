@@ -38,7 +38,7 @@ public:
     change.old.push(e);
     change.old.push(f);
     // The side's vertices, counter-clockwise seen from b: outwards of e.
-    const auto& local = numbering::sides<3>[static_cast<std::size_t>(side)];
+    const auto& local = numbering::sides<3>[side];
     old_worst_ = bar;
     for (std::size_t k = 0; k < 3; ++k)
       if (!close(mesh, mesh.vertex(e, local[k]), mesh.vertex(e, local[(k + 1) % 3]), e, f, 0, change))

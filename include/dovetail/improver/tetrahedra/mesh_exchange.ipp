@@ -46,14 +46,14 @@ inline std::vector<std::array<local_id, 3>> frozen_keys(const tet_complex& mesh,
                                                         const frozen_entities<3>& frozen) {
   std::vector<local_id> names(static_cast<std::size_t>(mesh.given_vertices()));
   for (local_id v = 0; v < mesh.given_vertices(); ++v)
-    names[static_cast<std::size_t>(mesh.given_number(v))] = v;
+    names[mesh.given_number(v)] = v;
   std::vector<std::array<local_id, 3>> keys;
   for (simplex<2> side : frozen.sides) {
     for (const local_id number : side)
       if (number < 0 || number >= mesh.given_vertices())
         refuse_frozen_side(side);
     for (auto& v : side)
-      v = names[static_cast<std::size_t>(v)];
+      v = names[v];
     sort_all(side);
     keys.push_back(side);
   }
@@ -67,18 +67,17 @@ inline void fix_frozen_sides(tet_complex& mesh, const frozen_entities<3>& frozen
   std::vector<std::uint8_t> on_frozen_side(static_cast<std::size_t>(mesh.vertex_slots()), 0);
   for (const auto& key : keys)
     for (const local_id v : key)
-      on_frozen_side[static_cast<std::size_t>(v)] = 1;
+      on_frozen_side[v] = 1;
   std::vector<bool> found(keys.size(), false);
   const auto may_have_one = [&](const simplex<3>& v) { // spares most elements the search
-    return std::count_if(v.begin(), v.end(),
-                         [&](local_id i) { return on_frozen_side[static_cast<std::size_t>(i)] != 0; }) > 2;
+    return std::count_if(v.begin(), v.end(), [&](local_id i) { return on_frozen_side[i] != 0; }) > 2;
   };
   for (local_id e = 0; e < mesh.element_slots(); ++e)
     for (int side = may_have_one(mesh.vertices(e)) ? 0 : 4; side < 4; ++side) {
       const auto key = sorted_side(mesh.vertices(e), side);
       const auto at = std::lower_bound(keys.begin(), keys.end(), key);
       if (at != keys.end() && *at == key) {
-        found[static_cast<std::size_t>(at - keys.begin())] = true;
+        found[at - keys.begin()] = true;
         mesh.fix_side(e, side);
       }
     }
@@ -94,7 +93,7 @@ inline void fix_vertices(tet_complex& mesh, const frozen_entities<3>& frozen) {
     if (mesh.has_fixed_side(e))
       for (int side = 0; side < 4; ++side)
         if (mesh.is_fixed(e, side))
-          for (const int corner : numbering::sides<3>[static_cast<std::size_t>(side)])
+          for (const int corner : numbering::sides<3>[side])
             mesh.set_kind(mesh.vertex(e, corner), vertex_kind::fixed);
   for (local_id v = 0; frozen.points > 0 && v < mesh.given_vertices(); ++v)
     if (mesh.given_number(v) < frozen.points && mesh.kind(v) != vertex_kind::unused)
@@ -157,7 +156,7 @@ inline std::vector<local_id> final_numbers(const tet_complex& complex, std::size
     if (complex.is_free(v))
       ++free;
     else if (!complex.is_gap(v))
-      keeps_number[static_cast<std::size_t>(complex.given_number(v))] = true;
+      keeps_number[complex.given_number(v)] = true;
   }
   const point_numbering numbering(keeps_number, free);
   points = numbering.size;
@@ -165,7 +164,7 @@ inline std::vector<local_id> final_numbers(const tet_complex& complex, std::size
   auto next = numbering.of_free.begin();
   for (local_id v = 0; v < complex.vertex_slots(); ++v)
     if (!complex.is_gap(v))
-      numbers[static_cast<std::size_t>(v)] = complex.is_free(v) ? *next++ : complex.given_number(v);
+      numbers[v] = complex.is_free(v) ? *next++ : complex.given_number(v);
   return numbers;
 }
 
@@ -179,12 +178,12 @@ DOVETAIL_INLINE void give_back(tet_complex& complex, simplicial_mesh<3>& mesh) {
   const auto numbers = detail::final_numbers(complex, points);
   mesh.points.assign(points, vec3{});
   for (local_id v = 0; v < complex.vertex_slots(); ++v)
-    if (const local_id number = numbers[static_cast<std::size_t>(v)]; number != no_id)
-      mesh.points[static_cast<std::size_t>(number)] = complex.point(v);
+    if (const local_id number = numbers[v]; number != no_id)
+      mesh.points[number] = complex.point(v);
   mesh.elements = std::move(complex.elements());
   for (auto& element : mesh.elements)
     for (auto& v : element)
-      v = numbers[static_cast<std::size_t>(v)];
+      v = numbers[v];
   mesh.tags = std::move(complex.tags());
 }
 

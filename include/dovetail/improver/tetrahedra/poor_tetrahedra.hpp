@@ -94,7 +94,7 @@ private:
   bool is_settled(local_id e) const {
     if (static_cast<std::size_t>(e) >= failed_at_.size())
       return false;
-    const std::uint32_t failed = failed_at_[static_cast<std::size_t>(e)];
+    const std::uint32_t failed = failed_at_[e];
     const auto& v = mesh_.vertices(e);
     return failed >= std::max({mesh_.changed_at(v[0]), mesh_.changed_at(v[1]), mesh_.changed_at(v[2]),
                                mesh_.changed_at(v[3]), std::uint32_t{1}});
@@ -102,7 +102,7 @@ private:
   void settle(local_id e) {
     if (static_cast<std::size_t>(e) >= failed_at_.size())
       failed_at_.resize(static_cast<std::size_t>(mesh_.element_slots()), 0);
-    failed_at_[static_cast<std::size_t>(e)] = mesh_.now();
+    failed_at_[e] = mesh_.now();
   }
 
   tet_complex& mesh_;

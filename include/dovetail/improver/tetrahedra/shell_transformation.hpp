@@ -95,7 +95,7 @@ private:
 
   static int edge_of(const tet_complex& mesh, local_id e, local_id p, local_id q) {
     for (int edge = 0; edge < 6; ++edge) {
-      const auto& corners = edge_corners[static_cast<std::size_t>(edge)];
+      const auto& corners = edge_corners[edge];
       const local_id a = mesh.vertex(e, corners[0]), b = mesh.vertex(e, corners[1]);
       if ((a == p && b == q) || (a == q && b == p))
         return edge;
@@ -107,7 +107,7 @@ private:
   }
   /// The shell as the last removal left it.
   bool collect_again(const tet_complex& mesh, const edge_shell& shell, edge_shell& again) const {
-    for (const local_id e : taken_[static_cast<std::size_t>(steps_ - 1)].fresh)
+    for (const local_id e : taken_[steps_ - 1].fresh)
       if (has(mesh, e, shell.a) && has(mesh, e, shell.b))
         return collect_shell(mesh, e, edge_of(mesh, e, shell.a, shell.b), again);
     return false;
@@ -115,7 +115,7 @@ private:
 
   /// Carries `change_` out and notes how to take it back.
   void take(tet_complex& mesh, const edge_shell& shell) {
-    step& taken = taken_[static_cast<std::size_t>(steps_++)];
+    step& taken = taken_[steps_++];
     taken.clear();
     for (const local_id e : change_.old) {
       taken.old.push(mesh.vertices(e));
@@ -135,7 +135,7 @@ private:
   }
   void take_back(tet_complex& mesh, int until) {
     while (steps_ > until) {
-      const step& taken = taken_[static_cast<std::size_t>(--steps_)];
+      const step& taken = taken_[--steps_];
       std::array<local_id, static_cast<std::size_t>(max_shell)> ids;
       mesh.replace(taken.fresh.view(), taken.old.view(), taken.values.view(),
                    {ids.data(), static_cast<std::size_t>(taken.old.size)});

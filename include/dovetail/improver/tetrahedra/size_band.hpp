@@ -25,7 +25,7 @@ struct edge_lengths {
   }
   void add(const tet_complex& mesh, const simplex<3>& v) {
     for (const auto& edge : numbering::ridges<3>)
-      add(mesh.point(v[static_cast<std::size_t>(edge[0])]), mesh.point(v[static_cast<std::size_t>(edge[1])]));
+      add(mesh.point(v[edge[0]]), mesh.point(v[edge[1]]));
   }
 };
 
@@ -38,11 +38,11 @@ inline std::vector<float> present_sizes(const tet_complex& mesh) {
       continue;
     const auto& v = mesh.vertices(e);
     for (const auto& edge : numbering::ridges<3>) {
-      const local_id a = v[static_cast<std::size_t>(edge[0])], b = v[static_cast<std::size_t>(edge[1])];
+      const local_id a = v[edge[0]], b = v[edge[1]];
       const auto squared = static_cast<float>(norm_squared(mesh.point(b) - mesh.point(a)));
       for (const local_id end : {a, b}) {
-        sums[static_cast<std::size_t>(end)] += squared;
-        ++counts[static_cast<std::size_t>(end)];
+        sums[end] += squared;
+        ++counts[end];
       }
     }
   }

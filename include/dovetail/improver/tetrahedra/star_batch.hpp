@@ -42,7 +42,7 @@ public:
     padded_ = (size_ + lanes - 1) / lanes * lanes;
     for (int i = size_; i < padded_; ++i)
       for (auto& coordinate : sides_)
-        coordinate[index(i)] = coordinate[0];
+        coordinate[i] = coordinate[0];
   }
   int size() const { return size_; }
 
@@ -58,7 +58,7 @@ public:
   float measure(triple<float> p, values& out) const {
     const auto& s = sides_;
     for (int i = 0; i < padded_; ++i) {
-      const auto k = index(i);
+      const int k = i;
       out[k] = Measure::template of_apex<float>({s[0][k] - p.x, s[1][k] - p.y, s[2][k] - p.z},
                                                 {s[3][k] - p.x, s[4][k] - p.y, s[5][k] - p.z},
                                                 {s[6][k] - p.x, s[7][k] - p.y, s[8][k] - p.z});
@@ -67,7 +67,7 @@ public:
     least.fill(2);
     for (int i = 0; i < padded_; i += lanes)
       for (int l = 0; l < lanes; ++l)
-        least[index(l)] = detail::smaller(out[index(i + l)], least[index(l)]);
+        least[l] = detail::smaller(out[i + l], least[l]);
     float worst = 2;
     for (const float value : least)
       worst = detail::smaller(value, worst);
@@ -76,12 +76,11 @@ public:
   int padded_size() const { return padded_; } ///< sides, rounded up to whole vectors
 
 private:
-  static constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void put(int row, vec3 p) {
     const auto local = to_local(p);
-    sides_[index(row)][index(size_)] = local.x;
-    sides_[index(row + 1)][index(size_)] = local.y;
-    sides_[index(row + 2)][index(size_)] = local.z;
+    sides_[row][size_] = local.x;
+    sides_[row + 1][size_] = local.y;
+    sides_[row + 2][size_] = local.z;
   }
 
   alignas(64) std::array<values, 9> sides_;

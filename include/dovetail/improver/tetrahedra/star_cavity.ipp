@@ -19,7 +19,7 @@ DOVETAIL_INLINE bool find_outline(tet_complex& mesh, star_cavity& cavity, local_
     for (int side = 0; side < 4; ++side) {
       if (!mesh.is_fixed(e, side) && mesh.is_marked(element_of(mesh.across(e, side))))
         continue;
-      const auto& local = numbering::sides<3>[static_cast<std::size_t>(side)];
+      const auto& local = numbering::sides<3>[side];
       const std::array<local_id, 3> v{mesh.vertex(e, local[0]), mesh.vertex(e, local[1]),
                                       mesh.vertex(e, local[2])};
       if (std::find(v.begin(), v.end(), apex) != v.end())

@@ -32,7 +32,7 @@ public:
   float worst(const tet_complex& mesh) const { return worst_value(mesh, elements_.view()); }
   /// The points of the side opposite the vertex in `e`: (vertex, a, b, c) is positive.
   std::array<vec3, 3> opposite_side(const tet_complex& mesh, local_id e) const {
-    const auto& local = numbering::sides<3>[static_cast<std::size_t>(mesh.corner_of(e, vertex_))];
+    const auto& local = numbering::sides<3>[mesh.corner_of(e, vertex_)];
     return {mesh.point(mesh.vertex(e, local[0])), mesh.point(mesh.vertex(e, local[1])),
             mesh.point(mesh.vertex(e, local[2]))};
   }

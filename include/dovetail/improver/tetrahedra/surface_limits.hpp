@@ -30,8 +30,7 @@ public:
   /// The element touches a vertex of a sharp fixed triangle or dihedral.
   bool limits(const simplex<3>& element) const {
     return std::any_of(element.begin(), element.end(), [&](local_id v) {
-      return static_cast<std::size_t>(v) < is_limiting_.size() &&
-             is_limiting_[static_cast<std::size_t>(v)] != 0;
+      return static_cast<std::size_t>(v) < is_limiting_.size() && is_limiting_[v] != 0;
     });
   }
 
@@ -40,7 +39,7 @@ private:
 
   /// Turns around the edge (a, b) from a fixed side to the next one.
   static bool dihedral_is_sharp(const tet_complex& mesh, local_id e, int side, local_id a, local_id b);
-  void limit(local_id v) { is_limiting_[static_cast<std::size_t>(v)] = 1; }
+  void limit(local_id v) { is_limiting_[v] = 1; }
 
   std::vector<std::uint8_t> is_limiting_;
 };

@@ -25,7 +25,7 @@ DOVETAIL_INLINE surface_limits::surface_limits(const tet_complex& mesh)
 
 DOVETAIL_INLINE void surface_limits::examine(const tet_complex& mesh, local_id e, int side) {
   static const double cos_triangle = std::cos(limiting_triangle_angle * std::numbers::pi / 180);
-  const auto& local = numbering::sides<3>[static_cast<std::size_t>(side)];
+  const auto& local = numbering::sides<3>[side];
   std::array<local_id, 3> v{};
   std::array<vec3, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {

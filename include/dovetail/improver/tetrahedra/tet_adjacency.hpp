@@ -30,9 +30,8 @@ constexpr int side_of(half_side h) {
 
 /// The vertices of a side in ascending order.
 constexpr std::array<local_id, 3> sorted_side(const simplex<3>& element, int side) {
-  const auto& local = numbering::sides<3>[static_cast<std::size_t>(side)];
-  local_id a = element[static_cast<std::size_t>(local[0])], b = element[static_cast<std::size_t>(local[1])],
-           c = element[static_cast<std::size_t>(local[2])];
+  const auto& local = numbering::sides<3>[side];
+  local_id a = element[local[0]], b = element[local[1]], c = element[local[2]];
   if (a > b)
     std::swap(a, b);
   if (b > c)

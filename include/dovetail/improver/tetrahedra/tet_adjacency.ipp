@@ -65,7 +65,7 @@ inline std::array<std::uint64_t, 4> sorted_corners(const simplex<3>& element) {
 [[noreturn]] inline void refuse_side(std::array<local_id, 3> side, std::span<const local_id> numbers) {
   if (!numbers.empty())
     for (auto& v : side)
-      v = numbers[static_cast<std::size_t>(v)];
+      v = numbers[v];
   sort_all(side);
   throw mesh_error("more than two elements meet at the side (" + std::to_string(side[0]) + ", " +
                    std::to_string(side[1]) + ", " + std::to_string(side[2]) + ")");
@@ -139,13 +139,10 @@ match_sides(std::span<const simplex<3>> elements, std::size_t points, std::span<
   }
 
   std::vector<std::array<half_side, 4>> across(elements.size(), {no_id, no_id, no_id, no_id});
-  const auto slot = [&](half_side h) -> half_side& {
-    return across[static_cast<std::size_t>(element_of(h))][static_cast<std::size_t>(side_of(h))];
-  };
+  const auto slot = [&](half_side h) -> half_side& { return across[element_of(h)][side_of(h)]; };
   const auto join = [&](half_side one, half_side other) {
     if (slot(one) != no_id)
-      detail::refuse_side(sorted_side(elements[static_cast<std::size_t>(element_of(one))], side_of(one)),
-                          numbers);
+      detail::refuse_side(sorted_side(elements[element_of(one)], side_of(one)), numbers);
     slot(one) = other;
     slot(other) = one;
   };

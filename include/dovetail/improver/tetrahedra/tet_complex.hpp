@@ -42,31 +42,31 @@ public:
   /// Vertices in use and gaps.
   local_id vertex_slots() const { return static_cast<local_id>(points_.size()); }
   std::size_t element_count() const { return alive_; } ///< elements that are alive
-  bool is_alive(local_id e) const { return elements_[index(e)][0] != no_id; }
+  bool is_alive(local_id e) const { return elements_[e][0] != no_id; }
   /// The four vertices of an element.
-  const simplex<3>& vertices(local_id e) const { return elements_[index(e)]; }
+  const simplex<3>& vertices(local_id e) const { return elements_[e]; }
   /// Corner `corner` of an element.
-  local_id vertex(local_id e, int corner) const { return elements_[index(e)][index(corner)]; }
-  const vec3& point(local_id v) const { return points_[index(v)]; } ///< where a vertex is
+  local_id vertex(local_id e, int corner) const { return elements_[e][corner]; }
+  const vec3& point(local_id v) const { return points_[v]; } ///< where a vertex is
   /// The vertices in [0, given_vertices()) came with the mesh, the others were added.
   local_id given_vertices() const { return given_vertices_; }
   /// What the caller knows a vertex by that came with the mesh.
-  local_id given_number(local_id v) const { return numbers_.empty() ? v : numbers_[index(v)]; }
-  half_side across(local_id e, int side) const { return across_[index(e)][index(side)]; }
+  local_id given_number(local_id v) const { return numbers_.empty() ? v : numbers_[v]; }
+  half_side across(local_id e, int side) const { return across_[e][side]; }
   /// Whether a side must stay.
-  bool is_fixed(local_id e, int side) const { return ((fixed_sides_[index(e)] >> side) & 1U) != 0; }
+  bool is_fixed(local_id e, int side) const { return ((fixed_sides_[e] >> side) & 1U) != 0; }
   /// Whether any side must stay.
-  bool has_fixed_side(local_id e) const { return fixed_sides_[index(e)] != 0; }
-  local_id element_at(local_id v) const { return element_at_[index(v)]; } ///< an element that has the vertex
-  vertex_kind kind(local_id v) const { return kinds_[index(v)]; }         ///< what may be done with a vertex
+  bool has_fixed_side(local_id e) const { return fixed_sides_[e] != 0; }
+  local_id element_at(local_id v) const { return element_at_[v]; } ///< an element that has the vertex
+  vertex_kind kind(local_id v) const { return kinds_[v]; }         ///< what may be done with a vertex
   /// Whether it was taken out.
-  bool is_gap(local_id v) const { return kinds_[index(v)] == vertex_kind::removed; }
+  bool is_gap(local_id v) const { return kinds_[v] == vertex_kind::removed; }
   /// Whether it may be moved and taken out.
-  bool is_free(local_id v) const { return kinds_[index(v)] == vertex_kind::free; }
+  bool is_free(local_id v) const { return kinds_[v] == vertex_kind::free; }
   bool has_tags() const { return !tags_.empty(); } ///< whether elements have tags
   /// The tag of an element; 0 where there are none.
-  local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[index(e)]; }
-  float value(local_id e) const { return values_[index(e)]; }  ///< the measure of an element
+  local_id tag(local_id e) const { return tags_.empty() ? 0 : tags_[e]; }
+  float value(local_id e) const { return values_[e]; }         ///< the measure of an element
   const std::vector<float>& values() const { return values_; } ///< by element, those of dead ones too
   /// The sum over all elements of what they lack to the target; kept up to date, O(1).
   double lacking() const { return lacking_; }
@@ -79,11 +79,11 @@ public:
     return missing * missing * missing;
   }
   /// The size that edges at `v` should have; 0 while there are no sizes.
-  float size_at(local_id v) const { return sizes_.empty() ? 0.0F : sizes_[index(v)]; }
+  float size_at(local_id v) const { return sizes_.empty() ? 0.0F : sizes_[v]; }
 
   /// The corner of `e` at which `v` lies; `v` must be one of its vertices.
   int corner_of(local_id e, local_id v) const {
-    const auto& element = elements_[index(e)];
+    const auto& element = elements_[e];
     return element[0] == v ? 0 : element[1] == v ? 1 : element[2] == v ? 2 : 3;
   }
 
@@ -104,9 +104,9 @@ public:
       current_mark_ = 1;
     }
   }
-  void mark(local_id e) { element_marks_[index(e)] = current_mark_; } ///< marks an element
+  void mark(local_id e) { element_marks_[e] = current_mark_; } ///< marks an element
   /// Whether an element is marked.
-  bool is_marked(local_id e) const { return element_marks_[index(e)] == current_mark_; }
+  bool is_marked(local_id e) const { return element_marks_[e] == current_mark_; }
 
   /// Whether the mesh may overlap itself, because some elements are (or were) flat or inverted. Then positive
   /// orientation does not prove that a new side is new; changes are checked for that.
@@ -117,18 +117,18 @@ public:
   /// Counts changes; starts at 1.
   std::uint32_t now() const { return now_; }
   /// When an element at `v` was last replaced or moved.
-  std::uint32_t changed_at(local_id v) const { return changed_at_[index(v)]; }
+  std::uint32_t changed_at(local_id v) const { return changed_at_[v]; }
   void start_change() { ++now_; } ///< begins a change: vertices touched from now on are of it
   /// Notes that the elements at a vertex have changed.
-  void touch(local_id v) { changed_at_[index(v)] = now_; }
+  void touch(local_id v) { changed_at_[v] = now_; }
   /// Takes a touch back.
-  void set_changed_at(local_id v, std::uint32_t when) { changed_at_[index(v)] = when; }
+  void set_changed_at(local_id v, std::uint32_t when) { changed_at_[v] = when; }
 
   // -- changes ---------------------------------------------------------------------------------------------
   /// Sets the measure of an element.
   void set_value(local_id e, float value) {
-    lacking_ += deficit(value) - deficit(values_[index(e)]);
-    values_[index(e)] = value;
+    lacking_ += deficit(value) - deficit(values_[e]);
+    values_[e] = value;
   }
   /// Elements with a smaller value lack something. O(elements).
   void set_target(float target) {
@@ -140,21 +140,21 @@ public:
   /// Takes the sizes over, one per vertex.
   void set_sizes(std::vector<float> sizes) { sizes_ = std::move(sizes); }
   /// Moves a vertex; the measures of its elements are set separately.
-  void set_point(local_id v, vec3 p) { points_[index(v)] = p; }
+  void set_point(local_id v, vec3 p) { points_[v] = p; }
   /// Sets what may be done with a vertex.
-  void set_kind(local_id v, vertex_kind kind) { kinds_[index(v)] = kind; }
+  void set_kind(local_id v, vertex_kind kind) { kinds_[v] = kind; }
   /// To be called once when all fixed vertices are known.
   void finish_kinds();
   /// Makes a side stay.
   void fix_side(local_id e, int side) {
-    fixed_sides_[index(e)] = static_cast<std::uint8_t>(fixed_sides_[index(e)] | (1U << side));
+    fixed_sides_[e] = static_cast<std::uint8_t>(fixed_sides_[e] | (1U << side));
   }
   /// A new free vertex that is in no element yet; `size` counts only where there are sizes.
   local_id add_vertex(vec3 p, float size = 0);
   /// Gives up a vertex that no element uses any more.
   void release_vertex(local_id v) {
-    kinds_[index(v)] = vertex_kind::removed;
-    element_at_[index(v)] = no_id;
+    kinds_[v] = vertex_kind::removed;
+    element_at_[v] = no_id;
     --releasable_;
     free_vertices_.push_back(v);
   }
@@ -177,18 +177,17 @@ public:
 
 private:
   static constexpr float gone = 2; ///< the value of a dead element
-  static constexpr std::size_t index(local_id i) { return static_cast<std::size_t>(i); }
 
   void join(local_id e, int side, cavity_side other) {
-    across_[index(e)][index(side)] = other.outer;
+    across_[e][side] = other.outer;
     if (other.is_fixed)
       fix_side(e, side);
     if (other.outer != no_id)
-      across_[index(element_of(other.outer))][index(side_of(other.outer))] = half_side_of(e, side);
+      across_[element_of(other.outer)][side_of(other.outer)] = half_side_of(e, side);
   }
   local_id new_element();
   void kill(local_id e) {
-    elements_[index(e)][0] = no_id;
+    elements_[e][0] = no_id;
     set_value(e, gone);
     dead_elements_.push_back(e);
   }

@@ -24,9 +24,9 @@ DOVETAIL_INLINE tet_complex::tet_complex(std::vector<vec3> points, std::vector<s
       element_at_(points_.size(), no_id), kinds_(points_.size(), vertex_kind::unused),
       alive_(elements_.size()) {
   for (local_id e = 0; e < element_slots(); ++e)
-    for (const local_id v : elements_[index(e)]) {
-      element_at_[index(v)] = e;
-      kinds_[index(v)] = vertex_kind::free;
+    for (const local_id v : elements_[e]) {
+      element_at_[v] = e;
+      kinds_[v] = vertex_kind::free;
     }
 }
 
@@ -48,10 +48,10 @@ DOVETAIL_INLINE local_id tet_complex::add_vertex(vec3 p, float size) {
     const local_id v = free_vertices_.back();
     free_vertices_.pop_back();
     ++releasable_;
-    points_[index(v)] = p;
-    kinds_[index(v)] = vertex_kind::free;
+    points_[v] = p;
+    kinds_[v] = vertex_kind::free;
     if (!sizes_.empty())
-      sizes_[index(v)] = size;
+      sizes_[v] = size;
     return v;
   }
   points_.push_back(p);
@@ -85,13 +85,13 @@ DOVETAIL_INLINE void tet_complex::replace(std::span<const local_id> old, std::sp
   alive_ = alive_ + fresh.size() - old.size();
   for (std::size_t i = 0; i < fresh.size(); ++i) {
     const local_id e = ids[i];
-    elements_[index(e)] = fresh[i];
+    elements_[e] = fresh[i];
     set_value(e, values[i]);
-    fixed_sides_[index(e)] = 0;
+    fixed_sides_[e] = 0;
     if (has_tags())
-      tags_[index(e)] = tag_of_cavity;
+      tags_[e] = tag_of_cavity;
     for (const local_id v : fresh[i]) {
-      element_at_[index(v)] = e;
+      element_at_[v] = e;
       touch(v);
     }
     for (int side = 0; side < 4; ++side) {

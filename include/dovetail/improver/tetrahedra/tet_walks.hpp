@@ -18,11 +18,11 @@ struct bounded_list {
   bool push(T item) {
     if (size == Capacity)
       return false;
-    items[static_cast<std::size_t>(size++)] = item;
+    items[size++] = item;
     return true;
   }
-  T& operator[](int i) { return items[static_cast<std::size_t>(i)]; }
-  const T& operator[](int i) const { return items[static_cast<std::size_t>(i)]; }
+  T& operator[](int i) { return items[i]; }
+  const T& operator[](int i) const { return items[i]; }
   auto begin() const { return items.begin(); }
   auto end() const { return items.begin() + size; }
   auto begin() { return items.begin(); }
@@ -48,7 +48,7 @@ struct edge_shell {
 /// Collects the shell of edge `edge` of `e`. False when the shell passes a fixed side (the edge may then not
 /// be removed) or has more than `max_shell` elements.
 inline bool collect_shell(const tet_complex& mesh, local_id e, int edge, edge_shell& shell) {
-  const auto& corners = edge_corners[static_cast<std::size_t>(edge)];
+  const auto& corners = edge_corners[edge];
   shell.a = mesh.vertex(e, corners[0]);
   shell.b = mesh.vertex(e, corners[1]);
   shell.ring.size = shell.elements.size = 0;

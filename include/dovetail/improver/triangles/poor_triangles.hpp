@@ -52,21 +52,21 @@ private:
     const corner_table& table = mesh_.table;
     double sum = mesh_.quality(t);
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
-      const local_id v = table.vertex[mesh_.at(c)];
+      const local_id v = table.vertex[c];
       if (mesh_.inner(v))
         table.for_each_corner(v, [&](local_id at) { sum += mesh_.quality(corner_table::triangle_of(at)); });
-      else if (table.twin[mesh_.at(c)] != no_id)
-        sum += mesh_.quality(corner_table::triangle_of(table.twin[mesh_.at(c)]));
+      else if (table.twin[c] != no_id)
+        sum += mesh_.quality(corner_table::triangle_of(table.twin[c]));
     }
     return sum;
   }
   /// Nothing has changed around t since it was tried last.
   bool is_settled(local_id t) const {
-    return mesh_.at(t) < failed_with_.size() && failed_with_[mesh_.at(t)] == surroundings(t);
+    return static_cast<std::size_t>(t) < failed_with_.size() && failed_with_[t] == surroundings(t);
   }
   void settle(local_id t) {
-    failed_with_.resize(mesh_.at(mesh_.table.triangle_slots()), -1e300);
-    failed_with_[mesh_.at(t)] = surroundings(t);
+    failed_with_.resize(mesh_.table.triangle_slots(), -1e300);
+    failed_with_[t] = surroundings(t);
   }
 
   surface_complex& mesh_;

@@ -24,7 +24,7 @@ public:
     for (int pass = 0; pass < passes; ++pass) {
       std::size_t moved = 0;
       for (local_id v = mesh_.frozen; v < static_cast<local_id>(mesh_.point.size()); ++v)
-        if (mesh_.table.corner_of[mesh_.at(v)] != no_id)
+        if (mesh_.table.corner_of[v] != no_id)
           moved += moves_([&] { return smooth_.relax(v); });
       if (moved == 0)
         break;
@@ -35,7 +35,7 @@ public:
 private:
   void flip_everywhere() {
     for (local_id c = 0; c < static_cast<local_id>(mesh_.table.vertex.size()); ++c)
-      if (mesh_.table.vertex[mesh_.at(c)] != no_id && mesh_.table.twin[mesh_.at(c)] > c)
+      if (mesh_.table.vertex[c] != no_id && mesh_.table.twin[c] > c)
         flips_([&] { return flip_.improve(mesh_, c); });
   }
 

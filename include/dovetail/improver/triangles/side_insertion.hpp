@@ -47,7 +47,7 @@ public:
   /// `least_gain`, and all together lack less of `target` than those they replace (else one poor triangle
   /// would become several). Only triangles that have the new vertex change: the others cannot get worse.
   bool improve(local_id c, double target, double least_gain) {
-    const local_id d = s_.table.twin[s_.at(c)];
+    const local_id d = s_.table.twin[c];
     const double q = s_.quality(corner_table::triangle_of(c)), r = s_.quality(corner_table::triangle_of(d));
     const local_id tail = s_.table.tail(c);
     const local_id v = s_.add_middle(c);
@@ -85,13 +85,13 @@ private:
     bool any = false;
     for (bool again = true; again && valence < largest_valence;) {
       again = false;
-      const local_id first = s_.table.corner_of[s_.at(v)];
+      const local_id first = s_.table.corner_of[v];
       local_id c = first;
       do {
         if (s_.table.free_side(c) && dovetail::detail::flip_queue::flip_raises_quality(s_, c) &&
             s_.may_flip(c)) {
-          const local_id d = s_.table.twin[s_.at(c)];
-          flipped_.push_back(s_.table.vertex[s_.at(d)]);
+          const local_id d = s_.table.twin[c];
+          flipped_.push_back(s_.table.vertex[d]);
           lacked_ += lack_of(s_.quality(corner_table::triangle_of(d)));
           s_.table.flip(c);
           ++valence;

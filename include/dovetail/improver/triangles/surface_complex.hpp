@@ -56,10 +56,9 @@ public:
   const surface_host* host = nullptr;           ///< null or empty: `given` is the host
   triangle_host given;
 
-  static constexpr std::size_t at(local_id i) { return static_cast<std::size_t>(i); } ///< an id as an index
   bool inner(local_id v) const { return v >= frozen; } ///< whether a vertex may be moved
   /// Whether the vertex's patch is plane.
-  bool is_plane(local_id v) const { return patches[at(patch[at(v)])].is_plane; }
+  bool is_plane(local_id v) const { return patches[patch[v]].is_plane; }
 
   // --- geometry of triangles ---
 
@@ -74,26 +73,24 @@ public:
     return facing.x * turn({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) > 0;
   }
   bool positive(local_id a, local_id b, local_id c) const {
-    return positive(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
+    return positive(point[a], point[b], point[c], facing(a, b, c));
   }
   /// The `oriented_quality` of a triangle of three vertices (mesh/triangle_shape.hpp).
   double quality(local_id a, local_id b, local_id c) const {
-    return dovetail::detail::oriented_quality(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
+    return dovetail::detail::oriented_quality(point[a], point[b], point[c], facing(a, b, c));
   }
   double quality(local_id t) const {
-    return quality(table.vertex[at(3 * t)], table.vertex[at(3 * t + 1)], table.vertex[at(3 * t + 2)]);
+    return quality(table.vertex[3 * t], table.vertex[3 * t + 1], table.vertex[3 * t + 2]);
   }
   /// Cosine of the angle between the triangle's normal and the surface's.
   double agreement(local_id a, local_id b, local_id c) const {
-    return agreement(point[at(a)], point[at(b)], point[at(c)], facing(a, b, c));
+    return agreement(point[a], point[b], point[c], facing(a, b, c));
   }
 
   /// The length of the edge between two vertices.
-  double length(local_id a, local_id b) const { return distance(point[at(a)], point[at(b)]); }
+  double length(local_id a, local_id b) const { return distance(point[a], point[b]); }
   /// The length in sizes: the mean of those at the ends.
-  double relative_length(local_id a, local_id b) const {
-    return 2 * length(a, b) / (size[at(a)] + size[at(b)]);
-  }
+  double relative_length(local_id a, local_id b) const { return 2 * length(a, b) / (size[a] + size[b]); }
 
   // --- what operations may do ---
 
@@ -101,8 +98,8 @@ public:
   bool may_flip(local_id c) const {
     if (!table.free_side(c))
       return false;
-    const local_id d = table.twin[at(c)];
-    const local_id p = table.vertex[at(c)], q = table.vertex[at(d)], a = table.tail(c), b = table.head(c);
+    const local_id d = table.twin[c];
+    const local_id p = table.vertex[c], q = table.vertex[d], a = table.tail(c), b = table.head(c);
     if (!positive(p, a, q) || !positive(q, b, p) || are_joined(p, q))
       return false;
     range lengths;
@@ -134,14 +131,14 @@ public:
   /// Where v gets by a step along the surface, if its star stays valid and its edges keep their lengths.
   std::optional<location> displaced(local_id v, vec3 step,
                                     std::span<const std::array<local_id, 2>> link) const {
-    const vec3 n = normal[at(v)];
-    const auto to = put_down(v, point[at(v)] + (step - dot(step, n) * n));
-    if (!to || to->point == point[at(v)])
+    const vec3 n = normal[v];
+    const auto to = put_down(v, point[v] + (step - dot(step, n) * n));
+    if (!to || to->point == point[v])
       return std::nullopt;
     range before, after;
     double agreed = 1, agrees = 1;
     for (const auto& [a, b] : link) {
-      const vec3 pa = point[at(a)], pb = point[at(b)], faces = to->normal + normal[at(a)] + normal[at(b)];
+      const vec3 pa = point[a], pb = point[b], faces = to->normal + normal[a] + normal[b];
       if (!positive(to->point, pa, pb, faces))
         return std::nullopt;
       if (!is_plane(v)) {
@@ -149,7 +146,7 @@ public:
         agrees = std::min(agrees, agreement(to->point, pa, pb, faces));
       }
       before.include(relative_length(v, a));
-      after.include(2 * distance(to->point, pa) / (size[at(v)] + size[at(a)]));
+      after.include(2 * distance(to->point, pa) / (size[v] + size[a]));
     }
     if (!keeps_length(after.least, before) || !keeps_length(after.most, before) ||
         !keeps_agreement(agrees, agreed))
@@ -160,17 +157,17 @@ public:
   // --- changes ---
 
   /// All that a move of the vertex changes.
-  location location_of(local_id v) const { return {point[at(v)], normal[at(v)], uv[at(v)], on[at(v)]}; }
+  location location_of(local_id v) const { return {point[v], normal[v], uv[v], on[v]}; }
   /// Moves a vertex.
   void place(local_id v, const location& where) {
-    point[at(v)] = where.point;
-    normal[at(v)] = where.normal;
-    uv[at(v)] = where.uv;
-    on[at(v)] = where.on;
+    point[v] = where.point;
+    normal[v] = where.normal;
+    uv[v] = where.uv;
+    on[v] = where.on;
   }
   /// A unit vector of the surface at v.
   vec3 tangent(local_id v) const {
-    const vec3 n = normal[at(v)];
+    const vec3 n = normal[v];
     const vec3 least = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? vec3{1, 0, 0}
                        : std::abs(n.y) <= std::abs(n.z)                                 ? vec3{0, 1, 0}
                                                                                         : vec3{0, 0, 1};
@@ -180,17 +177,17 @@ public:
   /// A new vertex at the middle of the free side opposite c, or no_id when a half would be too short or the
   /// four triangles not valid. The caller splits the side.
   local_id add_middle(local_id c) {
-    const local_id d = table.twin[at(c)], a = table.tail(c), b = table.head(c);
-    const local_id p = table.vertex[at(c)], q = table.vertex[at(d)];
+    const local_id d = table.twin[c], a = table.tail(c), b = table.head(c);
+    const local_id p = table.vertex[c], q = table.vertex[d];
     if (0.5 * relative_length(a, b) < shortest_edge)
       return no_id;
-    const vec3 middle = midpoint(point[at(a)], point[at(b)]);
+    const vec3 middle = midpoint(point[a], point[b]);
     const local_id v = add_vertex(inner(b) ? b : a);
-    uv[at(v)] = 0.5 * (uv[at(a)] + uv[at(b)]);
+    uv[v] = 0.5 * (uv[a] + uv[b]);
     if (const auto where = put_down(v, middle)) {
       place(v, *where);
       if (positive(p, a, v) && positive(b, p, v) && positive(q, b, v) && positive(a, q, v)) {
-        size[at(v)] = field != nullptr && *field ? (*field)(where->point) : 0.5 * (size[at(a)] + size[at(b)]);
+        size[v] = field != nullptr && *field ? (*field)(where->point) : 0.5 * (size[a] + size[b]);
         return v;
       }
     }
@@ -225,9 +222,7 @@ private:
     }
   };
 
-  vec3 facing(local_id a, local_id b, local_id c) const {
-    return normal[at(a)] + normal[at(b)] + normal[at(c)];
-  }
+  vec3 facing(local_id a, local_id b, local_id c) const { return normal[a] + normal[b] + normal[c]; }
   static double turn(vec2 a, vec2 b, vec2 c) {
     const double value = orient2d(a, b, c);
     return value > 0 ? 1 : value < 0 ? -1 : 0;
@@ -255,7 +250,7 @@ private:
     }
     host_point found;
     if (host != nullptr && *host)
-      found = host->project(patches[at(patch[at(v)])].tag, p, uv[at(v)]);
+      found = host->project(patches[patch[v]].tag, p, uv[v]);
     else
       found = given.project(p, to.on);
     if (!(norm_squared(found.normal) > 0) || !std::isfinite(norm_squared(found.point)))
@@ -269,14 +264,14 @@ private:
   /// Appends a vertex that is all like v but has no triangles.
   local_id add_vertex(local_id like) {
     const local_id v = table.add_vertex();
-    point.push_back(point[at(like)]);
-    normal.push_back(normal[at(like)]);
-    uv.push_back(uv[at(like)]);
-    on.push_back(on[at(like)]);
-    patch.push_back(patch[at(like)]);
+    point.push_back(point[like]);
+    normal.push_back(normal[like]);
+    uv.push_back(uv[like]);
+    on.push_back(on[like]);
+    patch.push_back(patch[like]);
     source.push_back(no_id);
     next_fan.push_back(v);
-    size.push_back(size[at(like)]);
+    size.push_back(size[like]);
     return v;
   }
 
@@ -286,12 +281,12 @@ private:
     do {
       if (fan_reaches(fan, w))
         return true;
-      fan = next_fan[at(fan)];
+      fan = next_fan[fan];
     } while (fan != v);
     return false;
   }
   bool fan_reaches(local_id v, local_id w) const {
-    const local_id first = table.corner_of[at(v)];
+    const local_id first = table.corner_of[v];
     const auto reaches = [&](local_id c) { return is_at(table.tail(c), w) || is_at(table.head(c), w); };
     for (local_id c = first; c != no_id;) {
       if (reaches(c))
@@ -306,7 +301,7 @@ private:
     return false;
   }
   bool is_at(local_id v, local_id w) const {
-    return v == w || (source[at(v)] != no_id && source[at(v)] == source[at(w)]);
+    return v == w || (source[v] != no_id && source[v] == source[w]);
   }
 
   std::vector<local_id> ring_;

@@ -57,10 +57,9 @@ public:
   }
 
 private:
-  static std::size_t at(local_id i) { return static_cast<std::size_t>(i); }
-  vec3 point_at(local_id corner) const { return mesh_.points[at(point_of(corner))]; }
-  local_id point_of(local_id corner) const { return mesh_.elements[at(corner / 3)][at(corner % 3)]; }
-  local_id tag(local_id t) const { return mesh_.tags.empty() ? 0 : mesh_.tags[at(t)]; }
+  vec3 point_at(local_id corner) const { return mesh_.points[point_of(corner)]; }
+  local_id point_of(local_id corner) const { return mesh_.elements[corner / 3][corner % 3]; }
+  local_id tag(local_id t) const { return mesh_.tags.empty() ? 0 : mesh_.tags[t]; }
   vec3 area(local_id t) const {
     const vec3 a = point_at(3 * t);
     return cross(point_at(3 * t + 1) - a, point_at(3 * t + 2) - a);
@@ -80,13 +79,13 @@ private:
     for (std::size_t c = 0; c < corners_; ++c) {
       const auto corner = static_cast<local_id>(c);
       const local_id side = sides.of_element[c / 3][c % 3];
-      local_id& other = first[at(side)];
+      local_id& other = first[side];
       if (other == no_id) {
         other = corner;
-        const auto key = sorted_vertices(sides.vertices[at(side)]);
+        const auto key = sorted_vertices(sides.vertices[side]);
         const auto found = std::lower_bound(listed.begin(), listed.end(), key);
         if (found != listed.end() && *found == key) {
-          is_found[static_cast<std::size_t>(found - listed.begin())] = true;
+          is_found[found - listed.begin()] = true;
           other = -2; // fixed
         }
       } else if (other >= 0 && sides.is_interior(side) && joins_smoothly(other, corner)) {
@@ -132,21 +131,21 @@ private:
       const auto first = static_cast<local_id>(c);
       bool is_closed = false;
       for (local_id d = first; d != no_id; d = table.counter_clockwise(d)) {
-        if (fan_of[at(d)] == name) {
+        if (fan_of[d] == name) {
           is_closed = true;
           break;
         }
-        fan_of[at(d)] = name;
+        fan_of[d] = name;
       }
       for (local_id d = first; d != no_id && !is_closed; d = table.clockwise(d))
-        fan_of[at(d)] = name;
+        fan_of[d] = name;
       fans.push_back({point_of(first), is_closed});
-      ++fans_at[at(point_of(first))];
+      ++fans_at[point_of(first)];
     }
 
     std::vector<local_id> vertex_of(fans.size(), no_id);
     const auto is_free = [&](const fan& f) {
-      return f.is_closed && fans_at[at(f.point)] == 1 && f.point >= frozen_.points;
+      return f.is_closed && fans_at[f.point] == 1 && f.point >= frozen_.points;
     };
     local_id count = 0;
     for (const bool wanted : {false, true}) {
@@ -158,13 +157,13 @@ private:
       if (!wanted)
         made.frozen = count;
     }
-    made.table.corner_of.assign(at(count), no_id);
+    made.table.corner_of.assign(count, no_id);
     made.table.vertex.resize(corners_);
     for (std::size_t c = 0; c < corners_; ++c) {
-      const local_id v = vertex_of[at(fan_of[c])];
+      const local_id v = vertex_of[fan_of[c]];
       made.table.vertex[c] = v;
-      if (made.table.corner_of[at(v)] == no_id)
-        made.table.corner_of[at(v)] = static_cast<local_id>(c);
+      if (made.table.corner_of[v] == no_id)
+        made.table.corner_of[v] = static_cast<local_id>(c);
     }
     link_fans(made);
   }
@@ -174,10 +173,10 @@ private:
     std::vector<local_id> last(mesh_.points.size(), no_id);
     for (std::size_t v = 0; v < count; ++v) {
       const auto id = static_cast<local_id>(v);
-      local_id& other = last[at(made.source[v])];
-      made.next_fan[v] = other == no_id ? id : std::exchange(made.next_fan[at(other)], id);
+      local_id& other = last[made.source[v]];
+      made.next_fan[v] = other == no_id ? id : std::exchange(made.next_fan[other], id);
       other = id;
-      made.point.push_back(mesh_.points[at(made.source[v])]);
+      made.point.push_back(mesh_.points[made.source[v]]);
     }
   }
 
@@ -188,17 +187,17 @@ private:
       if (made.table.twin[c] != no_id)
         joined.unite(static_cast<local_id>(c / 3), made.table.twin[c] / 3);
     const auto sets = joined.number_sets();
-    made.patches.resize(at(sets.count));
+    made.patches.resize(sets.count);
     made.patch.assign(made.source.size(), no_id);
-    std::vector<vec3> sums(at(sets.count)), start(at(sets.count));
+    std::vector<vec3> sums(sets.count), start(sets.count);
     for (std::size_t t = 0; t < mesh_.elements.size(); ++t) {
       const auto id = static_cast<local_id>(t);
-      const std::size_t patch = at(sets.of_member[t]);
+      const std::size_t patch = sets.of_member[t];
       made.patches[patch].tag = tag(id);
       start[patch] = point_at(3 * id);
       sums[patch] += area(id);
       for (std::size_t k = 0; k < 3; ++k)
-        made.patch[at(made.table.vertex[3 * t + k])] = sets.of_member[t];
+        made.patch[made.table.vertex[3 * t + k]] = sets.of_member[t];
     }
     std::vector<double> reach(made.patches.size(), 0), height(made.patches.size(), 0);
     for (std::size_t k = 0; k < made.patches.size(); ++k)
@@ -210,7 +209,7 @@ private:
       return;
     }
     for (std::size_t v = 0; v < made.patch.size(); ++v) {
-      const std::size_t k = at(made.patch[v]);
+      const std::size_t k = made.patch[v];
       const vec3 away = made.point[v] - start[k];
       reach[k] = std::max(reach[k], norm(away));
       height[k] = std::max(height[k], std::abs(dot(away, made.patches[k].normal)));
@@ -225,14 +224,14 @@ private:
     made.on.assign(count, no_id);
     std::vector<vec3> sums(count);
     for (std::size_t c = 0; c < corners_; ++c) {
-      const std::size_t v = at(made.table.vertex[c]);
+      const std::size_t v = made.table.vertex[c];
       made.on[v] = static_cast<local_id>(c / 3);
       sums[v] += area(static_cast<local_id>(c / 3));
       if (!host_.corner_uv.empty())
         made.uv[v] = host_.corner_uv[c / 3][c % 3];
     }
     for (std::size_t v = 0; v < count; ++v) {
-      const surface_patch& patch = made.patches[at(made.patch[v])];
+      const surface_patch& patch = made.patches[made.patch[v]];
       made.normal.push_back(patch.is_plane ? patch.normal : normalized(sums[v]));
       if (!host_ || patch.is_plane)
         continue;
@@ -276,14 +275,14 @@ DOVETAIL_INLINE surface_complex take_surface(const simplicial_mesh<2>& mesh, con
   detail::surface_taker(mesh, frozen, host, feature_angle).fill(made);
   made.size.assign(made.point.size(), 0);
   for (local_id v = 0; v < static_cast<local_id>(made.point.size()); ++v)
-    made.size[made.at(v)] = size ? checked_size(size, made.point[made.at(v)]) : 0;
+    made.size[v] = size ? checked_size(size, made.point[v]) : 0;
   if (!size) {
     std::vector<int> sides(made.point.size(), 0);
     for (local_id c = 0; c < static_cast<local_id>(made.table.vertex.size()); ++c)
       for (const auto& [v, w] : {std::array{made.table.tail(c), made.table.head(c)},
                                  std::array{made.table.head(c), made.table.tail(c)}}) {
-        made.size[made.at(v)] += made.length(v, w);
-        ++sides[made.at(v)];
+        made.size[v] += made.length(v, w);
+        ++sides[v];
       }
     for (std::size_t v = 0; v < sides.size(); ++v)
       made.size[v] /= sides[v];
@@ -298,16 +297,16 @@ DOVETAIL_INLINE void give_back(const surface_complex& made, simplicial_mesh<2>& 
   std::vector<local_id> number(made.source);
   std::vector<local_id> free;
   for (local_id v = made.frozen; v < static_cast<local_id>(made.point.size()); ++v) {
-    if (made.source[made.at(v)] != no_id)
-      is_fixed[made.at(made.source[made.at(v)])] = false;
-    if (table.corner_of[made.at(v)] != no_id)
+    if (made.source[v] != no_id)
+      is_fixed[made.source[v]] = false;
+    if (table.corner_of[v] != no_id)
       free.push_back(v);
   }
   const point_numbering numbers(is_fixed, free.size());
   mesh.points.resize(numbers.size);
   for (std::size_t k = 0; k < free.size(); ++k) {
-    number[made.at(free[k])] = numbers.of_free[k];
-    mesh.points[made.at(numbers.of_free[k])] = made.point[made.at(free[k])];
+    number[free[k]] = numbers.of_free[k];
+    mesh.points[numbers.of_free[k]] = made.point[free[k]];
   }
   const bool has_tags = !mesh.tags.empty();
   mesh.elements.clear();
@@ -320,13 +319,13 @@ DOVETAIL_INLINE void give_back(const surface_complex& made, simplicial_mesh<2>& 
     simplex<2> triangle;
     std::array<vec2, 3> uv;
     for (std::size_t k = 0; k < 3; ++k) {
-      const local_id v = table.vertex[made.at(3 * t) + k];
-      triangle[k] = number[made.at(v)];
-      uv[k] = made.uv[made.at(v)];
+      const local_id v = table.vertex[3 * t + k];
+      triangle[k] = number[v];
+      uv[k] = made.uv[v];
     }
     mesh.elements.push_back(triangle);
     if (has_tags)
-      mesh.tags.push_back(made.patches[made.at(made.patch[made.at(table.vertex[made.at(3 * t)])])].tag);
+      mesh.tags.push_back(made.patches[made.patch[table.vertex[3 * t]]].tag);
     if (corner_uv != nullptr)
       corner_uv->push_back(uv);
   }

@@ -17,18 +17,18 @@ namespace dovetail::improvement {
 
 DOVETAIL_INLINE std::vector<bool> limiting_points(const surface_complex& mesh) {
   const auto& table = mesh.table;
-  std::vector<double> turned(mesh.at(mesh.frozen), 0);
+  std::vector<double> turned(mesh.frozen, 0);
   for (local_id c = 0; c < static_cast<local_id>(table.vertex.size()); ++c)
-    if (const local_id v = table.vertex[mesh.at(c)]; v != no_id && v < mesh.frozen) {
-      const vec3 p = mesh.point[mesh.at(v)];
-      const vec3 a = mesh.point[mesh.at(table.tail(c))] - p, b = mesh.point[mesh.at(table.head(c))] - p;
-      turned[mesh.at(v)] += std::atan2(norm(cross(a, b)), dot(a, b));
+    if (const local_id v = table.vertex[c]; v != no_id && v < mesh.frozen) {
+      const vec3 p = mesh.point[v];
+      const vec3 a = mesh.point[table.tail(c)] - p, b = mesh.point[table.head(c)] - p;
+      turned[v] += std::atan2(norm(cross(a, b)), dot(a, b));
     }
   std::vector<bool> is_limiting(mesh.point.size(), false);
   for (local_id v = 0; v < mesh.frozen; ++v) {
-    const bool is_sharp = turned[mesh.at(v)] < (low_triangle_angle - 1e-9) * std::numbers::pi / 180;
-    for (local_id fan = v; is_sharp && !is_limiting[mesh.at(fan)]; fan = mesh.next_fan[mesh.at(fan)])
-      is_limiting[mesh.at(fan)] = true;
+    const bool is_sharp = turned[v] < (low_triangle_angle - 1e-9) * std::numbers::pi / 180;
+    for (local_id fan = v; is_sharp && !is_limiting[fan]; fan = mesh.next_fan[fan])
+      is_limiting[fan] = true;
   }
   return is_limiting;
 }
@@ -49,7 +49,7 @@ DOVETAIL_INLINE quality_counts count_quality(const surface_complex& mesh) {
       continue;
     std::array<std::size_t, 3> v;
     for (std::size_t k = 0; k < 3; ++k)
-      v[k] = mesh.at(table.vertex[mesh.at(3 * t) + k]);
+      v[k] = table.vertex[3 * t + k];
     const bool is_limited = is_limiting[v[0]] || is_limiting[v[1]] || is_limiting[v[2]];
     if (!(mesh.quality(t) > 0)) {
       counter.add_inverted(is_limited);

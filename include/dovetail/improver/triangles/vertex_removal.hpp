@@ -20,7 +20,7 @@ public:
   bool mend(surface_complex& mesh, local_id t, const operation_limits<2>& limits,
             const recorded_tries& tries) {
     for (local_id c = 3 * t; c < 3 * t + 3; ++c) {
-      const local_id v = mesh.table.vertex[mesh.at(c)];
+      const local_id v = mesh.table.vertex[c];
       if (mesh.inner(v) && tries([&] { return improve(mesh, v, limits); }))
         return true;
     }

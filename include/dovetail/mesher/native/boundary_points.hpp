@@ -30,10 +30,9 @@ inline void require_distinct_vertices(const simplicial_mesh<2>& boundary,
                                       const std::vector<local_id>& same_as) {
   for (const auto& triangle : boundary.elements)
     for (const local_id v : triangle)
-      if (same_as[static_cast<std::size_t>(v)] != v)
-        throw mesher_error("boundary points " + std::to_string(same_as[static_cast<std::size_t>(v)]) +
-                           " and " + std::to_string(v) + " are both at " +
-                           place_text(boundary.points[static_cast<std::size_t>(v)]) + "; make them one");
+      if (same_as[v] != v)
+        throw mesher_error("boundary points " + std::to_string(same_as[v]) + " and " + std::to_string(v) +
+                           " are both at " + place_text(boundary.points[v]) + "; make them one");
 }
 
 } // namespace dovetail::detail

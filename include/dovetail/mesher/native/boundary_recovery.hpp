@@ -187,7 +187,7 @@ private:
         return place_of(edge_target{{u, v}});
     for (const local_id side : found_.sides) {
       const auto t =
-          changes_.side_vertices(triangulation<3>::element_of(side), at(triangulation<3>::place_of(side)));
+          changes_.side_vertices(triangulation<3>::element_of(side), triangulation<3>::place_of(side));
       if (kept_.has(t[0], t[1], t[2]))
         return place_of(triangle_target{t});
     }
@@ -258,10 +258,9 @@ private:
       const local_id e = triangulation<3>::element_of(side);
       if (!mesh.is_alive(e))
         continue;
-      const auto& local = numbering::sides<3>[at(triangulation<3>::place_of(side))];
+      const auto& local = numbering::sides<3>[triangulation<3>::place_of(side)];
       for (std::size_t k = 0; k < 3; ++k)
-        side_edges_.push_back({mesh[e].vertices[static_cast<std::size_t>(local[k])],
-                               mesh[e].vertices[static_cast<std::size_t>(local[(k + 1) % 3])]});
+        side_edges_.push_back({mesh[e].vertices[local[k]], mesh[e].vertices[local[(k + 1) % 3]]});
     }
     return std::any_of(side_edges_.begin(), side_edges_.end(),
                        [&](const std::array<local_id, 2>& edge) { return f(edge[0], edge[1]); });
@@ -296,7 +295,7 @@ private:
       for (local_id v = given_points_; v < static_cast<local_id>(changes_.mesh().points.size()); ++v)
         counts_.removed_points += !changes_.is_in_element(v);
     }
-    counts_.added_points = changes_.mesh().points.size() - at(given_points_);
+    counts_.added_points = changes_.mesh().points.size() - given_points_;
   }
 
   std::string place_of(const edge_target& target) const {

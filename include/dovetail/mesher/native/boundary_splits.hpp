@@ -149,7 +149,7 @@ private:
       }
     for (const local_id side : found.sides) {
       const local_id e = triangulation<3>::element_of(side);
-      const auto s = changes_.side_vertices(e, at(triangulation<3>::place_of(side)));
+      const auto s = changes_.side_vertices(e, triangulation<3>::place_of(side));
       if (kept_.has(s[0], s[1], s[2]))
         continue;
       const auto [t, within] =
@@ -235,18 +235,18 @@ private:
       }
     }
     const auto numbered = parts.number_sets();
-    std::vector<std::vector<local_id>> elements(at(numbered.count));
-    std::vector<std::vector<simplex<2>>> closed_by(at(numbered.count));
+    std::vector<std::vector<local_id>> elements(numbered.count);
+    std::vector<std::vector<simplex<2>>> closed_by(numbered.count);
     for (std::size_t k = 0; k < star_.size(); ++k)
-      elements[at(numbered.of_member[k])].push_back(star_[k]);
+      elements[numbered.of_member[k]].push_back(star_[k]);
     for (std::size_t p = 0; p < closings.size(); ++p)
       for (std::size_t direction = 0; direction < 2; ++direction) {
         const closing& c = closings[p][direction];
         if (c.children != split.per_parent)
           return false;
         const auto& [u, v, w] = split.parents[p];
-        closed_by[at(numbered.of_member[at(c.element)])].push_back(direction == 0 ? simplex<2>{u, v, w}
-                                                                                  : simplex<2>{u, w, v});
+        closed_by[numbered.of_member[c.element]].push_back(direction == 0 ? simplex<2>{u, v, w}
+                                                                          : simplex<2>{u, w, v});
       }
     const std::size_t points = changes_.mesh().points.size();
     std::vector<local_id> old;

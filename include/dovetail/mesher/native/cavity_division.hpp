@@ -58,7 +58,7 @@ private:
       for (std::size_t i = 0; i < 4; ++i) {
         simplex<2> side{};
         for (std::size_t k = 0; k < 3; ++k)
-          side[k] = mesh[e].vertices[static_cast<std::size_t>(numbering::sides<3>[i][k])];
+          side[k] = mesh[e].vertices[numbering::sides<3>[i][k]];
         const local_id beyond = triangulation<3>::element_of(mesh[e].across[i]);
         if (!std::binary_search(inside.begin(), inside.end(), beyond))
           rim_.push_back(side);
@@ -79,8 +79,7 @@ private:
       return false;
     for (const local_id e : elements_)
       for (const auto& ridge : numbering::ridges<3>) {
-        const local_id u = changes_.mesh()[e].vertices[static_cast<std::size_t>(ridge[0])],
-                       v = changes_.mesh()[e].vertices[static_cast<std::size_t>(ridge[1])];
+        const local_id u = changes_.mesh()[e].vertices[ridge[0]], v = changes_.mesh()[e].vertices[ridge[1]];
         if (u < 0 || v < 0 || !std::binary_search(rim_vertices_.begin(), rim_vertices_.end(), u) ||
             !std::binary_search(rim_vertices_.begin(), rim_vertices_.end(), v))
           return false;
@@ -108,7 +107,7 @@ private:
     if (numbered.count != 2)
       return false;
     for (std::size_t s = 0; s < rim_.size(); ++s)
-      parts_[at(numbered.of_member[s])].push_back(rim_[s]);
+      parts_[numbered.of_member[s]].push_back(rim_[s]);
     return close(parts_[0]) && close(parts_[1]);
   }
   /// Adds the triangle, oriented against the sides at its edges. False when these do not agree.

@@ -49,7 +49,7 @@ private:
   enum class place : std::uint8_t { unknown, inside, outside };
 
   void set(local_id e, place where) {
-    place& known = place_[at(e)];
+    place& known = place_[e];
     if (known == where)
       return;
     if (known != place::unknown)
@@ -83,14 +83,14 @@ private:
       simplex<2> side{};
       bool finite = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        side[k] = vertices[static_cast<std::size_t>(numbering::sides<3>[i][k])];
+        side[k] = vertices[numbering::sides<3>[i][k]];
         finite = finite && side[k] >= 0;
       }
       const auto match = finite ? boundary_.find(side) : boundary_sides::match{};
       if (!match)
         continue;
       ++found;
-      walls_[at(e)] = static_cast<std::uint8_t>(walls_[at(e)] | 1U << i);
+      walls_[e] = static_cast<std::uint8_t>(walls_[e] | 1U << i);
       set(e, boundary_.listed(match) != no_id ? place::inside : place::outside);
     }
     return found;
@@ -100,8 +100,8 @@ private:
       const local_id e = front_.back();
       front_.pop_back();
       for (std::size_t i = 0; i < 4; ++i)
-        if ((walls_[at(e)] >> i & 1U) == 0)
-          set(triangulation<3>::element_of(mesh_[e].across[i]), place_[at(e)]);
+        if ((walls_[e] >> i & 1U) == 0)
+          set(triangulation<3>::element_of(mesh_[e].across[i]), place_[e]);
     }
   }
 
@@ -132,7 +132,7 @@ inline simplicial_mesh<3> inside_elements(const triangulation<3>& t, std::span<c
     if (inside[e] != 0) {
       ++count;
       for (const local_id v : t.cells[e].vertices)
-        number[detail::at(v)] = 0;
+        number[v] = 0;
     }
   simplicial_mesh<3> result;
   for (std::size_t v = 0; v < number.size(); ++v)
@@ -145,7 +145,7 @@ inline simplicial_mesh<3> inside_elements(const triangulation<3>& t, std::span<c
     if (inside[e] != 0) {
       auto vertices = t.cells[e].vertices;
       for (local_id& v : vertices)
-        v = number[detail::at(v)];
+        v = number[v];
       result.elements.push_back(vertices);
     }
   return result;

@@ -27,12 +27,11 @@ public:
   explicit kept_entities(std::span<const simplex<2>> triangles) : sides_(triangles) {
     for (const auto& triangle : triangles)
       for (const auto& local : numbering::sides<2>)
-        edges_.push_back(sorted_pair(triangle[static_cast<std::size_t>(local[0])],
-                                     triangle[static_cast<std::size_t>(local[1])]));
+        edges_.push_back(sorted_pair(triangle[local[0]], triangle[local[1]]));
     sort_unique(edges_);
     std::vector<char> known(sides_.entries().size(), 0);
     for (const auto& triangle : triangles)
-      if (char& is_known = known[static_cast<std::size_t>(sides_.find(triangle).entry)]; is_known == 0) {
+      if (char& is_known = known[sides_.find(triangle).entry]; is_known == 0) {
         is_known = 1; // one listed in both directions is one
         triangles_.push_back(triangle);
       }

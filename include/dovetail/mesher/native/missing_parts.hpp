@@ -24,16 +24,15 @@ inline std::vector<triangle_target> missing_triangles(const triangulation<3>& me
     if (on_boundary < 3 || !mesh.is_alive(e))
       continue;
     for (const auto& local : numbering::sides<3>) {
-      const simplex<2> side{v[static_cast<std::size_t>(local[0])], v[static_cast<std::size_t>(local[1])],
-                            v[static_cast<std::size_t>(local[2])]};
+      const simplex<2> side{v[local[0]], v[local[1]], v[local[2]]};
       if (kept.is_of_boundary(side[0]) && kept.is_of_boundary(side[1]) && kept.is_of_boundary(side[2]))
         if (const auto match = kept.sides().find(side))
-          found[at(match.entry)] = 1;
+          found[match.entry] = 1;
     }
   }
   std::vector<triangle_target> missing;
   for (const auto& t : kept.triangles())
-    if (found[at(kept.sides().find(t).entry)] == 0)
+    if (found[kept.sides().find(t).entry] == 0)
       missing.push_back({t});
   return missing;
 }
@@ -61,8 +60,7 @@ inline std::vector<edge_target> missing_edges_of(local_changes& changes,
   std::vector<vertex_pair> edges;
   for (const auto& [t] : triangles)
     for (const auto& local : numbering::sides<2>)
-      edges.push_back(
-          sorted_pair(t[static_cast<std::size_t>(local[0])], t[static_cast<std::size_t>(local[1])]));
+      edges.push_back(sorted_pair(t[local[0]], t[local[1]]));
   sort_unique(edges);
   std::vector<edge_target> missing;
   for (const vertex_pair& edge : edges)

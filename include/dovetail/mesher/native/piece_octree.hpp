@@ -73,7 +73,7 @@ public:
   /// Is no triangle nearer to a point of the leaf than `clearance`, and p in the ball of none?
   bool is_clear(std::size_t leaf, vec3 p, double clearance) const {
     for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k)
-      if (triangles_[static_cast<std::size_t>(near_[k])].forbids(p, clearance))
+      if (triangles_[near_[k]].forbids(p, clearance))
         return false;
     return true;
   }
@@ -111,7 +111,7 @@ private:
   void collect_triangles(const simplicial_mesh<2>& boundary, const any_sizing& size) {
     triangles_.reserve(boundary.elements.size());
     for (const auto& t : boundary.elements) {
-      const auto at = [&](std::size_t k) { return boundary.points[static_cast<std::size_t>(t[k])]; };
+      const auto at = [&](std::size_t k) { return boundary.points[t[k]]; };
       triangles_.emplace_back(std::array{at(0), at(1), at(2)}, size);
       seeds_.push_back({triangles_.back().middle(), triangles_.back().size()});
       reaches_.push_back(triangles_.back().reach());
@@ -254,7 +254,7 @@ private:
     if (const double bound = smallest_size_in(size, box); bound > 0)
       at.least = std::min(at.least, bound);
     for (const local_id t : one.triangles)
-      if (const seed& from = seeds_[static_cast<std::size_t>(t)]; contains(box, from.middle))
+      if (const seed& from = seeds_[t]; contains(box, from.middle))
         at.least = std::min(at.least, from.size);
   }
 
@@ -266,8 +266,7 @@ private:
     cells_.resize(tree_.node_count());
     corners_.resize(tree_.node_count());
     auto lists = items_by_octant(tree_.box(one.node), span_of(one.triangles), [&](local_id t) {
-      return
-          [reach = reaches_[static_cast<std::size_t>(t)]](const box3& part) { return reach.overlaps(part); };
+      return [reach = reaches_[t]](const box3& part) { return reach.overlaps(part); };
     });
     for (std::size_t k = 0; k < 8; ++k) {
       const std::size_t child = tree_.child(one.node, k);

@@ -165,8 +165,7 @@ void find_obstacles(local_changes& changes, const Target& target, obstacles& fou
   for_each_along(changes, target, [&](local_id e) {
     bool touched = false;
     for (const auto& ridge : numbering::ridges<3>) {
-      const local_id u = mesh[e].vertices[static_cast<std::size_t>(ridge[0])],
-                     v = mesh[e].vertices[static_cast<std::size_t>(ridge[1])];
+      const local_id u = mesh[e].vertices[ridge[0]], v = mesh[e].vertices[ridge[1]];
       if (target.weight(changes, u, v) == 0)
         continue;
       found.edges.push_back({std::min(u, v), std::max(u, v)});

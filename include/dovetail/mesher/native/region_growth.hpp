@@ -189,8 +189,7 @@ private:
         return true;
     }
     return std::any_of(numbering::ridges<3>.begin(), numbering::ridges<3>.end(), [&](const auto& ridge) {
-      const vertex_pair edge = sorted_pair(cell.vertices[static_cast<std::size_t>(ridge[0])],
-                                           cell.vertices[static_cast<std::size_t>(ridge[1])]);
+      const vertex_pair edge = sorted_pair(cell.vertices[ridge[0]], cell.vertices[ridge[1]]);
       return kept_.has(edge[0], edge[1]) && !std::binary_search(rim_edges_.begin(), rim_edges_.end(), edge);
     });
   }

@@ -59,12 +59,11 @@ private:
   static constexpr double widest_fan = 35 * radians_per_degree;   ///< between a normal and its triangles'
   static constexpr double sharp_corner = 40 * radians_per_degree; ///< feature curves end where they turn more
 
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
-  vec3 point(local_id v) const { return mesh_.points[index(v)]; }
+  vec3 point(local_id v) const { return mesh_.points[v]; }
 
   bool is_feature(std::size_t side) const {
     const auto& [a, b] = sides_.elements[side];
-    return !sides_.is_interior(static_cast<local_id>(side)) || smooth_of_[index(a)] != smooth_of_[index(b)];
+    return !sides_.is_interior(static_cast<local_id>(side)) || smooth_of_[a] != smooth_of_[b];
   }
 
   /// Normals by the weights of N. Max (J. Graphics Tools 4, 1999), which are exact where points lie on a
@@ -92,7 +91,7 @@ private:
     for (std::size_t s = 0; s < sides_.size(); ++s)
       if (is_feature(s))
         for (const local_id v : sides_.vertices[s])
-          on_feature[index(v)] = 1;
+          on_feature[v] = 1;
     for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
       const corner& of = corners[first];
       vertex_normal made{of.vertex, of.area, {}, trust::full};
@@ -100,7 +99,7 @@ private:
            ++last)
         made.normal += corners[last].weighted;
       made.normal = normalized(made.normal);
-      if (on_feature[index(of.vertex)])
+      if (on_feature[of.vertex])
         made.believed = trust::one_sided;
       for (std::size_t k = first; k < last; ++k)
         if (norm(corners[k].weighted) > 0 && angle_between(corners[k].weighted, made.normal) > widest_fan)
@@ -136,8 +135,7 @@ private:
       if (angle_between(before, after) > sharp_corner)
         continue;
       // Of the circle through the three points.
-      tangents_[index(from[first][0])] =
-          normalized(before / norm_squared(before) + after / norm_squared(after));
+      tangents_[from[first][0]] = normalized(before / norm_squared(before) + after / norm_squared(after));
     }
   }
 
@@ -160,10 +158,10 @@ private:
   vec3 bulge_on_feature(local_id a, local_id b) const {
     const vec3 chord = point(b) - point(a);
     const auto towards_b = [&](vec3 t) { return dot(t, chord) < 0 ? -t : t; };
-    const vec3 here = tangents_[index(a)];
+    const vec3 here = tangents_[a];
     if (norm_squared(here) > 0)
       return bulge(chord, towards_b(here));
-    const vec3 there = tangents_[index(b)];
+    const vec3 there = tangents_[b];
     return norm_squared(there) > 0 ? bulge(chord, -mirrored(towards_b(there), chord)) : vec3{};
   }
 
@@ -183,7 +181,7 @@ private:
     const auto& v = mesh_.elements[t];
     curved_triangle made{{point(v[0]), point(v[1]), point(v[2])}, {}, {}};
     for (std::size_t k = 0; k < 3; ++k) { // the edge opposite corner k
-      const std::size_t side = index(sides_.of_element[t][k]);
+      const std::size_t side = sides_.of_element[t][k];
       const std::size_t i = (k + 1) % 3;
       const std::size_t j = (k + 2) % 3;
       const auto d = [&](local_id a, local_id b) {
@@ -265,7 +263,7 @@ private:
     tree_.for_each_near(
         p, [&](const box3& box, std::size_t) { return distance_squared(box, p) <= best; },
         [&](local_id id) {
-          const auto& [a, b, c] = triangles_[static_cast<std::size_t>(id)].corners;
+          const auto& [a, b, c] = triangles_[id].corners;
           const auto w = nearest_on_triangle(a, b, c, p);
           const double away = norm_squared(w[0] * a + w[1] * b + w[2] * c - p);
           if (away < best || (away == best && static_cast<std::size_t>(id) < found)) {

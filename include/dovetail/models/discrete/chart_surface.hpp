@@ -132,7 +132,7 @@ private:
     local_id found = no_id;
     flat_tree_.for_each([&](const box3& box, std::size_t) { return contains(box, p); },
                         [&](local_id id) {
-                          const double d = depth(triangles_[static_cast<std::size_t>(id)], uv);
+                          const double d = depth(triangles_[id], uv);
                           if (d > deepest || (d == deepest && id < found)) {
                             deepest = d;
                             found = id;
@@ -147,7 +147,7 @@ private:
     flat_tree_.for_each_near(
         p, [&](const box3& box, std::size_t) { return distance_squared(box, p) <= best; },
         [&](local_id id) {
-          const triangle& t = triangles_[static_cast<std::size_t>(id)];
+          const triangle& t = triangles_[id];
           const auto level = [](vec2 q) { return vec3{q.x, q.y, 0}; };
           const auto w = nearest_on_triangle(level(t.flat[0]), level(t.flat[1]), level(t.flat[2]), p);
           const vec2 foot = w[0] * t.flat[0] + w[1] * t.flat[1] + w[2] * t.flat[2];

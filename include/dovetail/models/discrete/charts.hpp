@@ -98,7 +98,7 @@ private:
     const local_id count = 1 + *std::max_element(s_.chart_of.begin(), s_.chart_of.end());
     members_.assign(static_cast<std::size_t>(count), {});
     for (std::size_t t = 0; t < triangles().size(); ++t)
-      members_[static_cast<std::size_t>(s_.chart_of[t])].push_back(t);
+      members_[s_.chart_of[t]].push_back(t);
     frames_.clear();
     for (const auto& chart : members_)
       frames_.push_back(measures_.frame_of(chart));
@@ -197,9 +197,9 @@ private:
     junctions_.assign(s_.mesh.points.size(), 0);
     for (std::size_t i = 2; i < around.size(); ++i)
       if (around[i].first == around[i - 2].first)
-        junctions_[static_cast<std::size_t>(around[i].first)] = 1;
+        junctions_[around[i].first] = 1;
   }
-  bool is_junction(local_id v) const { return junctions_[static_cast<std::size_t>(v)] != 0; }
+  bool is_junction(local_id v) const { return junctions_[v] != 0; }
 
   /// A contour that passes close to a vertex passes through it. On the chart's boundary it always does,
   /// through a junction if it can: contours from both sides would otherwise end side by side, with a tiny
@@ -225,7 +225,7 @@ private:
         else if (on_boundary || s > 1 - snap)
           snapped.push_back(to);
         if (on_boundary)
-          junctions_[static_cast<std::size_t>(snapped.back())] = 1;
+          junctions_[snapped.back()] = 1;
       }
     std::sort(snapped.begin(), snapped.end());
     for (const std::size_t t : chart)
@@ -250,12 +250,11 @@ private:
           1 + static_cast<std::size_t>(*std::max_element(cluster.begin(), cluster.end())));
       std::vector<double> chart_area(members_.size());
       for (std::size_t t = 0; t < cluster.size(); ++t) {
-        cluster_area[static_cast<std::size_t>(cluster[t])] += norm(area_vector(t));
-        chart_area[static_cast<std::size_t>(s_.chart_of[t])] += norm(area_vector(t));
+        cluster_area[cluster[t]] += norm(area_vector(t));
+        chart_area[s_.chart_of[t]] += norm(area_vector(t));
       }
       for (std::size_t t = 0; t < cluster.size(); ++t)
-        if (values_[t] && cluster_area[static_cast<std::size_t>(cluster[t])] <
-                              0.02 * chart_area[static_cast<std::size_t>(s_.chart_of[t])])
+        if (values_[t] && cluster_area[cluster[t]] < 0.02 * chart_area[s_.chart_of[t]])
           side[t] = side[t] ? 0 : 1;
     }
     s_.chart_of = clusters(neighbours_, joined);

@@ -29,7 +29,7 @@ public:
   std::size_t point_count() const { return mesh_->points.size(); } ///< points of the mesh
   /// The vertices of a triangle.
   const simplex<2>& corners(std::size_t t) const { return mesh_->elements[t]; }
-  vec3 point(local_id v) const { return mesh_->points[static_cast<std::size_t>(v)]; } ///< where a vertex is
+  vec3 point(local_id v) const { return mesh_->points[v]; } ///< where a vertex is
   /// Along the normal, twice the area long.
   vec3 area_vector(std::size_t t) const {
     const auto& v = mesh_->elements[t];

@@ -151,7 +151,7 @@ private:
   }
 
   std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
-  vec3 point(local_id v) const { return s_.mesh.points[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) const { return s_.mesh.points[v]; }
 
   charted_surface& s_;
   std::vector<std::optional<corner_values>>& values_;

@@ -30,9 +30,7 @@ inline void require_no_crossing(const simplicial_mesh<2>& mesh, const std::strin
                                 report& repairs) {
   const auto corners = [&](std::size_t t) {
     const auto& v = mesh.elements[t];
-    return std::array<vec3, 3>{mesh.points[static_cast<std::size_t>(v[0])],
-                               mesh.points[static_cast<std::size_t>(v[1])],
-                               mesh.points[static_cast<std::size_t>(v[2])]};
+    return std::array<vec3, 3>{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
   };
   const auto is_sliver = [&](std::size_t t) {
     const auto [a, b, c] = corners(t);

@@ -81,7 +81,7 @@ boundary_loops(const std::vector<simplex<2>>& triangles, const std::vector<local
 /// itself or another?
 inline bool loops_are_simple(const std::vector<std::vector<boundary_edge>>& loops,
                              const std::vector<vec3>& points, const chart_frame& frame) {
-  const auto flat = [&](local_id v) { return frame.flat(points[static_cast<std::size_t>(v)]); };
+  const auto flat = [&](local_id v) { return frame.flat(points[v]); };
   std::vector<std::pair<local_id, local_id>> segments;
   int outer = 0;
   for (const auto& loop : loops) {

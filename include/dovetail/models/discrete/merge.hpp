@@ -85,7 +85,7 @@ private:
     const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, cluster,
                                       [&](std::size_t t, std::size_t i) { return across(t, i); });
     const bool simple = loops_are_simple(loops, s_.mesh.points, frame);
-    const std::size_t of_a = members_[static_cast<std::size_t>(a)].size();
+    const std::size_t of_a = members_[a].size();
     for (std::size_t k = of_a; k < cluster.size(); ++k)
       s_.chart_of[cluster[k]] = b;
     return simple;
@@ -125,7 +125,7 @@ private:
         members.emplace_back();
       }
       s_.chart_of[t] = id;
-      members[static_cast<std::size_t>(id)].push_back(t);
+      members[id].push_back(t);
     }
     s_.frames.clear();
     for (const auto& cluster : members)

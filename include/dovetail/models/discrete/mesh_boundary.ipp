@@ -66,7 +66,7 @@ inline std::vector<local_id> ends_of_ids(const simplicial_mesh<2>& mesh, const s
   std::vector<local_id> number(mesh.points.size(), no_id);
   for (const auto& triangle : mesh.elements)
     for (const local_id v : triangle)
-      number[static_cast<std::size_t>(v)] = 0;
+      number[v] = 0;
   local_id next = 0;
   for (local_id& n : number)
     n = n == no_id ? no_id : next++;
@@ -74,7 +74,7 @@ inline std::vector<local_id> ends_of_ids(const simplicial_mesh<2>& mesh, const s
   for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
     while (last < at.size() && at[last].first == at[first].first)
       ++last;
-    const local_id point = number[static_cast<std::size_t>(at[first].first)];
+    const local_id point = number[at[first].first];
     if (point != no_id && (last - first != 2 || at[first].second != at[last - 1].second))
       corners.push_back(point);
   }
@@ -103,7 +103,7 @@ DOVETAIL_INLINE mesh_boundary boundary_of(const simplicial_mesh<3>& mesh,
   std::size_t used = 0;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     auto [behind, front] = sides.elements[s];
-    const auto solid = [&](local_id e) { return e == no_id ? no_id : solid_of[static_cast<std::size_t>(e)]; };
+    const auto solid = [&](local_id e) { return e == no_id ? no_id : solid_of[e]; };
     if (front != no_id && solid(behind) == solid(front))
       continue;
     if (front != no_id && solid(front) < solid(behind))
@@ -153,7 +153,7 @@ DOVETAIL_INLINE edge_ids::edge_ids(const std::vector<vec3>& points, const std::v
     : ids_(std::move(ids)), met_(ids_.size(), false) {
   std::vector<box3> boxes;
   for (const auto& [a, b] : edges) {
-    ends_.push_back({points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]});
+    ends_.push_back({points[a], points[b]});
     box3& box = boxes.emplace_back();
     box.include(ends_.back()[0]), box.include(ends_.back()[1]);
   }
@@ -166,7 +166,7 @@ DOVETAIL_INLINE local_id edge_ids::at(vec3 p, double nearness) {
   tree_.for_each_near(
       p, [&](const box3& box, std::size_t) { return distance_squared(box, p) <= best; },
       [&](local_id edge) {
-        const auto& [a, b] = ends_[static_cast<std::size_t>(edge)];
+        const auto& [a, b] = ends_[edge];
         const double s = nearest_on_segment(a, b, p)[1];
         const double away = norm_squared(a + s * (b - a) - p);
         if (away < best || (away == best && static_cast<std::size_t>(edge) < found)) {

@@ -34,14 +34,14 @@ inline std::vector<simplicial_mesh<2>> shell_meshes(const simplicial_mesh<2>& me
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return shell_of[a] < shell_of[b]; });
   for (const std::size_t t : order) {
-    auto& shell = shells[static_cast<std::size_t>(shell_of[t])];
+    auto& shell = shells[shell_of[t]];
     simplex<2> renamed = mesh.elements[t];
     for (local_id& v : renamed) {
-      auto& [of_shell, index] = place_of[static_cast<std::size_t>(v)];
+      auto& [of_shell, index] = place_of[v];
       if (of_shell != shell_of[t]) {
         of_shell = shell_of[t];
         index = static_cast<local_id>(shell.points.size());
-        shell.points.push_back(mesh.points[static_cast<std::size_t>(v)]);
+        shell.points.push_back(mesh.points[v]);
       }
       v = index;
     }
@@ -53,9 +53,7 @@ inline std::vector<simplicial_mesh<2>> shell_meshes(const simplicial_mesh<2>& me
 /// A point of the shell, off symmetric places: inside the shells around it.
 inline vec3 sample_of(const simplicial_mesh<2>& shell) {
   const auto& t = shell.elements.front();
-  return 0.29 * shell.points[static_cast<std::size_t>(t[0])] +
-         0.33 * shell.points[static_cast<std::size_t>(t[1])] +
-         0.38 * shell.points[static_cast<std::size_t>(t[2])];
+  return 0.29 * shell.points[t[0]] + 0.33 * shell.points[t[1]] + 0.38 * shell.points[t[2]];
 }
 
 /// Even depth bounds a solid from outside, odd depth is a void of the solid around it. The shells are closed

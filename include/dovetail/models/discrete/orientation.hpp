@@ -54,7 +54,7 @@ public:
 
 private:
   std::vector<simplex<2>>& triangles() { return mesh_.elements; }
-  vec3 point(local_id v) { return mesh_.points[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) { return mesh_.points[v]; }
   void turn(std::size_t t) { std::swap(triangles()[t][1], triangles()[t][2]); }
 
   /// Adds the neighbours of t that are in no shell yet to its own, turned like t; the result is how many had
@@ -90,7 +90,7 @@ private:
   std::size_t side_of(const side_table<2>& sides, std::size_t t, std::size_t i) {
     const local_id v = triangles()[t][i];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto& ends = sides.vertices[static_cast<std::size_t>(sides.of_element[t][k])];
+      const auto& ends = sides.vertices[sides.of_element[t][k]];
       if (ends[0] != v && ends[1] != v)
         return k;
     }

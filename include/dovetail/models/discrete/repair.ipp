@@ -75,7 +75,7 @@ private:
 
   std::vector<vec3>& points() { return result_.mesh.points; }
   std::vector<simplex<2>>& triangles() { return result_.mesh.elements; }
-  vec3 point(local_id v) { return points()[static_cast<std::size_t>(v)]; }
+  vec3 point(local_id v) { return points()[v]; }
   std::array<vec3, 3> corners(std::size_t t) {
     const auto& v = triangles()[t];
     return {point(v[0]), point(v[1]), point(v[2])};
@@ -220,9 +220,9 @@ private:
         if (touched[t] || norm(cross(b - a, c - a)) > flat * lengths[longest])
           continue;
         const local_id across = sides.across(sides.of_element[t][longest], static_cast<local_id>(t));
-        if (across == no_id || touched[static_cast<std::size_t>(across)] || !flip(t, longest, across))
+        if (across == no_id || touched[across] || !flip(t, longest, across))
           continue;
-        touched[t] = touched[static_cast<std::size_t>(across)] = 1;
+        touched[t] = touched[across] = 1;
         ++flips;
       }
       counts_.flipped_caps += flips;
@@ -235,7 +235,7 @@ private:
   /// already.
   bool flip(std::size_t t, std::size_t i, local_id across) {
     auto& first = triangles()[t];
-    auto& second = triangles()[static_cast<std::size_t>(across)];
+    auto& second = triangles()[across];
     const local_id apex = first[i];
     const local_id from = first[(i + 1) % 3];
     const local_id to = first[(i + 2) % 3];
@@ -243,7 +243,7 @@ private:
     while (second[j] == from || second[j] == to)
       ++j;
     const local_id other = second[j];
-    if (other == apex || result_.groups[t] != result_.groups[static_cast<std::size_t>(across)] ||
+    if (other == apex || result_.groups[t] != result_.groups[across] ||
         distance(point(apex), point(other)) == 0)
       return false;
     const bool turned = second[(j + 1) % 3] == from; // the neighbour is oriented the other way
@@ -268,12 +268,12 @@ private:
     result_.solids = nesting.solids;
     result_.solid_of.assign(triangles().size(), no_id);
     for (std::size_t t = 0; t < triangles().size(); ++t) {
-      const local_id shell = number[static_cast<std::size_t>(shells_.shell_of[t])];
+      const local_id shell = number[shells_.shell_of[t]];
       if (shell == no_id)
         continue;
-      if (nesting.is_inside_out[static_cast<std::size_t>(shell)])
+      if (nesting.is_inside_out[shell])
         std::swap(triangles()[t][1], triangles()[t][2]);
-      result_.solid_of[t] = nesting.solid_of[static_cast<std::size_t>(shell)];
+      result_.solid_of[t] = nesting.solid_of[shell];
     }
     counts_.shells = closed.size();
     counts_.sheets = shells_.is_sheet.size() - closed.size();

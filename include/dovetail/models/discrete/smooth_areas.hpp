@@ -167,11 +167,10 @@ private:
     std::vector<box3> extent(measures_.point_count());
     for (const auto& both : ends)
       for (const local_id v : both)
-        extent[static_cast<std::size_t>(creases.find(v))].include(measures_.point(v));
+        extent[creases.find(v)].include(measures_.point(v));
     std::size_t kept = 0;
     for (std::size_t e = 0; e < edges.size(); ++e)
-      if (extent[static_cast<std::size_t>(creases.find(ends[e][0]))].diagonal() >=
-          short_crease * measures_.diagonal())
+      if (extent[creases.find(ends[e][0])].diagonal() >= short_crease * measures_.diagonal())
         edges[kept++] = edges[e];
     edges.resize(kept);
     return edges;
@@ -187,22 +186,21 @@ private:
     for (const auto& [a, b] : creases) {
       apart[a].push_back(id(b));
       apart[b].push_back(id(a));
-      is_cut[static_cast<std::size_t>(areas[a])] = 1;
+      is_cut[areas[a]] = 1;
     }
     std::vector<std::pair<double, edge>> joints;
     for (std::size_t t = 0; t < areas.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i)
         if (const std::size_t next = across(t, i); next != nowhere && t < next && areas[t] == areas[next] &&
-                                                   group_of_[t] == group_of_[next] &&
-                                                   is_cut[static_cast<std::size_t>(areas[t])])
+                                                   group_of_[t] == group_of_[next] && is_cut[areas[t]])
           if (const double angle = turn(t, next); angle <= feature_angle_)
             joints.push_back({angle, {t, next}});
     sort_all(joints);
     disjoint_sets sets(areas.size());
     for (const auto& [angle, sides] : joints) {
       const local_id a = sets.find(id(sides.first)), b = sets.find(id(sides.second));
-      auto* few = &apart[static_cast<std::size_t>(a)];
-      auto* many = &apart[static_cast<std::size_t>(b)];
+      auto* few = &apart[a];
+      auto* many = &apart[b];
       const bool swapped = many->size() < few->size();
       if (swapped)
         std::swap(few, many);
@@ -212,14 +210,13 @@ private:
       sets.unite(a, b);
       many->insert(many->end(), few->begin(), few->end());
       few->clear();
-      if (auto& of_both = apart[static_cast<std::size_t>(sets.find(a))]; &of_both != many)
+      if (auto& of_both = apart[sets.find(a)]; &of_both != many)
         std::swap(of_both, *many);
     }
     return clusters(neighbours_, [&](std::size_t t, std::size_t next) {
       if (areas[t] != areas[next] || group_of_[t] != group_of_[next])
         return false;
-      return is_cut[static_cast<std::size_t>(areas[t])] ? sets.find(id(t)) == sets.find(id(next))
-                                                        : turn(t, next) <= feature_angle_;
+      return is_cut[areas[t]] ? sets.find(id(t)) == sets.find(id(next)) : turn(t, next) <= feature_angle_;
     });
   }
 

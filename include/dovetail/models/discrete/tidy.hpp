@@ -45,7 +45,6 @@ private:
   static constexpr double steepest =
       0.2; ///< cosine of the angle to the chart's normal that a moved triangle keeps
 
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
   std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
   vec3 point(local_id v) const { return measures_.point(v); }
 
@@ -54,10 +53,10 @@ private:
     removed_.assign(triangles().size(), 0);
     chart_size_.assign(s_.frames.size(), 0);
     for (const local_id c : s_.chart_of)
-      ++chart_size_[index(c)];
+      ++chart_size_[c];
     for (std::size_t t = 0; t < triangles().size(); ++t)
       for (const local_id v : triangles()[t])
-        at_[index(v)].push_back(t);
+        at_[v].push_back(t);
   }
 
   /// Marks the vertices where a sheet ends or several meet; they stay where they are.
@@ -67,7 +66,7 @@ private:
     for (std::size_t side = 0; side < sides.size(); ++side)
       if (!sides.is_interior(static_cast<local_id>(side)))
         for (const local_id v : sides.vertices[side])
-          on_rim_[index(v)] = 1;
+          on_rim_[v] = 1;
   }
 
   static std::size_t distinct(std::vector<local_id> ids) {
@@ -76,24 +75,24 @@ private:
   }
   std::size_t count_around(local_id v, const std::vector<local_id>& tags) const {
     std::vector<local_id> ids;
-    for (const std::size_t t : at_[index(v)])
+    for (const std::size_t t : at_[v])
       ids.push_back(tags[t]);
     return distinct(ids);
   }
-  bool on_rim(local_id v) const { return on_rim_[index(v)] != 0; }
+  bool on_rim(local_id v) const { return on_rim_[v] != 0; }
   bool is_junction(local_id v) const { return count_around(v, s_.chart_of) + (on_rim(v) ? 1 : 0) > 2; }
   bool on_feature(local_id v) const { return on_rim(v) || count_around(v, s_.smooth_of) > 1; }
 
   std::vector<std::size_t> triangles_at_edge(local_id a, local_id b) const {
     std::vector<std::size_t> found;
-    for (const std::size_t t : at_[index(a)])
+    for (const std::size_t t : at_[a])
       if (std::find(s_.mesh.elements[t].begin(), s_.mesh.elements[t].end(), b) != s_.mesh.elements[t].end())
         found.push_back(t);
     return found;
   }
   std::vector<local_id> neighbours(local_id v) const {
     std::vector<local_id> found;
-    for (const std::size_t t : at_[index(v)])
+    for (const std::size_t t : at_[v])
       for (const local_id w : s_.mesh.elements[t])
         if (w != v)
           found.push_back(w);
@@ -161,9 +160,9 @@ private:
     if (pair.size() != 2 || common.size() != 2)
       return false;
     for (const std::size_t t : pair) // no chart may vanish
-      if (chart_size_[index(s_.chart_of[t])] <= 2)
+      if (chart_size_[s_.chart_of[t]] <= 2)
         return false;
-    for (const std::size_t t : at_[index(gone)]) {
+    for (const std::size_t t : at_[gone]) {
       if (t == pair[0] || t == pair[1])
         continue;
       std::array<vec3, 3> moved;
@@ -171,21 +170,21 @@ private:
         moved[i] = point(triangles()[t][i] == gone ? kept : triangles()[t][i]);
       const vec3 after = normalized(cross(moved[1] - moved[0], moved[2] - moved[0]));
       const bool turned = !measures_.is_sliver(t) && dot(after, normalized(measures_.area_vector(t))) < 0.5;
-      if (turned || dot(after, s_.frames[index(s_.chart_of[t])].n) < steepest)
+      if (turned || dot(after, s_.frames[s_.chart_of[t]].n) < steepest)
         return false;
     }
-    for (const std::size_t t : at_[index(gone)]) {
+    for (const std::size_t t : at_[gone]) {
       if (t == pair[0] || t == pair[1])
         continue;
       std::replace(triangles()[t].begin(), triangles()[t].end(), gone, kept);
-      at_[index(kept)].push_back(t);
+      at_[kept].push_back(t);
     }
-    at_[index(gone)].clear();
+    at_[gone].clear();
     for (const std::size_t t : pair) {
       removed_[t] = 1;
-      --chart_size_[index(s_.chart_of[t])];
+      --chart_size_[s_.chart_of[t]];
       for (const local_id v : triangles()[t])
-        std::erase(at_[index(v)], t);
+        std::erase(at_[v], t);
     }
     ++collapsed_;
     return true;
@@ -222,7 +221,7 @@ inline bool charts_can_be_projected(const charted_surface& s) {
   const auto neighbours = element_neighbours(build_sides<2>(s.mesh));
   std::vector<std::vector<std::size_t>> members(s.frames.size());
   for (std::size_t t = 0; t < s.chart_of.size(); ++t)
-    members[static_cast<std::size_t>(s.chart_of[t])].push_back(t);
+    members[s.chart_of[t]].push_back(t);
   for (std::size_t c = 0; c < members.size(); ++c) {
     if (members[c].empty() || !measures.within_cone(members[c], s.frames[c].n, 0.05))
       return false;
@@ -321,12 +320,12 @@ private:
     return false;
   }
   void move(std::size_t t, local_id from, local_id to) {
-    std::erase(members_[static_cast<std::size_t>(from)], t);
-    members_[static_cast<std::size_t>(to)].push_back(t);
+    std::erase(members_[from], t);
+    members_[to].push_back(t);
     s_.chart_of[t] = to;
   }
   bool is_plane_domain(local_id c) const {
-    const auto& cluster = members_[static_cast<std::size_t>(c)];
+    const auto& cluster = members_[c];
     const auto loops = boundary_loops(s_.mesh.elements, s_.chart_of, cluster,
                                       [&](std::size_t t, std::size_t i) { return across(t, i); });
     return loops_are_simple(loops, s_.mesh.points, measures_.frame_of(cluster));

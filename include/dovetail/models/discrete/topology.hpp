@@ -42,11 +42,11 @@ public:
     find_breaks();
     for (std::size_t e = 0; e < edges_.size(); ++e) // open curves first: they start at breaks
       for (std::size_t end = 0; end < 2; ++end)
-        if (curve_of_[e] == no_id && breaks_[index(edges_[e].ends[end])])
+        if (curve_of_[e] == no_id && breaks_[edges_[e].ends[end]])
           trace(e, end);
     for (std::size_t e = 0; e < edges_.size(); ++e)
       if (curve_of_[e] == no_id) {
-        breaks_[index(edges_[e].ends[0])] = 1; // a closed curve needs one vertex
+        breaks_[edges_[e].ends[0]] = 1; // a closed curve needs one vertex
         trace(e, 0);
       }
     add_faces();
@@ -62,9 +62,8 @@ private:
     bool feature;
   };
 
-  static std::size_t index(local_id id) { return static_cast<std::size_t>(id); }
-  vec3 point(local_id v) const { return s_.mesh.points[index(v)]; }
-  std::size_t across(std::size_t t, std::size_t i) const { return index(neighbours_[t][i]); }
+  vec3 point(local_id v) const { return s_.mesh.points[v]; }
+  std::size_t across(std::size_t t, std::size_t i) const { return neighbours_[t][i]; }
   local_id solid_count() const {
     return 1 + std::max(*std::max_element(s_.solid_of.begin(), s_.solid_of.end()),
                         *std::max_element(s_.front_of.begin(), s_.front_of.end()));
@@ -136,20 +135,20 @@ private:
         const double sharp = edges_[a].feature ? corner_angle_ : 2 * corner_angle_;
         ends = edges_[a].charts != edges_[b].charts || edges_[a].feature != edges_[b].feature || turn > sharp;
       }
-      breaks_[index(v)] = ends ? 1 : 0;
+      breaks_[v] = ends ? 1 : 0;
     }
     for (const local_id v : s_.corners)
-      breaks_[index(v)] = 1;
+      breaks_[v] = 1;
   }
 
   local_id model_vertex(local_id v) {
     if (vertex_of_.empty())
       vertex_of_.assign(s_.mesh.points.size(), no_id);
-    if (vertex_of_[index(v)] == no_id) {
-      vertex_of_[index(v)] = static_cast<local_id>(out_.topology.vertices.size());
+    if (vertex_of_[v] == no_id) {
+      vertex_of_[v] = static_cast<local_id>(out_.topology.vertices.size());
       out_.topology.vertices.push_back({point(v), 0});
     }
-    return vertex_of_[index(v)];
+    return vertex_of_[v];
   }
 
   void trace(std::size_t e, std::size_t end) {
@@ -165,7 +164,7 @@ private:
       curve.lengths.push_back(curve.lengths.back() + distance(point(at), point(next)));
       curve.vertices.push_back(next);
       at = next;
-      if (breaks_[index(at)])
+      if (breaks_[at])
         break;
       const auto [first, last] = edges_at(at);
       const std::size_t a = at_vertex_[first].second;
@@ -190,12 +189,12 @@ private:
   void add_faces() {
     std::vector<std::vector<std::size_t>> members(s_.frames.size());
     for (std::size_t t = 0; t < s_.chart_of.size(); ++t)
-      members[index(s_.chart_of[t])].push_back(t);
+      members[s_.chart_of[t]].push_back(t);
     for (const auto& chart : members) {
       geometry_topology::face face;
       face.solids = {s_.solid_of[chart.front()], s_.front_of[chart.front()]};
       const local_id group = s_.group_of[chart.front()];
-      face.group = group == no_id ? "" : group_names_[index(group)];
+      face.group = group == no_id ? "" : group_names_[group];
       face.name = "surface " + std::to_string(s_.smooth_of[chart.front()]);
       for (const auto& loop : boundary_loops(s_.mesh.elements, s_.chart_of, chart,
                                              [&](std::size_t t, std::size_t i) { return across(t, i); }))
@@ -209,15 +208,15 @@ private:
   /// Runs of edges on one curve, begun at a vertex of the model.
   std::vector<geometry_topology::coedge> coedges_of(const std::vector<boundary_edge>& loop) const {
     std::size_t start = 0;
-    while (start + 1 < loop.size() && !breaks_[index(loop[start].from)])
+    while (start + 1 < loop.size() && !breaks_[loop[start].from])
       ++start;
     std::vector<geometry_topology::coedge> coedges;
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const boundary_edge& e = loop[(start + k) % loop.size()];
-      if (k > 0 && !breaks_[index(e.from)])
+      if (k > 0 && !breaks_[e.from])
         continue;
       const local_id id = curve_of_[edge_between(e.from, e.to)];
-      const auto& vertices = out_.curves[index(id)].vertices;
+      const auto& vertices = out_.curves[id].vertices;
       const bool forward = vertices.front() == e.from && vertices[1] == e.to;
       coedges.push_back({id, !forward});
     }

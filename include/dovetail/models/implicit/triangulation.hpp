@@ -30,8 +30,7 @@ public:
     const vec3 extent = bounds.upper - bounds.lower;
     width_ = std::max({extent.x, extent.y, extent.z}) / cells_along_longest_side;
     for (int k = 0; k < 3; ++k)
-      cells_[static_cast<std::size_t>(k)] =
-          std::max(1, static_cast<int>(std::ceil(extent[k] / width_ - 1e-9)));
+      cells_[k] = std::max(1, static_cast<int>(std::ceil(extent[k] / width_ - 1e-9)));
   }
 
   double cell_width() const { return width_; } ///< of a cell of the grid
@@ -59,7 +58,7 @@ private:
     return lower_ +
            width_ * vec3{static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
   }
-  double value(const node& n) const { return values_[static_cast<std::size_t>(number(n))]; }
+  double value(const node& n) const { return values_[number(n)]; }
   bool is_on_border(const node& n) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (n[k] == 0 || n[k] == cells_[k])
@@ -83,7 +82,7 @@ private:
             throw geometry_error("the implicit body reaches the border of its box at " + text(point(n)) +
                                  "; give a larger box, or intersect the body with one");
           any_inside = any_inside || v < 0;
-          values_[static_cast<std::size_t>(number(n))] = v;
+          values_[number(n)] = v;
         }
     if (!any_inside)
       throw geometry_error("the implicit function is negative at no point of a grid of cells of width " +
@@ -127,7 +126,7 @@ private:
 
   /// Appends a triangle whose normal points from the inside to the outside.
   void add_triangle(simplex<2> t, const node& inside, const node& outside) {
-    const auto at = [&](std::size_t i) { return soup_.points[static_cast<std::size_t>(t[i])]; };
+    const auto at = [&](std::size_t i) { return soup_.points[t[i]]; };
     if (dot(cross(at(1) - at(0), at(2) - at(0)), point(outside) - point(inside)) < 0)
       std::swap(t[1], t[2]);
     soup_.triangles.push_back(t);
@@ -157,8 +156,8 @@ private:
       std::vector<double> counts(points.size(), 0);
       for (const auto& t : soup_.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-          sums[static_cast<std::size_t>(t[k])] += points[static_cast<std::size_t>(t[(k + 1) % 3])];
-          counts[static_cast<std::size_t>(t[k])] += 1;
+          sums[t[k]] += points[t[(k + 1) % 3]];
+          counts[t[k]] += 1;
         }
       std::vector<vec3> moved(points.size());
       for (std::size_t v = 0; v < points.size(); ++v) {

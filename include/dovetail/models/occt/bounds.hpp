@@ -95,7 +95,7 @@ inline box3 bounds_of(const brep& data) {
         const vec3 p = surface.point(uv);
         for (int axis = 0; axis < 3; ++axis) {
           if (p[axis] < reached.lower[axis])
-            reached.lower[axis] = p[axis], seeds[static_cast<std::size_t>(axis)] = uv;
+            reached.lower[axis] = p[axis], seeds[axis] = uv;
           if (p[axis] > reached.upper[axis])
             reached.upper[axis] = p[axis], seeds[static_cast<std::size_t>(axis) + 3] = uv;
         }

@@ -169,7 +169,7 @@ inline brep healed_brep(attributed_shape input, report& made, wanted what = want
     try_repair(input, data, made, what, "fixing single faces", [&](auto& shape) {
       std::vector<TopoDS_Face> faces;
       for (const local_id f : data.crossing)
-        faces.push_back(data.faces[static_cast<std::size_t>(f)]);
+        faces.push_back(data.faces[f]);
       fix_faces(shape, faces);
     });
   imprint_touching_bodies(input, data, made);

@@ -68,16 +68,16 @@ private:
     std::vector<local_id> root(topology.vertices.size());
     std::iota(root.begin(), root.end(), 0);
     const auto find = [&](local_id v) {
-      while (root[static_cast<std::size_t>(v)] != v)
-        v = root[static_cast<std::size_t>(v)];
+      while (root[v] != v)
+        v = root[v];
       return v;
     };
     for (std::size_t c = 0; c < short_.size(); ++c) {
       if (!short_[c])
         continue;
       const local_id a = find(topology.curves[c].vertices[0]), b = find(topology.curves[c].vertices[1]);
-      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-      auto& kept = topology.vertices[static_cast<std::size_t>(std::min(a, b))];
+      root[std::max(a, b)] = std::min(a, b);
+      auto& kept = topology.vertices[std::min(a, b)];
       kept.tolerance = std::max(kept.tolerance, length_);
       topology.curves[c].degenerate = true;
     }
@@ -101,15 +101,14 @@ private:
       std::vector<geometry_topology::coedge> kept;
       std::vector<coedge_curve> kept_curves;
       const bool is_point = std::all_of(loop.begin(), loop.end(), [&](const auto& coedge) {
-        return short_[static_cast<std::size_t>(coedge.curve)] ||
-               data_.topology.curves[static_cast<std::size_t>(coedge.curve)].degenerate;
+        return short_[coedge.curve] || data_.topology.curves[coedge.curve].degenerate;
       });
       for (const auto& coedge : loop) {
         const coedge_curve& curve = data_.coedges[f][k++];
         const vec2 extent = curve.end(surface) - curve.start(surface);
         const bool spans = std::abs(extent.x) > no_extent * (box[0][1] - box[0][0]) ||
                            std::abs(extent.y) > no_extent * (box[1][1] - box[1][0]);
-        const bool drop = is_point || (short_[static_cast<std::size_t>(coedge.curve)] && !spans);
+        const bool drop = is_point || (short_[coedge.curve] && !spans);
         changed = changed || drop;
         if (drop)
           continue;
@@ -156,7 +155,7 @@ private:
     std::vector<bool> used(data_.edges.size(), false);
     for (const auto& face : data_.topology.faces)
       for (const auto& coedge : face.coedges)
-        used[static_cast<std::size_t>(coedge.curve)] = true;
+        used[coedge.curve] = true;
     std::vector<std::size_t> number(used.size(), none);
     std::size_t kept = 0;
     for (std::size_t c = 0; c < used.size(); ++c) {
@@ -172,7 +171,7 @@ private:
     data_.edges.resize(kept);
     data_.curves.resize(kept);
     const auto renumber = [&](geometry_topology::coedge& coedge) {
-      coedge.curve = static_cast<local_id>(number[static_cast<std::size_t>(coedge.curve)]);
+      coedge.curve = static_cast<local_id>(number[coedge.curve]);
     };
     for (auto& face : data_.topology.faces) {
       std::for_each(face.coedges.begin(), face.coedges.end(), renumber);
@@ -186,7 +185,7 @@ private:
     std::vector<bool> used(topology.vertices.size(), false);
     for (const auto& curve : topology.curves)
       for (const local_id v : curve.vertices)
-        used[static_cast<std::size_t>(v)] = true;
+        used[v] = true;
     std::vector<local_id> number(used.size(), no_id);
     std::size_t kept = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
@@ -198,9 +197,9 @@ private:
     topology.vertices.resize(kept);
     for (auto& curve : topology.curves)
       for (local_id& v : curve.vertices)
-        v = number[static_cast<std::size_t>(v)];
+        v = number[v];
     for (auto& [edge, v] : data_.collapsed)
-      v = number[static_cast<std::size_t>(v)];
+      v = number[v];
   }
 
   brep& data_;

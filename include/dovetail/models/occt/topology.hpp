@@ -19,7 +19,7 @@ namespace dovetail::occt {
 
 /// A face's number and name, for messages.
 inline std::string face_text(const brep& data, local_id f) {
-  const auto& name = data.topology.faces[static_cast<std::size_t>(f)].name;
+  const auto& name = data.topology.faces[f].name;
   return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
 }
 
@@ -53,9 +53,9 @@ public:
 private:
   std::string face_text(local_id f) const { return occt::face_text(result_, f); }
   std::string curve_text(local_id c) const {
-    const auto& curve = result_.topology.curves[static_cast<std::size_t>(c)];
-    const vec3 a = result_.topology.vertices[static_cast<std::size_t>(curve.vertices[0])].point;
-    const vec3 b = result_.topology.vertices[static_cast<std::size_t>(curve.vertices[1])].point;
+    const auto& curve = result_.topology.curves[c];
+    const vec3 a = result_.topology.vertices[curve.vertices[0]].point;
+    const vec3 b = result_.topology.vertices[curve.vertices[1]].point;
     return "edge " + std::to_string(c) + " from " + to_text(a) + " to " + to_text(b);
   }
 
@@ -88,7 +88,7 @@ private:
       result_.faces.push_back(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));
       return;
     }
-    auto& item = result_.topology.faces[static_cast<std::size_t>(known - 1)];
+    auto& item = result_.topology.faces[known - 1];
     if (item.reversed == reversed || item.solids[1] != no_id)
       result_.faults.push_back(face_text(known - 1) + " is used by several solids on the same side");
     else
@@ -198,9 +198,9 @@ private:
     for (std::size_t f = 0; f < result_.faces.size(); ++f) {
       for (std::size_t k = 0; k < result_.coedges[f].size(); ++k) {
         const local_id c = result_.topology.faces[f].coedges[k].curve;
-        auto& item = result_.topology.curves[static_cast<std::size_t>(c)];
+        auto& item = result_.topology.curves[c];
         const double deviation = result_.coedges[f][k].deviation(result_.surfaces[f]);
-        measured_[static_cast<std::size_t>(c)] = std::max(measured_[static_cast<std::size_t>(c)], deviation);
+        measured_[c] = std::max(measured_[c], deviation);
         item.tolerance = std::max(item.tolerance, deviation);
         if (deviation > largest_deviation * size_)
           result_.faults.push_back(face_text(static_cast<local_id>(f)) + " is " + to_text(deviation) +

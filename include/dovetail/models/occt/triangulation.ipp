@@ -49,7 +49,7 @@ private:
   void add_face(local_id f, const TopoDS_Face& face, const std::vector<TopoDS_Edge>& edges) {
     TopLoc_Location location;
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
-    const auto& item = model_.topology().faces[static_cast<std::size_t>(f)];
+    const auto& item = model_.topology().faces[f];
     const std::string text = "face " + std::to_string(f) + (item.name.empty() ? "" : " (" + item.name + ")");
     if (mesh.IsNull() || mesh->NbTriangles() == 0 || !mesh->HasUVNodes())
       throw geometry_error(text + " cannot be triangulated; repair it in the CAD system");
@@ -74,8 +74,8 @@ private:
 
   /// Gives the triangulation nodes along a curve the ids of the curve's points, made when first seen.
   void name_curve_nodes(local_id c, const Poly_PolygonOnTriangulation& polygon, std::vector<local_id>& ids) {
-    const auto& curve = model_.topology().curves[static_cast<std::size_t>(c)];
-    std::vector<local_id>& points = curve_points_[static_cast<std::size_t>(c)];
+    const auto& curve = model_.topology().curves[c];
+    std::vector<local_id>& points = curve_points_[c];
     const int count = polygon.NbNodes();
     if (points.empty()) {
       points.assign(static_cast<std::size_t>(count), curve.vertices[0]);
@@ -93,8 +93,7 @@ private:
     if (points.size() != static_cast<std::size_t>(count) && !curve.degenerate)
       throw geometry_error("edge " + std::to_string(c) + " was triangulated differently on its two faces");
     for (int i = 0; i < count; ++i)
-      ids[static_cast<std::size_t>(polygon.Node(i + 1) - 1)] =
-          curve.degenerate ? curve.vertices[0] : points[static_cast<std::size_t>(i)];
+      ids[polygon.Node(i + 1) - 1] = curve.degenerate ? curve.vertices[0] : points[i];
   }
 
   void name_collapsed_nodes(const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location,
@@ -104,13 +103,13 @@ private:
         const Handle(Poly_PolygonOnTriangulation) polygon =
             BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Oriented(side)), mesh, location);
         for (int i = 1; !polygon.IsNull() && i <= polygon->NbNodes(); ++i)
-          ids[static_cast<std::size_t>(polygon->Node(i) - 1)] = vertex;
+          ids[polygon->Node(i) - 1] = vertex;
       }
     }
   }
 
   void add_triangles(local_id f, const Poly_Triangulation& mesh, const std::vector<local_id>& ids) {
-    const bool reversed = model_.topology().faces[static_cast<std::size_t>(f)].reversed;
+    const bool reversed = model_.topology().faces[f].reversed;
     for (int i = 1; i <= mesh.NbTriangles(); ++i) {
       std::array<int, 3> node{};
       mesh.Triangle(i).Get(node[0], node[1], node[2]);
@@ -119,7 +118,7 @@ private:
       simplex<2> triangle{};
       std::array<vec2, 3> uv{};
       for (std::size_t k = 0; k < 3; ++k) {
-        triangle[k] = ids[static_cast<std::size_t>(node[k] - 1)];
+        triangle[k] = ids[node[k] - 1];
         uv[k] = {mesh.UVNode(node[k]).X(), mesh.UVNode(node[k]).Y()};
       }
       if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])

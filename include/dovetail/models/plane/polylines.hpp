@@ -155,7 +155,7 @@ inline geometry_topology make_plane_topology(const plane_drawing& drawing, const
     topology.faces.emplace_back().name = drawing.polygons[p].name;
   }
   const auto add_loop = [&](local_id face, std::vector<coedge> loop) {
-    auto& at = topology.faces[static_cast<std::size_t>(face)];
+    auto& at = topology.faces[face];
     at.coedges.insert(at.coedges.end(), loop.begin(), loop.end());
     at.loops.push_back(std::move(loop));
   };

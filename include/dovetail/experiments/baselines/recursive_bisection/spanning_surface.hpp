@@ -42,13 +42,13 @@ inline void relax_heights(std::vector<double>& heights, std::size_t fixed,
   std::vector<std::vector<local_id>> neighbours(heights.size());
   for (const auto& triangle : triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      neighbours[static_cast<std::size_t>(triangle[k])].push_back(triangle[(k + 1) % 3]);
+      neighbours[triangle[k]].push_back(triangle[(k + 1) % 3]);
   constexpr int sweeps = 100; // what loops do at their wave length dies out within a few edges
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::size_t v = fixed; v < heights.size(); ++v) {
       double sum = 0;
       for (const local_id w : neighbours[v])
-        sum += heights[static_cast<std::size_t>(w)];
+        sum += heights[w];
       if (!neighbours[v].empty())
         heights[v] = sum / static_cast<double>(neighbours[v].size());
     }
@@ -83,7 +83,7 @@ inline std::optional<spanning_surface> span_loops(const simplicial_mesh<2>& surf
   patch_boundary& boundary = region.boundary;
   std::vector<double> heights;
   for (const local_id v : on_loops) {
-    const vec3 p = surface.points[static_cast<std::size_t>(v)];
+    const vec3 p = surface.points[v];
     const vec2 uv = flat.project(p);
     boundary.labels.push_back(static_cast<local_id>(boundary.labels.size()));
     boundary.uv.push_back(uv);
@@ -112,7 +112,7 @@ inline std::optional<spanning_surface> span_loops(const simplicial_mesh<2>& surf
   for (simplex<2> triangle : made.triangles) {
     for (local_id& v : triangle)
       v = static_cast<std::size_t>(v) < fixed
-              ? on_loops[static_cast<std::size_t>(v)]
+              ? on_loops[v]
               : static_cast<local_id>(surface.points.size()) + v - static_cast<local_id>(fixed);
     result.triangles.push_back(triangle);
   }
@@ -132,7 +132,7 @@ inline double least_dihedral_at_loops(const simplicial_mesh<2>& surface, const s
     return i < surface.points.size() ? surface.points[i] : spanning.inner_points[i - surface.points.size()];
   };
   const auto apex_of = [&](local_id triangle, const std::array<local_id, 2>& edge) {
-    for (const local_id v : surface.elements[static_cast<std::size_t>(triangle)])
+    for (const local_id v : surface.elements[triangle])
       if (v != edge[0] && v != edge[1])
         return v;
     return no_id;

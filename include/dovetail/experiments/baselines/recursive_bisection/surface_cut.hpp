@@ -36,7 +36,7 @@ struct surface_cut {
 inline vec3 centre_of_triangle(const simplicial_mesh<2>& mesh, std::size_t t) {
   vec3 sum{};
   for (const local_id v : mesh.elements[t])
-    sum += mesh.points[static_cast<std::size_t>(v)];
+    sum += mesh.points[v];
   return sum / 3.0;
 }
 
@@ -52,7 +52,7 @@ inline void smooth_loops(const side_table<2>& table, std::vector<std::uint8_t>& 
     int others = 0;
     for (const local_id side : table.of_element[t])
       if (const local_id next = table.across(side, queue[k]); next != no_id)
-        others += above[static_cast<std::size_t>(next)] != above[t] ? 1 : 0;
+        others += above[next] != above[t] ? 1 : 0;
     if (others < 2)
       continue;
     above[t] = above[t] == 0 ? 1 : 0;
@@ -67,10 +67,9 @@ inline void find_loops(const simplicial_mesh<2>& surface, const side_table<2>& t
   cut.beside.clear();
   for (std::size_t s = 0; s < table.size(); ++s) {
     auto [below, above] = table.elements[s];
-    if (!table.is_interior(static_cast<local_id>(s)) ||
-        cut.above[static_cast<std::size_t>(below)] == cut.above[static_cast<std::size_t>(above)])
+    if (!table.is_interior(static_cast<local_id>(s)) || cut.above[below] == cut.above[above])
       continue;
-    if (cut.above[static_cast<std::size_t>(below)] != 0)
+    if (cut.above[below] != 0)
       std::swap(below, above);
     cut.loops.push_back(side_of_element(surface, table, static_cast<local_id>(s), above));
     cut.beside.push_back({below, above});
