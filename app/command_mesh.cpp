@@ -22,6 +22,7 @@
 #include "dovetail/parallel/available_processors.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
+#include "dovetail/pipeline/intersection_counts.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
 #include "dovetail/solver/second_order.hpp"
 
@@ -92,7 +93,8 @@ interface_figures figures_of(const interface_angles& angles, const geometry_topo
   figures.remeshing = count(violation_cause::remeshing);
   constexpr std::array<const char*, 3> causes{"forced", "refused", "remeshing"};
   for (const angle_violation& v : angles.violations) {
-    figures.below.push_back({v.angle_deg, v.is_dihedral(), causes[v.cause], v.place, {}});
+    figures.below.push_back(
+        {v.angle_deg, v.is_dihedral(), causes[static_cast<std::size_t>(v.cause)], v.place, {}});
     for (const host& entity : v.cad)
       figures.below.back().cad.push_back(name_of(entity, topology));
   }
@@ -408,8 +410,8 @@ private:
     figures_.quality = finished.quality;
     figures_.poor = finished.poor;
     warn_of_thin_walls();
-    figures_.peak_rss_bytes =
-        std::max(figures_.peak_rss_bytes, finished.summary.as<io::finishing_counts>().peak_rss_bytes);
+    figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes,
+                                       finished.summary.template as<io::finishing_counts>().peak_rss_bytes);
     figures_.details.children.push_back(finished.summary);
     std::vector<std::string> names;
     for (const report& part : figures_.details.children)

@@ -1,6 +1,8 @@
 #include "run_figures.hpp"
 #include "terminal_progress.hpp"
 
+#include "dovetail/remesh/surface_deviation.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>

@@ -243,8 +243,8 @@ view_scene scene_of_triangles(io::loaded_mesh loaded) {
 void add_spread(std::vector<local_id>& to, std::span<const local_id> from, std::size_t count) {
   count = std::min(count, from.size());
   for (std::size_t k = 0; k < count; ++k)
-    to.push_back(
-        from[static_cast<double>(k) * static_cast<double>(from.size()) / static_cast<double>(count)]);
+    to.push_back(from[static_cast<std::size_t>(static_cast<double>(k) * static_cast<double>(from.size()) /
+                                               static_cast<double>(count))]);
 }
 
 std::vector<local_id> elements_that_fit(const view_scene& scene, std::size_t room) {

@@ -1,6 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/parallel/common_arrays.hpp"
 #include "dovetail/parallel/common_memory.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -12,9 +13,11 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <numeric>
 #include <string>
+#include <vector>
 
 using namespace dovetail;
 namespace fs = std::filesystem;
@@ -104,6 +107,23 @@ TEST_CASE("Ranks that do not see each other's spools have one each") {
     check_numbers(filled(parallel::ranks(mine), store));
     CHECK_FALSE(fs::exists(place_of_file(store)));
   });
+}
+
+TEST_CASE("Arrays of several types are filled by ranges") {
+  constexpr std::size_t parts = 5, characters = 3; // of a part: an array ends where no double may begin
+  for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{2})}) {
+    common_arrays<char, double> arrays(run, entity_store{}, "arrays", {parts * characters, parts});
+    arrays.fill(parts,
+                [&](std::size_t i) {
+                  arrays.write<0>(i * characters, std::vector<char>(characters, static_cast<char>('a' + i)));
+                  arrays.write<1>(i, {0.5 * static_cast<double>(i)});
+                },
+                {});
+    const auto [letters, halves] = arrays.close();
+    CHECK(std::string(letters.begin(), letters.end()) == "aaabbbcccdddeee");
+    CHECK(std::vector<double>(halves.begin(), halves.end()) == std::vector<double>{0, 0.5, 1, 1.5, 2});
+    CHECK(reinterpret_cast<std::uintptr_t>(halves.data()) % alignof(double) == 0);
+  }
 }
 
 TEST_CASE("A task that fails is told by its stage") {

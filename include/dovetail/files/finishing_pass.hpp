@@ -29,8 +29,8 @@ struct finishing_options {
 /// What is counted of the pass.
 struct finishing_counts {
   std::size_t tasks = 0;
-  std::size_t taken_over = 0; ///< of these, from a run before
-  double peak_rss_bytes = 0;  ///< of the largest worker
+  std::size_t taken_over = 0;       ///< of these, from a run before
+  std::uint64_t peak_rss_bytes = 0; ///< of the largest worker
 
   using fields =
       field_list<&finishing_counts::tasks, &finishing_counts::taken_over, &finishing_counts::peak_rss_bytes>;

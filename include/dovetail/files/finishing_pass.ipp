@@ -267,7 +267,7 @@ private:
       if (result.value->no_mesh)
         throw mesh_error(*result.value->no_mesh);
       done.push_back(std::move(result.value->done));
-      peak_rss_bytes_ = std::max(peak_rss_bytes_, static_cast<double>(result.peak_rss_bytes));
+      peak_rss_bytes_ = std::max(peak_rss_bytes_, result.peak_rss_bytes);
     }
     return done;
   }
@@ -329,7 +329,7 @@ private:
   std::vector<const output_task<void>*> others_;
   std::vector<const output_task<byte_buffer>*> counts_; ///< of all outputs
   local_id most_loaded_ = 0;                            ///< pieces by one of the others
-  double peak_rss_bytes_ = 0;                           ///< of the workers so far
+  std::uint64_t peak_rss_bytes_ = 0;                    ///< of the workers so far
 };
 
 } // namespace detail

@@ -25,7 +25,7 @@ DOVETAIL_INLINE std::string_view name_of(seam_fault kind) {
   constexpr std::array<std::string_view, 5> names{
       "moved skeleton point", "repeated skeleton point", "missing skeleton side",
       "boundary side that is not in the skeleton", "wrong material"};
-  return names[kind];
+  return names[static_cast<std::size_t>(kind)];
 }
 
 DOVETAIL_INLINE void subdomain_faults::add(seam_fault kind, local_id entity) {

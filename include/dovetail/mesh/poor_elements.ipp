@@ -24,7 +24,7 @@ namespace dovetail {
 DOVETAIL_INLINE std::string_view name_of(poor_cause cause) {
   constexpr std::array<std::string_view, poor_causes> names{
       "angle of the model", "interface angle", "boundary triangle", "thin wall", "thin piece", "inside"};
-  return names[cause];
+  return names[static_cast<std::size_t>(cause)];
 }
 
 DOVETAIL_INLINE void poor_elements::merge(const poor_elements& other) {

@@ -26,7 +26,7 @@ DOVETAIL_INLINE std::string_view name_of(mesh_fault kind) {
                                                    "repeated vertex", "duplicate element", "inverted element",
                                                    "flat element",    "non-manifold side", "misoriented side",
                                                    "open boundary",   "coincident point",  "isolated point"};
-  return names[kind];
+  return names[static_cast<std::size_t>(kind)];
 }
 
 DOVETAIL_INLINE std::int64_t validity::count(mesh_fault kind) const {

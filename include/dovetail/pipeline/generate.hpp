@@ -12,6 +12,7 @@
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
+#include "dovetail/pipeline/intersection_counts.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
 
 #include <utility>
