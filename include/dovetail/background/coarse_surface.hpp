@@ -33,9 +33,9 @@ struct coarse_surface_result {
 
 /// What is counted of a coarse surface.
 struct coarse_surface_counts {
-  std::size_t triangles = 0;
-  std::size_t points = 0;
-  double min_angle_deg = 0;
+  std::size_t triangles = 0;     ///< how many there are
+  std::size_t points = 0;        ///< how many there are
+  double min_angle_deg = 0;      ///< the smallest of all
   double mean_min_angle_deg = 0; ///< of the smallest angles of triangles
   int rounds = 0;                ///< of refinement where faces failed
   std::size_t size_balls = 0;    ///< of `coarse_surface_result::bounds`

@@ -58,7 +58,7 @@ struct decomposition {
 
 /// What is counted of a decomposition.
 struct partition_counts {
-  local_id subdomains = 0;
+  local_id subdomains = 0;                 ///< how many there are
   local_id components = 0;                 ///< of the graph, within materials
   double imbalance = 0;                    ///< the heaviest subdomain over the average
   double cut_of_partitioner = 0;           ///< weight of the sides between parts as the partitioner made them
@@ -66,8 +66,8 @@ struct partition_counts {
   std::size_t joined_strays = 0;           ///< parts of subdomains that were not connected with the rest
   std::size_t repaired_super_elements = 0; ///< moved so that boundaries are manifold
   std::size_t refined_super_elements = 0;  ///< moved so that the cut is less
-  int non_manifold_edges = 0;
-  std::size_t non_manifold_points = 0;
+  int non_manifold_edges = 0;              ///< of boundaries, pairs of sides too many
+  std::size_t non_manifold_points = 0;     ///< of boundaries
 
   using fields =
       field_list<&partition_counts::subdomains, &partition_counts::components, &partition_counts::imbalance,

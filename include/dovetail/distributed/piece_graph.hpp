@@ -53,12 +53,12 @@ csr_graph piece_graph(const distributed_simplicial_mesh<D>& mesh) {
 
 /// What is counted of pieces given to ranks.
 struct redistribution_counts {
-  int ranks = 0;
-  local_id pieces = 0;
-  double largest_rank = 0;  ///< its elements
-  double smallest_rank = 0; ///< its elements
-  double imbalance = 0;     ///< largest over average
-  double sides_between_ranks = 0;
+  int ranks = 0;                       ///< how many there are
+  local_id pieces = 0;                 ///< how many there are
+  double largest_rank = 0;             ///< its elements
+  double smallest_rank = 0;            ///< its elements
+  double imbalance = 0;                ///< largest over average
+  double sides_between_ranks = 0;      ///< of elements
   std::size_t most_neighbours = 0;     ///< that a rank shares a side with
   std::int64_t disconnected_ranks = 0; ///< whose pieces are not connected by sides
 

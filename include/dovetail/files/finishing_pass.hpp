@@ -28,7 +28,7 @@ struct finishing_options {
 
 /// What is counted of the pass.
 struct finishing_counts {
-  std::size_t tasks = 0;
+  std::size_t tasks = 0;            ///< files, or pieces without writers
   std::size_t taken_over = 0;       ///< of these, from a run before
   std::uint64_t peak_rss_bytes = 0; ///< of the largest worker
 

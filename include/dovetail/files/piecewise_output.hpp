@@ -22,9 +22,9 @@ namespace dovetail::io {
 
 /// What a writer counts.
 struct written_counts {
-  global_id elements = 0;
-  std::uint64_t bytes = 0;
-  std::size_t files = 0;
+  global_id elements = 0;  ///< in all files
+  std::uint64_t bytes = 0; ///< of all files
+  std::size_t files = 0;   ///< how many there are
 
   using fields = field_list<&written_counts::elements, &written_counts::bytes, &written_counts::files>;
 };

@@ -54,8 +54,8 @@ struct mesher_result<2> {
 
 /// What a mesher counts of its result.
 struct mesher_counts {
-  std::size_t elements = 0;
-  std::size_t points = 0;
+  std::size_t elements = 0;                      ///< that were made
+  std::size_t points = 0;                        ///< those of the boundary too
   std::optional<std::int64_t> sizing_calls = {}; ///< how often the field was asked, where it is known
 
   using fields = field_list<&mesher_counts::elements, &mesher_counts::points, &mesher_counts::sizing_calls>;

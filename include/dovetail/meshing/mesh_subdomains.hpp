@@ -57,8 +57,8 @@ struct meshing_options {
 
 /// What is counted of meshing.
 struct meshing_counts {
-  global_id elements = 0;
-  global_id inner_points = 0;
+  global_id elements = 0;           ///< of all pieces
+  global_id inner_points = 0;       ///< of all pieces
   std::size_t reused = 0;           ///< pieces found in the store
   std::size_t retried = 0;          ///< subdomains whose first attempt failed
   std::size_t failed = 0;           ///< those that no attempt could mesh

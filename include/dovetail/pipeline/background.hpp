@@ -103,8 +103,8 @@ struct background_counts {
   double coarse_scale = 0;       ///< factor between coarse and final size
   double size_scale = 0;         ///< by which the sizes were enlarged
   std::size_t elements = 0;      ///< of the background mesh
-  int stops_by_clock = 0;
-  std::optional<int> kept = {}; ///< 1: it was found in the spool
+  int stops_by_clock = 0;        ///< stops by a time limit
+  std::optional<int> kept = {};  ///< 1: it was found in the spool
 
   using fields = field_list<&background_counts::predicted_elements, &background_counts::coarse_scale,
                             &background_counts::size_scale, &background_counts::elements,

@@ -55,8 +55,8 @@ struct fill_counts {
   std::size_t triangles = 0; ///< of the surface
   std::size_t regions = 0;   ///< that were filled
   std::size_t voids = 0;     ///< that were not
-  std::size_t elements = 0;
-  std::size_t points = 0;
+  std::size_t elements = 0;  ///< in the regions
+  std::size_t points = 0;    ///< those of the surface too
 
   using fields = field_list<&fill_counts::triangles, &fill_counts::regions, &fill_counts::voids,
                             &fill_counts::elements, &fill_counts::points>;

@@ -19,20 +19,20 @@ namespace dovetail {
 /// What is counted of a skeleton. What a dimension does not have is 0, and seconds and what was made add up
 /// over the tries at one skeleton.
 struct skeleton_counts {
-  std::size_t lines = 0;
-  std::size_t regions = 0;
-  std::size_t interface_faces = 0;
-  std::size_t triangles = 0; ///< of D = 3
-  std::size_t edges = 0;     ///< of D = 2
-  std::size_t points = 0;
-  std::size_t lines_made = 0; ///< the others were made before
-  std::size_t patches_made = 0;
-  double line_seconds = 0;
-  double matching_seconds = 0;
-  std::size_t matched_lines = 0; ///< whose numbers of segments were changed for the angles of patches
-  int repartition_rounds = 0;
-  std::size_t repartitioned = 0; ///< super-elements that changed their subdomain
-  double repartition_seconds = 0;
+  std::size_t lines = 0;           ///< between patches
+  std::size_t regions = 0;         ///< of CAD faces
+  std::size_t interface_faces = 0; ///< coarse ones
+  std::size_t triangles = 0;       ///< of D = 3
+  std::size_t edges = 0;           ///< of D = 2
+  std::size_t points = 0;          ///< of the fine skeleton
+  std::size_t lines_made = 0;      ///< the others were made before
+  std::size_t patches_made = 0;    ///< likewise
+  double line_seconds = 0;         ///< for lines
+  double matching_seconds = 0;     ///< for numbers of segments
+  std::size_t matched_lines = 0;   ///< whose numbers of segments were changed for the angles of patches
+  int repartition_rounds = 0;      ///< of local repartition
+  std::size_t repartitioned = 0;   ///< super-elements that changed their subdomain
+  double repartition_seconds = 0;  ///< for local repartition
 
   using fields =
       field_list<&skeleton_counts::lines, &skeleton_counts::regions, &skeleton_counts::interface_faces,

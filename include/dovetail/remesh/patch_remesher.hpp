@@ -14,12 +14,12 @@ namespace dovetail {
 
 /// What the remesher of patches counts.
 struct remeshed_counts {
-  std::size_t triangles = 0;
-  double min_angle_deg = 0;
-  double mean_min_angle_deg = 0; ///< of the smallest angles of triangles
-  std::size_t below_30_deg = 0;
+  std::size_t triangles = 0;       ///< how many there are
+  double min_angle_deg = 0;        ///< the smallest of all
+  double mean_min_angle_deg = 0;   ///< of the smallest angles of triangles
+  std::size_t below_30_deg = 0;    ///< triangles with a smaller angle
   double mean_relative_length = 0; ///< of edges, in units of the size
-  std::size_t folded = 0;
+  std::size_t folded = 0;          ///< triangles turned over
 
   using fields = field_list<&remeshed_counts::triangles, &remeshed_counts::min_angle_deg,
                             &remeshed_counts::mean_min_angle_deg, &remeshed_counts::below_30_deg,

@@ -65,15 +65,15 @@ struct simplification {
 
 /// What is counted of a simplification.
 struct simplification_counts {
-  std::size_t elements = 0;
-  local_id super_elements = 0;
-  std::int64_t kept_sides = 0;    ///< that may be interfaces
-  std::int64_t removed_sides = 0; ///< inside super-elements
-  std::int64_t refused_sides = 0; ///< that the bound kept from being removed
-  std::int64_t fixed_sides = 0;   ///< that are interfaces in any case
-  std::size_t forced_dihedrals = 0;
-  double weight_bound = 0; ///< no super-element was made heavier
-  double heaviest_super_element = 0;
+  std::size_t elements = 0;          ///< of the background mesh
+  local_id super_elements = 0;       ///< what they became
+  std::int64_t kept_sides = 0;       ///< that may be interfaces
+  std::int64_t removed_sides = 0;    ///< inside super-elements
+  std::int64_t refused_sides = 0;    ///< that the bound kept from being removed
+  std::int64_t fixed_sides = 0;      ///< that are interfaces in any case
+  std::size_t forced_dihedrals = 0;  ///< small ones between fixed sides
+  double weight_bound = 0;           ///< no super-element was made heavier
+  double heaviest_super_element = 0; ///< its weight
 
   using fields = field_list<&simplification_counts::elements, &simplification_counts::super_elements,
                             &simplification_counts::kept_sides, &simplification_counts::removed_sides,

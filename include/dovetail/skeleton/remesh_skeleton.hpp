@@ -38,10 +38,10 @@ struct remeshed_patches {
 
 /// What is counted of the patches of a skeleton.
 struct patch_counts {
-  std::size_t interface_faces = 0;
-  std::size_t triangles = 0;
-  std::size_t points = 0;
-  std::size_t patches_made = 0; ///< the others were made before
+  std::size_t interface_faces = 0; ///< coarse ones
+  std::size_t triangles = 0;       ///< of the fine skeleton
+  std::size_t points = 0;          ///< of the fine skeleton
+  std::size_t patches_made = 0;    ///< the others were made before
 
   using fields = field_list<&patch_counts::interface_faces, &patch_counts::triangles, &patch_counts::points,
                             &patch_counts::patches_made>;

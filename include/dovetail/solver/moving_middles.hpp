@@ -23,7 +23,7 @@ namespace dovetail::io {
 
 /// What is counted of the middles of edges.
 struct middle_counts {
-  std::int64_t nodes = 0;
+  std::int64_t nodes = 0;        ///< in the middles of edges
   std::int64_t on_cad = 0;       ///< of edges on curves and faces
   std::int64_t not_found = 0;    ///< of these: the model has no point near, so that they are straight
   std::int64_t moved_back = 0;   ///< from the model, so that no element is inverted

@@ -16,18 +16,18 @@ namespace dovetail::baselines {
 
 /// What is counted of a bisection.
 struct bisection_counts {
-  std::size_t subdomains = 0;
-  std::size_t cuts = 0;
-  std::size_t planes = 0;        ///< tried; those of them that failed follow
-  std::size_t without_loops = 0; ///< no simple loops lie in the plane
-  std::size_t uneven = 0;        ///< one side has too few faces
-  std::size_t unspanned = 0;     ///< the loops could not be spanned
-  std::size_t crossing = 0;      ///< the interface crosses the boundary
-  std::size_t too_sharp = 0;     ///< no better than the least dihedral, or than another plane
-  std::size_t whole = 0;         ///< subdomains with more than `most_faces` that no plane divides
-  std::size_t most_faces = 0;    ///< of a subdomain
-  std::size_t interface_faces = 0;
-  double least_dihedral_deg = 0; ///< at a loop
+  std::size_t subdomains = 0;      ///< in the end
+  std::size_t cuts = 0;            ///< that were made
+  std::size_t planes = 0;          ///< tried; those of them that failed follow
+  std::size_t without_loops = 0;   ///< no simple loops lie in the plane
+  std::size_t uneven = 0;          ///< one side has too few faces
+  std::size_t unspanned = 0;       ///< the loops could not be spanned
+  std::size_t crossing = 0;        ///< the interface crosses the boundary
+  std::size_t too_sharp = 0;       ///< no better than the least dihedral, or than another plane
+  std::size_t whole = 0;           ///< subdomains with more than `most_faces` that no plane divides
+  std::size_t most_faces = 0;      ///< of a subdomain
+  std::size_t interface_faces = 0; ///< triangles of the cuts
+  double least_dihedral_deg = 0;   ///< at a loop
 
   using fields =
       field_list<&bisection_counts::subdomains, &bisection_counts::cuts, &bisection_counts::planes,

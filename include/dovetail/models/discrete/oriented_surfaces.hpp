@@ -12,15 +12,15 @@ namespace dovetail {
 
 /// What the repair of a triangle soup has found and done.
 struct repair_counts {
-  std::size_t merged_points = 0;
-  std::size_t degenerate = 0;   ///< triangles that were dropped
-  std::size_t duplicates = 0;   ///< likewise
-  std::size_t flipped_caps = 0; ///< flat triangles that exchanged an edge
-  std::size_t turned = 0;       ///< triangles that were listed the wrong way round
-  std::size_t shells = 0;       ///< closed surfaces
-  std::size_t sheets = 0;       ///< open ones
-  local_id solids = 0;
-  local_id voids = 0;
+  std::size_t merged_points = 0; ///< points that became another one
+  std::size_t degenerate = 0;    ///< triangles that were dropped
+  std::size_t duplicates = 0;    ///< likewise
+  std::size_t flipped_caps = 0;  ///< flat triangles that exchanged an edge
+  std::size_t turned = 0;        ///< triangles that were listed the wrong way round
+  std::size_t shells = 0;        ///< closed surfaces
+  std::size_t sheets = 0;        ///< open ones
+  local_id solids = 0;           ///< that the closed surfaces bound
+  local_id voids = 0;            ///< closed surfaces that bound a void
 
   using fields =
       field_list<&repair_counts::merged_points, &repair_counts::degenerate, &repair_counts::duplicates,
