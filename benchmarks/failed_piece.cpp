@@ -107,11 +107,10 @@ int main(int argc, char** argv) {
   const auto compare = [&](const char* what, const timed_run& with) {
     const auto meshing = with.result.summary.find("meshing").as<meshing_counts>();
     const auto intersection = with.result.summary.find("intersection").as<intersection_counts>();
-    std::printf(
-        "%s: %+.1f %% (processors %+.1f %%); %zu meshed again, %d merged, %zu of %zu found again\n", what,
-        100 * (with.seconds / plain.seconds - 1),
-        100 * (with.processor_seconds / plain.processor_seconds - 1), meshing.retried,
-        intersection.merged_after_failure, meshing.reused, with.result.mesh.counts.size());
+    std::printf("%s: %+.1f %% (processors %+.1f %%); %zu meshed again, %d merged, %zu of %zu found again\n",
+                what, 100 * (with.seconds / plain.seconds - 1),
+                100 * (with.processor_seconds / plain.processor_seconds - 1), meshing.retried,
+                intersection.merged_after_failure, meshing.reused, with.result.mesh.counts.size());
   };
   compare("one piece fails once", again);
   compare("one piece always fails", merged);

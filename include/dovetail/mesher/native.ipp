@@ -39,13 +39,12 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
   result.summary.name = "native";
   result.summary.seconds = clock.seconds();
   result.summary.set(mesher_counts{result.mesh.elements.size(), result.mesh.points.size()});
-  result.summary.set(
-      native_counts{.missing_edges = recovered.missing_edges,
-                            .missing_triangles = recovered.missing_triangles,
-                            .recovery_splits = recovered.splits,
-                            .recovery_points = recovered.added_points - recovered.removed_points,
-                            .recovery_points_removed = recovered.removed_points,
-                            .recovery_operations = recovered.operations});
+  result.summary.set(native_counts{.missing_edges = recovered.missing_edges,
+                                   .missing_triangles = recovered.missing_triangles,
+                                   .recovery_splits = recovered.splits,
+                                   .recovery_points = recovered.added_points - recovered.removed_points,
+                                   .recovery_points_removed = recovered.removed_points,
+                                   .recovery_operations = recovered.operations});
   return result;
 }
 
