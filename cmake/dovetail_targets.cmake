@@ -6,7 +6,13 @@ find_package(Threads REQUIRED)
 add_library(dovetail INTERFACE)
 add_library(dovetail::dovetail ALIAS dovetail)
 target_compile_features(dovetail INTERFACE cxx_std_20)
-target_include_directories(dovetail INTERFACE
+# Our warnings are our own affair: for a project that has this one as a subfolder its headers are a system's, as they are
+# for one that finds it installed.
+set(dovetail_headers_are SYSTEM)
+if(PROJECT_IS_TOP_LEVEL)
+  set(dovetail_headers_are "")
+endif()
+target_include_directories(dovetail ${dovetail_headers_are} INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 # The exact predicates are exact only when the compiler does not fuse a product and a sum on its own; nor would the mesh
