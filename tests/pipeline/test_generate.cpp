@@ -255,7 +255,7 @@ TEST_CASE("a run in the spool of an earlier one makes nothing again") {
   const auto first = run(spool::start(folder, {}));
   const auto second = run(spool::resume(folder, {}));
   const auto& stages = second.summary.children;
-  CHECK(first.summary.children[0].get("kept") == 0);
+  CHECK(first.summary.children[0].get("kept", 0) == 0);
   CHECK(stages[0].get("kept") == 1);
   CHECK(first.summary.children[3].get("patches_made") > 0);
   CHECK(stages[3].get("lines_made") == 0);

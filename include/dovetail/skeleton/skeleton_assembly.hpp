@@ -99,10 +99,9 @@ private:
   /// What consecutive patches are in the skeleton, with the points of lines before them or without.
   patches_joined join(std::size_t begin, std::size_t end, bool with_lines) const {
     patches_joined result;
-    auto& [points, hosts, sides, subdomains, side_hosts] = result;
     if (with_lines) {
-      points = from_.lines.points;
-      hosts = hosts_of_lines();
+      result.points = from_.lines.points;
+      result.point_hosts = hosts_of_lines();
     }
     from_.meshes.for_each(from_.store, begin, end, [&](std::size_t p, const patch_mesh& mesh) {
       auto beside = from_.is_region(p) ? from_.coarse.regions[p].subdomains : from_.face(p).subdomains;
@@ -113,12 +112,13 @@ private:
                         [&](simplex<2> triangle, const simplex<2>&) {
                           if (bounds_nothing_behind)
                             std::swap(triangle[1], triangle[2]);
-                          sides.push_back(triangle);
+                          result.sides.push_back(triangle);
                         });
-      subdomains.resize(sides.size(), beside);
-      side_hosts.resize(sides.size(), from_.is_region(p) ? from_.coarse.regions[p].cad_face : no_id);
-      append(points, mesh.inner_points);
-      hosts.resize(points.size(), host_of_inner_points(p));
+      result.subdomains.resize(result.sides.size(), beside);
+      result.side_hosts.resize(result.sides.size(),
+                               from_.is_region(p) ? from_.coarse.regions[p].cad_face : no_id);
+      append(result.points, mesh.inner_points);
+      result.point_hosts.resize(result.points.size(), host_of_inner_points(p));
     });
     return result;
   }
