@@ -126,7 +126,7 @@ void check_vertices(const point_triangulation_result<D>& made) {
           used[v] = 1;
   std::size_t faults = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
-    const auto same = detail::at(made.same_as[v]);
+    const std::size_t same = made.same_as[v];
     faults += same > v || !(t.points[same] == t.points[v]) || used[v] != (same == v);
   }
   CHECK(faults == 0);
