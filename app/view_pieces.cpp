@@ -32,10 +32,10 @@ float angle_of(const std::array<vec3, 4>& corners) {
 }
 
 /// An element of a piece, without its mesh.
-lone_element lone(const io::loaded_mesh& piece, std::size_t e, const std::array<vec3, 4>& corners, float angle) {
+lone_element lone(const io::loaded_mesh& piece, std::size_t e, const std::array<vec3, 4>& corners,
+                  float angle) {
   const simplex<3>& vertices = piece.mesh.elements[e];
-  lone_element element{
-      {}, corners, tag_at(piece.subdomains, e), tag_at(piece.mesh.tags, e), angle, 0};
+  lone_element element{{}, corners, tag_at(piece.subdomains, e), tag_at(piece.mesh.tags, e), angle, 0};
   for (std::size_t k = 0; k < 4; ++k)
     element.ids[k] = piece.node_ids[index(vertices[k])];
   return element;
@@ -107,8 +107,8 @@ void join(std::vector<lone_side>& outer, std::vector<lone_side>& inner, std::spa
       tag = side->tag;
   const lone_side& first = *same.front();
   const lone_side& last = *same.back();
-  const bool is_between = !first.open || same.size() > 2 || tag || first.piece != last.piece ||
-                          first.material != last.material;
+  const bool is_between =
+      !first.open || same.size() > 2 || tag || first.piece != last.piece || first.material != last.material;
   if (same.size() > 1 && !is_between)
     return;
   for (lone_side* side : same) {
@@ -265,9 +265,8 @@ private:
       order.push_back({sides_[s].ids, s});
       std::sort(order.back().key.begin(), order.back().key.end());
     }
-    sort_all(order, [](const keyed& a, const keyed& b) {
-      return a.key != b.key ? a.key < b.key : a.side < b.side;
-    });
+    sort_all(order,
+             [](const keyed& a, const keyed& b) { return a.key != b.key ? a.key < b.key : a.side < b.side; });
     std::vector<lone_side> outer, inner;
     std::vector<lone_side*> same;
     for (std::size_t i = 0, end; i < order.size(); i = end) {
@@ -377,9 +376,8 @@ void view_pieces::set_elements(std::span<const lone_element> elements, std::vect
   replace_first(scene.angles, old, elements, [](const lone_element& e) { return e.angle; });
   replace_first(scene.materials.of, old, elements,
                 [&](const lone_element& e) { return materials_.label(e.material); });
-  replace_first(scene.pieces.of, old, elements, [&](const lone_element& e) {
-    return pieces_.label(has_subdomains_ ? e.piece : e.material);
-  });
+  replace_first(scene.pieces.of, old, elements,
+                [&](const lone_element& e) { return pieces_.label(has_subdomains_ ? e.piece : e.material); });
   for (local_id& element : scene.element_of)
     element += static_cast<local_id>(vertices.size()) - static_cast<local_id>(old);
   scene.tetrahedra = std::move(vertices);

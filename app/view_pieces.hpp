@@ -29,8 +29,7 @@ public:
 
   /// Reads all pieces again: the scene has those elements instead for which `wanted(angle, corners)`.
   /// \param apart how far pieces are moved, over their distance from the middle
-  void take_elements(double apart,
-                     const std::function<bool(float, const std::array<vec3, 4>&)>& wanted);
+  void take_elements(double apart, const std::function<bool(float, const std::array<vec3, 4>&)>& wanted);
 
   view_scene scene;
   std::string elsewhere; ///< in words, that these are parts of a larger mesh; empty: they are not

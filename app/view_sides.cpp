@@ -85,8 +85,7 @@ void for_each_side(std::span<const simplex<3>> elements, std::size_t points,
         numbers.push_back(static_cast<std::uint32_t>(number));
     });
     for_each_group<3>(
-        numbers.size(), points,
-        [&](std::size_t i) { return sorted_vertices(side_of(elements, numbers[i])); },
+        numbers.size(), points, [&](std::size_t i) { return sorted_vertices(side_of(elements, numbers[i])); },
         [&](const auto&, std::span<const std::uint32_t> equal) {
           members.clear();
           for (const std::uint32_t i : equal)

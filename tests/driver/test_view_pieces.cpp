@@ -32,7 +32,8 @@ const dovetail::testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2,
 /// The files of a mesh in pieces: a VTU file for each or for some of them, or MSH files, which have groups.
 void write(const std::string& how, const std::filesystem::path& folder) {
   if (how == "msh")
-    io::rank_writer<io::rank_msh_format>{.ranks = 3, .format = {.binary = false}}(cubes.distributed(), folder);
+    io::rank_writer<io::rank_msh_format>{.ranks = 3, .format = {.binary = false}}(cubes.distributed(),
+                                                                                  folder);
   else
     io::vtu_writer{.files = how == "vtu" ? 0 : 3}(cubes.distributed(), folder);
 }
@@ -145,7 +146,8 @@ TEST_CASE("pictures are those of the whole mesh, with all elements in sections a
         read->take_elements(wishes.explode, [&](float angle, const std::array<vec3, 4>& corners) {
           return is_drawn(wishes, angle, corners);
         });
-      const raster_image expected = picture_of_view(whole, wishes), image = picture_of_view(read->scene, wishes);
+      const raster_image expected = picture_of_view(whole, wishes),
+                         image = picture_of_view(read->scene, wishes);
       CHECK(std::equal(image.data(), image.data() + 150 * 150, expected.data()));
     };
     check("surface");
@@ -184,9 +186,13 @@ TEST_CASE("a part of a larger mesh is said to be one; files that do not belong t
   const auto read = view_pieces::read(folder / "mesh.pvtu", all);
   REQUIRE(read);
   CHECK(read->elsewhere.ends_with("this is a part of a larger mesh"));
-  io::vtu_writer{}(cubes.spoilt(1, [](mesh_piece& piece) { piece.mesh.points[0] += vec3{0.1, 0, 0}; }), folder);
-  const std::string said =
-      dovetail::testing::refusal_of<input_error>([&] { return view_pieces::read(folder / "mesh.pvtu", all); });
+  io::vtu_writer{}(cubes.spoilt(1,
+                                [](mesh_piece& piece) {
+                                  piece.mesh.points[0] += vec3{0.1, 0, 0};
+                                }),
+                   folder);
+  const std::string said = dovetail::testing::refusal_of<input_error>(
+      [&] { return view_pieces::read(folder / "mesh.pvtu", all); });
   CHECK(said.starts_with((folder / "mesh.pvtu").string() + ": two points have the global number"));
 }
 
