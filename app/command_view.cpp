@@ -4,6 +4,7 @@
 #include "output.hpp"
 #include "png.hpp"
 #include "view_marks.hpp"
+#include "view_memory.hpp"
 #include "view_page.hpp"
 #include "view_picture.hpp"
 #include "view_pieces.hpp"
@@ -25,6 +26,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace dovetail::app {
@@ -194,6 +196,10 @@ public:
   /// \param most triangles of a page, or 0
   shown_mesh(const std::filesystem::path& file, std::int64_t most) : pieces_(view_pieces::read(file, most)) {
     if (!pieces_) {
+      std::error_code failure;
+      const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+      if (const std::string much = failure ? "" : text_of_memory(bytes, memory_of_machine()); !much.empty())
+        std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), much.c_str());
       io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
       warn_of_part(loaded, file);
       whole_ = scene_of(std::move(loaded));

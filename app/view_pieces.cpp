@@ -311,7 +311,8 @@ void replace_first(std::vector<T>& items, std::size_t old, std::span<const lone_
 } // namespace
 
 std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, std::int64_t most) {
-  piece_collector collector(room_for_elements(0, most));
+  constexpr std::size_t any = std::numeric_limits<std::uint32_t>::max();
+  piece_collector collector(view_room(0, 0, any, most).elements);
   const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path& file) {
     try {
       collector.add(piece);
@@ -328,8 +329,8 @@ std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, 
   read.has_subdomains_ = collector.has_subdomains();
   std::vector<simplex<3>> tetrahedra;
   try {
-    const auto elements =
-        collector.fill_points(scene, room_for_elements(scene.element_of.size(), most), tetrahedra);
+    const view_room room(scene.outer, scene.element_of.size() - scene.outer, scene.count, most);
+    const auto elements = collector.fill_points(scene, room.elements, tetrahedra);
     read.set_elements(elements, std::move(tetrahedra));
   } catch (const input_error& problem) {
     throw input_error(mesh.string() + ": " + problem.what());

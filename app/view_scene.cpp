@@ -166,19 +166,25 @@ void finish_scene(view_scene& scene) {
   find_centres(scene);
 }
 
-std::size_t room_for_elements(std::size_t triangles, std::int64_t most) {
+view_room::view_room(std::size_t all_outer, std::size_t all_inner, std::size_t all_elements,
+                     std::int64_t most) {
   const auto all = static_cast<std::size_t>(most);
-  return (all - std::min(all, triangles)) / 4;
+  outer = std::min(all, all_outer);
+  const std::size_t left = all - outer;
+  elements = std::min(all_elements, left / 16);
+  inner = std::min(all_inner, left - 4 * elements);
+  elements = std::min(all_elements, (left - inner) / 4);
 }
 
 view_part part_that_fits(const view_scene& scene, std::int64_t most) {
+  const view_room room(scene.outer, scene.triangles.size() - scene.outer,
+                       scene.dimension == 3 ? scene.count : 0, most);
   std::vector<local_id> all(scene.triangles.size());
   std::iota(all.begin(), all.end(), 0);
   view_part part;
-  const auto room = [&] { return static_cast<std::size_t>(most) - part.triangles.size(); };
-  add_spread<local_id>(part.triangles, std::span(all).first(scene.outer), room());
-  add_spread<local_id>(part.triangles, std::span(all).subspan(scene.outer), room());
-  part.elements = elements_that_fit(scene, room_for_elements(part.triangles.size(), most));
+  add_spread<local_id>(part.triangles, std::span(all).first(scene.outer), room.outer);
+  add_spread<local_id>(part.triangles, std::span(all).subspan(scene.outer), room.inner);
+  part.elements = elements_that_fit(scene, room.elements);
   return part;
 }
 

@@ -77,8 +77,16 @@ struct view_part {
   static constexpr std::size_t worst_of(std::size_t count) { return (count + 1) / 2; }
 };
 
-/// How many elements inside there is room for, beside the triangles of a scene.
-std::size_t room_for_elements(std::size_t triangles, std::int64_t most);
+/// How much of a mesh there is on a page.
+struct view_room {
+  std::size_t outer;    ///< triangles outside
+  std::size_t inner;    ///< triangles between pieces
+  std::size_t elements; ///< inside
+
+  /// Of as many as there are; `most` triangles, where an element counts four. What is outside comes first.
+  /// Elements have at least a quarter of the rest, since nothing else shows the worst ones.
+  view_room(std::size_t all_outer, std::size_t all_inner, std::size_t all_elements, std::int64_t most);
+};
 
 /// Adds `count` of some things, evenly spread, or all.
 template <class T>
@@ -89,9 +97,8 @@ void add_spread(std::vector<T>& to, std::span<const T> from, std::size_t count) 
                                                static_cast<double>(count))]);
 }
 
-/// As many triangles as `most`, where an element inside counts four. The outer surface comes first, then what
-/// is between pieces; of what does not fit evenly spread ones. Of the elements half are the worst ones, and
-/// the others every n-th of the rest.
+/// As much as there is room for. Of triangles that do not fit there are evenly spread ones; of the elements
+/// half are the worst ones, and the others every n-th of the rest.
 view_part part_that_fits(const view_scene& scene, std::int64_t most);
 
 /// What a part lacks of the scene, in words; empty: nothing.

@@ -63,6 +63,16 @@ static=$sandbox/static.html
 check_static_page tetrahedra
 grep -q 'dihedral' "$static" || fault "the page of tetrahedra has no word of dihedral angles"
 
+# The script sorts: by numbers, up and down again.
+if command -v node >/dev/null; then
+  node "$(dirname "$0")/sort_page.js" "$page" elements >"$sandbox/sorted" 2>"$sandbox/stderr" || fault "the script of the page fails"
+  line() { sed -n "$1p" "$sandbox/sorted" | tr ' ' '\n'; }
+  cmp -s <(line 1) <(column elements) || fault "the page has other elements than the table"
+  cmp -s <(line 2) <(column elements | sort -n) || fault "a click does not sort"
+  cmp -s <(line 3) <(column elements | sort -rn) || fault "a second click does not sort the other way round"
+  [[ $(line 4) == said ]] || fault "it is not said that a click sorts"
+fi
+
 # The same figures as a run of that combination has, whatever is shared.
 elements=$(column elements | sed -n 3p)
 expect_success mesh "$inputs/cube.off" --workers 1 --size 0.1 --subdomains 4 --mesher tetgen --format none --report report.json
