@@ -7,7 +7,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/zlib.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -25,10 +25,6 @@ std::size_t index(T i) {
 /// Of what a file may say for each element, or for none.
 local_id tag_at(const std::vector<local_id>& tags, std::size_t element) {
   return element < tags.size() ? tags[element] : 0;
-}
-
-float angle_of(const std::array<vec3, 4>& corners) {
-  return static_cast<float>(extreme_dihedral_angles(corners)[0]);
 }
 
 /// An element of a piece, without its mesh.
@@ -223,7 +219,7 @@ private:
     angles.reserve(piece.mesh.elements.size());
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(span_of(piece.mesh.points), piece.mesh.elements[e]);
-      const float angle = angle_of(at);
+      const float angle = least_angle_of(at);
       angles.push_back(angle);
       least_angle_ = std::min(least_angle_, angle);
       elements_.add(angle, [&] { return lone(piece, e, at, angle); });
@@ -346,7 +342,7 @@ void view_pieces::take_elements(double apart,
   const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(span_of(piece.mesh.points), piece.mesh.elements[e]);
-      const float angle = angle_of(at);
+      const float angle = least_angle_of(at);
       auto moved = at;
       if (apart > 0) {
         const local_id tag = tag_at(has_subdomains_ ? piece.subdomains : piece.mesh.tags, e);

@@ -6,7 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/mesh/adjacency.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,7 @@ void measure(view_scene& scene, const std::vector<simplex<D>>& elements) {
   scene.count = elements.size();
   scene.angles.reserve(elements.size());
   for (const auto& element : elements) {
-    scene.angles.push_back(
-        static_cast<float>(extreme_dihedral_angles(corners(span_of(scene.points), element))[0]));
+    scene.angles.push_back(least_angle_of(corners(span_of(scene.points), element)));
     scene.least_angle = std::min(scene.least_angle, scene.angles.back());
     for (const local_id v : element)
       used[index(v)] = true;

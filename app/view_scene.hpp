@@ -4,6 +4,7 @@
 
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quality.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,6 +61,14 @@ struct view_scene {
     return pieces.of[static_cast<std::size_t>(element_of[t])];
   }
 };
+
+/// The least angle between the sides of an element, in degrees; 0 where coordinates are too large to compute
+/// it.
+template <std::size_t N>
+float least_angle_of(const std::array<vec3, N>& corners) {
+  const auto angle = static_cast<float>(extreme_dihedral_angles(corners)[0]);
+  return angle > 0 ? angle : 0;
+}
 
 /// Takes the tetrahedra, or the triangles where there are none. O(n log n) in time. Throws `mesh_error` where
 /// an element names a point that there is not.
