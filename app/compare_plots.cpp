@@ -238,8 +238,10 @@ std::string plot_of_angles(const comparison& compared) {
   for (std::size_t r = 0; r < first.size(); ++r) {
     std::string points;
     for (int degree = 0; degree < words.best; ++degree)
-      points += (degree == 0 ? "" : " ") + fixed(x(degree + 0.5)) + "," +
-                fixed(y(log_of(share(*first[r], degree))));
+      points.append(degree == 0 ? "" : " ")
+          .append(fixed(x(degree + 0.5)))
+          .append(",")
+          .append(fixed(y(log_of(share(*first[r], degree)))));
     parts += element("polyline",
                      {{"points", points}, {"fill", "none"}, {"stroke", colour(r)}, {"stroke-width", 1.6}});
   }
