@@ -68,25 +68,11 @@ std::string name_of(const std::filesystem::path& given, const std::vector<std::f
   return files.front().string() + " to " + files.back().filename().string();
 }
 
-/// The points of a mesh in several files, and whether dovetail has numbered them.
-struct streamed_points {
-  bool by_dovetail = false;
-  global_id highest = -1;
-
-  void add(const io::loaded_mesh& piece) {
-    by_dovetail = by_dovetail || (piece.parts == 0 && !piece.subdomains.empty());
-    highest = std::max(highest, piece.node_ids.back());
-  }
-  std::string elsewhere(std::uint64_t points) const {
-    return by_dovetail ? io::points_elsewhere(points, highest) : std::string();
-  }
-};
-
 /// Of tetrahedra in several files, one in memory at a time. `files` receives these.
 std::optional<int> check_streamed(const std::filesystem::path& file,
                                   std::vector<std::filesystem::path>& files) {
   io::streamed_validity found;
-  streamed_points all;
+  numbers_of_pieces all;
   if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
         found.add(piece, path.filename().string());
         all.add(piece);
@@ -113,7 +99,7 @@ void warn_of_part(const std::string& file, const std::string& elsewhere) {
 std::optional<int> measure_streamed(const std::filesystem::path& file, const stats_options& options) {
   quality_statistics quality;
   io::number_ranges points;
-  streamed_points all;
+  numbers_of_pieces all;
   std::vector<std::filesystem::path> files;
   if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
         quality.merge(measure_quality(piece.mesh), quality.elements);

@@ -4,16 +4,21 @@
 #include "output.hpp"
 #include "png.hpp"
 #include "view_marks.hpp"
+#include "view_memory.hpp"
 #include "view_page.hpp"
 #include "view_picture.hpp"
+#include "view_pieces.hpp"
 #include "view_scene.hpp"
 
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/zlib.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -21,6 +26,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace dovetail::app {
@@ -159,18 +165,16 @@ void write_page(const view_scene& scene, const view_options& options, const view
               left_out.empty() ? "" : (", " + left_out + "; see --most").c_str());
 }
 
-void write_picture(const view_scene& scene, const asked_picture& asked, const view_options& options,
-                   const view_marks& marks) {
-  const auto png = encode_png(picture_of_view(scene, asked.wishes(scene, options, marks)));
+void write_picture(const view_scene& scene, const view_wishes& wishes, const view_options& options) {
+  const auto png = encode_png(picture_of_view(scene, wishes));
   output_file file(options.png);
   file.bytes(png.data(), png.size());
   file.commit();
-  std::printf("%s: %d x %d pixels\n", options.png.c_str(), asked.size.first, asked.size.second);
+  std::printf("%s: %d x %d pixels\n", options.png.c_str(), wishes.width, wishes.height);
   if (!options.under)
     return;
   const std::size_t shown = elements_under(scene, *options.under);
-  std::printf("%zu of %zu elements have an angle under %g degrees\n", shown, scene.elements(),
-              *options.under);
+  std::printf("%zu of %zu elements have an angle under %g degrees\n", shown, scene.count, *options.under);
   if (shown == 0)
     std::fprintf(stderr, "warning: %s: no element has so small an angle; the picture is the outline alone\n",
                  options.png.c_str());
@@ -185,6 +189,40 @@ void say_marks(const view_marks& marks, const box3& box) {
                  "warning: %s: %zu of %zu marks are outside of the mesh; is this the report of its run?\n",
                  marks.report.c_str(), outside, marks.all.size());
 }
+
+/// A mesh as far as it is in memory.
+class shown_mesh {
+public:
+  /// \param most triangles of a page, or 0
+  shown_mesh(const std::filesystem::path& file, std::int64_t most) : pieces_(view_pieces::read(file, most)) {
+    if (!pieces_) {
+      std::error_code failure;
+      const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+      if (const std::string much = failure ? "" : text_of_memory(bytes, memory_of_machine()); !much.empty())
+        std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), much.c_str());
+      io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
+      warn_of_part(loaded, file);
+      whole_ = scene_of(std::move(loaded));
+    } else if (!pieces_->elsewhere.empty()) {
+      std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), pieces_->elsewhere.c_str());
+    }
+    if (scene().count == 0)
+      throw input_error(file.string() + ": has no tetrahedra or triangles to show");
+  }
+  const view_scene& scene() const { return pieces_ ? pieces_->scene : whole_; }
+
+  /// Sees to it that the elements in a picture are there, whatever a page has of them.
+  void prepare(const view_wishes& wishes) {
+    if (pieces_ && (wishes.cut || wishes.under))
+      pieces_->take_elements(wishes.explode, [&](float angle, const std::array<vec3, 4>& corners) {
+        return is_drawn(wishes, angle, corners);
+      });
+  }
+
+private:
+  std::optional<view_pieces> pieces_;
+  view_scene whole_; ///< where it is not read in pieces
+};
 
 } // namespace
 
@@ -201,16 +239,15 @@ int run_view(const view_options& options) {
       check_can_create(file);
   const view_marks marks = options.report.empty() ? view_marks{} : marks_of_report(options.report);
   const std::filesystem::path mesh = io::find_mesh_file(options.mesh);
-  io::loaded_mesh loaded = io::read_mesh(mesh, io::zlib_expand);
-  warn_of_part(loaded, mesh);
-  const view_scene scene = scene_of(std::move(loaded));
-  if (scene.elements() == 0)
-    throw input_error(mesh.string() + ": has no tetrahedra or triangles to show");
+  shown_mesh shown(mesh, options.out.empty() ? 0 : options.most);
   if (!options.out.empty())
-    write_page(scene, options, marks);
-  if (!options.png.empty())
-    write_picture(scene, asked, options, marks);
-  say_marks(marks, scene.box);
+    write_page(shown.scene(), options, marks);
+  if (!options.png.empty()) {
+    const view_wishes wishes = asked.wishes(shown.scene(), options, marks);
+    shown.prepare(wishes);
+    write_picture(shown.scene(), wishes, options);
+  }
+  say_marks(marks, shown.scene().box);
   return exit_ok;
 }
 

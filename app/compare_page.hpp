@@ -1,6 +1,6 @@
 /// @file
-/// A comparison as one page that needs nothing else: tables, plots and pictures in one HTML file, drawn from
-/// the figures in it by the script of compare_page.html.
+/// A comparison as one page that needs nothing else: tables, plots and pictures in one HTML file. All is
+/// there without scripts; that of compare_page.html sorts tables.
 #pragma once
 
 #include "compare_rows.hpp"
@@ -24,7 +24,7 @@ struct comparison_pictures {
   std::vector<captioned_picture> worst_elements;
 };
 
-/// The page with its data.
+/// The page.
 std::string page_html(const comparison& compared, const comparison_pictures& pictures);
 
 } // namespace dovetail::app

@@ -34,6 +34,15 @@ std::string part_of_larger(const io::loaded_mesh& mesh, const std::filesystem::p
   return extension_of(file) == ".vtp" ? std::string() : io::points_elsewhere(mesh);
 }
 
+void numbers_of_pieces::add(const io::loaded_mesh& piece) {
+  by_dovetail_ = by_dovetail_ || (piece.parts == 0 && !piece.subdomains.empty());
+  highest_ = std::max(highest_, piece.node_ids.back());
+}
+
+std::string numbers_of_pieces::elsewhere(std::uint64_t points) const {
+  return by_dovetail_ ? io::points_elsewhere(points, highest_) : std::string();
+}
+
 void warn_of_part(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
   if (const std::string part = part_of_larger(mesh, file); !part.empty())
     std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), part.c_str());

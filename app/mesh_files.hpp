@@ -6,6 +6,7 @@
 #include "dovetail/files/write_vtu.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -20,6 +21,19 @@ simplicial_mesh<2> take_triangles(io::loaded_mesh mesh);
 void warn_of_part(const io::loaded_mesh& mesh, const std::filesystem::path& file);
 /// In words; empty where it is not. The points of a surface are always some of a mesh.
 std::string part_of_larger(const io::loaded_mesh& mesh, const std::filesystem::path& file);
+
+/// Of a mesh whose pieces come one after the other: whether they are part of a larger one.
+class numbers_of_pieces {
+public:
+  /// One more piece, its points in the order of their global numbers.
+  void add(const io::loaded_mesh& piece);
+  /// In words; empty: they are not.
+  std::string elsewhere(std::uint64_t points) const;
+
+private:
+  bool by_dovetail_ = false; ///< has numbered them
+  global_id highest_ = -1;
+};
 
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);

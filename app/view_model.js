@@ -143,3 +143,15 @@ function shownMarks() {
   const {normal, place} = state.cut || {normal: [0, 0, 0], place: 0};
   return data.marks.all.filter(({at}) => normal[0] * at[0] + normal[1] * at[1] + normal[2] * at[2] <= place);
 }
+
+// What this page lacks of what is shown, in words: where it is not, the mesh has no hole.
+function gaps() {
+  const text = count => count.toLocaleString("en"), some = (here, all) => `${text(here)} of ${text(all)}`;
+  const here = elements.pieces.length, all = solid ? data.count : 0, isSection = state.cut !== null && solid;
+  return [
+    triangles.pieces.length < data.sides && `The surface has gaps, as this page has ${some(triangles.pieces.length, data.sides)} triangles.`,
+    here < all && isSection && `The section has gaps, as this page has ${some(here, all)} elements; dovetail view --png --cut draws all.`,
+    here < all && state.under !== null && state.under > data.complete &&
+      `Elements under ${data.complete.toFixed(1)}° are all here, and some of the others.`
+  ].filter(Boolean).join(" ");
+}

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,10 @@ json json_of(const view_labels& labels) {
 
 json json_of(vec3 p) {
   return {p.x, p.y, p.z};
+}
+
+json json_of(std::optional<float> number) {
+  return number ? json(*number) : json();
 }
 
 json angle_colours() {
@@ -173,9 +178,11 @@ std::string page_of_view(const view_scene& scene, const view_part& part, const s
     centres.push_back(json_of(centre - scene.box.center()));
   const json data{{"name", name},
                   {"dimension", scene.dimension},
-                  {"count", scene.elements()},
+                  {"count", scene.count},
+                  {"sides", scene.triangles.size()},
+                  {"complete", json_of(complete_under(scene, part))},
                   {"vertices", scene.vertices},
-                  {"least", scene.least_angle()},
+                  {"least", scene.least_angle},
                   {"lower", json_of(scene.box.lower)},
                   {"upper", json_of(scene.box.upper)},
                   {"leftOut", text_of_left_out(scene, part)},

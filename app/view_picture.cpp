@@ -139,7 +139,7 @@ private:
         for (const auto& side : numbering::sides<3>)
           add_triangle({p[side[0]], p[side[1]], p[side[2]]}, colour_of_element(e));
       }
-    for (std::size_t e = 0; scene_.dimension == 2 && e < scene_.elements(); ++e)
+    for (std::size_t e = 0; scene_.dimension == 2 && e < scene_.count; ++e)
       if (is_shown(e))
         add_triangle(placed(scene_.triangles[e], scene_.pieces.of[e]), colour_of_element(e));
   }
@@ -226,9 +226,17 @@ raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes)
   return image;
 }
 
+bool is_drawn(const view_wishes& wishes, float angle, const std::array<vec3, 4>& corners) {
+  if (wishes.under)
+    return angle < *wishes.under;
+  return wishes.cut && !section(corners, *wishes.cut).empty();
+}
+
 std::size_t elements_under(const view_scene& scene, double degrees) {
-  return static_cast<std::size_t>(
-      std::count_if(scene.angles.begin(), scene.angles.end(), [&](float angle) { return angle < degrees; }));
+  const std::size_t count = scene.dimension == 3 ? scene.tetrahedra.size() : scene.count;
+  return static_cast<std::size_t>(std::count_if(scene.angles.begin(),
+                                                scene.angles.begin() + static_cast<std::ptrdiff_t>(count),
+                                                [&](float angle) { return angle < degrees; }));
 }
 
 } // namespace dovetail::app

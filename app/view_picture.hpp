@@ -7,6 +7,8 @@
 #include "view_marks.hpp"
 #include "view_scene.hpp"
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace dovetail::app {
@@ -35,7 +37,12 @@ struct view_wishes {
 /// would hide the colours.
 raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes);
 
-/// How many elements have a smaller angle.
+/// Whether an element by itself is in the picture, and not only a side of it that is seen anyway: a scene may
+/// lack all others.
+/// \param corners where the picture has them, with pieces apart
+bool is_drawn(const view_wishes& wishes, float angle, const std::array<vec3, 4>& corners);
+
+/// How many elements that a scene has have a smaller angle.
 std::size_t elements_under(const view_scene& scene, double degrees);
 
 } // namespace dovetail::app

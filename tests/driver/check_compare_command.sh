@@ -44,25 +44,34 @@ grep -qE ',dovetail [0-9.]+,20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z,0\.1,[0-9a-f
   fault "version, date, sizes or checksums are not in the table"
 mapfile -t hashes < <(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "mesh_hash") at = k; next } { print $at }' "$table")
 
-# One page with nothing from outside; what its script draws is well-formed.
+# One page with nothing from outside, which has everything without its script and is well-formed.
 [[ $(head -n 1 "$page") == "<!DOCTYPE html>" ]] || fault "the page has no doctype"
-! grep -qE 'http|src="|href=' "$page" || fault "the page refers to something outside"
-check_drawn_page() { # of what
-  command -v node >/dev/null || return 0
-  node "$(dirname "$0")/draw_page.js" "$page" >"$drawn" 2>"$sandbox/stderr" || fault "the page of $1 is not drawn"
-  (($(grep -c 'src="data:image/png;base64,' "$drawn") == 10)) || fault "not ten pictures of $1"
-  (($(grep -c '</svg>' "$drawn") == 4)) || fault "not four plots of $1"
-  ! grep -qE 'src="[^d]|href=|http' "$drawn" || fault "the page of $1 refers to something outside"
-  ! sed 's/base64,[^"]*//' "$drawn" | grep -qE 'NaN|null|undefined|Infinity' ||
+! grep -qE 'http|src="[^d]|href=' "$page" || fault "the page refers to something outside"
+check_static_page() { # of what
+  (echo "<body>" && sed '1,/<body>/d; /<script/,$d' "$page" && echo "</body>") >"$static"
+  (($(grep -c 'src="data:image/png;base64,' "$static") == 10)) || fault "not ten pictures of $1"
+  (($(grep -c '</svg>' "$static") == 4)) || fault "not four plots of $1"
+  (($(grep -c '<tbody><tr>' "$static") == 2)) || fault "not two tables of $1"
+  ! sed 's/base64,[^"]*//' "$static" | grep -qwiE 'nan|null|undefined|inf|infinity' ||
     fault "the page of $1 has figures that are none"
   if command -v python3 >/dev/null; then
-    python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$drawn" 2>"$sandbox/stderr" ||
+    python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$static" 2>"$sandbox/stderr" ||
       fault "the page of $1 is not well-formed"
   fi
 }
-drawn=$sandbox/drawn.html
-check_drawn_page tetrahedra
-[[ ! -f $drawn ]] || grep -q 'dihedral' "$drawn" || fault "the page of tetrahedra has no word of dihedral angles"
+static=$sandbox/static.html
+check_static_page tetrahedra
+grep -q 'dihedral' "$static" || fault "the page of tetrahedra has no word of dihedral angles"
+
+# The script sorts: by numbers, up and down again.
+if command -v node >/dev/null; then
+  node "$(dirname "$0")/sort_page.js" "$page" elements >"$sandbox/sorted" 2>"$sandbox/stderr" || fault "the script of the page fails"
+  line() { sed -n "$1p" "$sandbox/sorted" | tr ' ' '\n'; }
+  cmp -s <(line 1) <(column elements) || fault "the page has other elements than the table"
+  cmp -s <(line 2) <(column elements | sort -n) || fault "a click does not sort"
+  cmp -s <(line 3) <(column elements | sort -rn) || fault "a second click does not sort the other way round"
+  [[ $(line 4) == said ]] || fault "it is not said that a click sorts"
+fi
 
 # The same figures as a run of that combination has, whatever is shared.
 elements=$(column elements | sed -n 3p)
@@ -104,8 +113,8 @@ done
 [[ $(column subdomains | sort -u) == 4 ]] || fault "other numbers of subsurfaces"
 awk -F, 'NR > 1 { print $4 }' "$table" | paste -d, - <(column coarse_under_50) >"$sandbox/corners"
 ! grep -qE '^paper,[1-9]' "$sandbox/corners" || fault "small corners with simplification"
-check_drawn_page triangles
-[[ ! -f $drawn ]] || ! grep -q 'dihedral\|tetrahedra' "$drawn" || fault "words about tetrahedra on the page of triangles"
+check_static_page triangles
+! grep -q 'dihedral\|tetrahedra' "$static" || fault "words about tetrahedra on the page of triangles"
 elements=$(column elements | sed -n 3p)
 expect_success mesh "$inputs/square.svg" --dimension 2 --workers 1 --size 0.5 --subdomains 4 --partitioner metis \
   --format none --report report.json

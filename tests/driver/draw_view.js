@@ -56,6 +56,7 @@ function report(name) {
   const {surface, section, ghost} = shown.layers;
   for (const [what, layer] of Object.entries({surface, section, ghost})) print(`${name}.${what}`, count(layer));
   print(`${name}.area`, areaOf(section));
+  print(`${name}.gaps`, byId.gaps.textContent || "none");
   const box = new THREE.Box3().setFromBufferAttribute(surface.geometry.attributes.position);
   print(`${name}.width`, count(surface) ? box.max.x - box.min.x : 0);
 }

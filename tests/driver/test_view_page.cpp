@@ -145,6 +145,24 @@ TEST_CASE("what was left out is said on the page") {
     return;
   CHECK(values["figures"].ends_with("2 pieces · only 6 of 12 elements inside, half of them the worst"));
   CHECK(values["under46.surface"] == "24");
+  CHECK(values["whole.gaps"] == "none");
+  CHECK(values["cut.gaps"] == "The section has gaps, as this page has 6 of 12 elements; dovetail view --png "
+                              "--cut draws all.");
+  CHECK(values["under44.gaps"] == "none"); // the least angle is 45 degrees
+  CHECK(values["under46.gaps"] == "Elements under 45.0° are all here, and some of the others.");
+}
+
+TEST_CASE("where nothing is left out no gaps are told, and where sides are they are at once") {
+  auto complete = drawn(page_of(testing::cubes_in_pieces(2)));
+  auto holed = drawn(page_of(testing::cubes_in_pieces(2), 10));
+  auto flat = drawn(page_of(testing::two_squares()));
+  if (complete.empty() || holed.empty() || flat.empty())
+    return;
+  for (const std::string place : {"whole.gaps", "cut.gaps", "under46.gaps"}) {
+    CHECK(complete[place] == "none");
+    CHECK(flat[place] == "none");
+    CHECK(holed[place].starts_with("The surface has gaps, as this page has 10 of 24 triangles."));
+  }
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "view_meshes.hpp"
+#include "view_sides.hpp"
 
 #include <doctest/doctest.h>
 
@@ -35,7 +36,7 @@ io::loaded_mesh uneven_cubes(local_id cubes) {
 TEST_CASE("sides between subdomains are found, and belong to both") {
   const view_scene scene = scene_of(testing::cubes_in_pieces(2));
   CHECK(scene.dimension == 3);
-  CHECK(scene.elements() == 12);
+  CHECK(scene.count == 12);
   CHECK(scene.vertices == 12);
   CHECK(scene.outer == 20);
   CHECK(scene.triangles.size() == 24);
@@ -45,7 +46,7 @@ TEST_CASE("sides between subdomains are found, and belong to both") {
   REQUIRE(scene.centres.size() == 2);
   CHECK(distance(scene.centres[0], {0.5, 0.5, 0.5}) < 1e-12);
   CHECK(distance(scene.centres[1], {1.5, 0.5, 0.5}) < 1e-12);
-  CHECK(scene.least_angle() == doctest::Approx(45));
+  CHECK(scene.least_angle == doctest::Approx(45));
 }
 
 TEST_CASE("triangles look away from their element") {
@@ -96,12 +97,12 @@ TEST_CASE("the outline is where the surface turns, ends, or changes its group") 
 TEST_CASE("triangles are elements of their own, whose groups are pieces") {
   const view_scene scene = scene_of(testing::two_squares());
   CHECK(scene.dimension == 2);
-  CHECK(scene.elements() == 4);
+  CHECK(scene.count == 4);
   CHECK(scene.outer == 4);
   CHECK(scene.tetrahedra.empty());
   CHECK(scene.groups.names == names{"group 7", "right"});
   CHECK(scene.pieces.of == std::vector<local_id>{0, 0, 1, 1});
-  CHECK(scene.least_angle() == doctest::Approx(45));
+  CHECK(scene.least_angle == doctest::Approx(45));
 }
 
 TEST_CASE("a part has all that fits, and says nothing of it") {
@@ -134,7 +135,8 @@ TEST_CASE("no part has more than it may have; the outer surface goes first") {
   for (std::int64_t most = 1; most < 80; ++most) {
     const view_part part = part_that_fits(scene, most);
     CHECK(part.triangles.size() + 4 * part.elements.size() <= static_cast<std::size_t>(most));
-    CHECK((part.elements.empty() || part.triangles.size() == 24));
+    CHECK((part.elements.empty() || part.triangles.size() >= 20));
+    CHECK(4 * part.elements.size() + 4 > static_cast<std::size_t>(std::max<std::int64_t>(most - 20, 0)) / 4);
     const auto outer =
         std::count_if(part.triangles.begin(), part.triangles.end(), [](local_id t) { return t < 20; });
     CHECK(outer == std::min<std::int64_t>(most, 20));
@@ -142,6 +144,39 @@ TEST_CASE("no part has more than it may have; the outer surface goes first") {
   CHECK(text_of_left_out(scene, part_that_fits(scene, 5)) ==
         "only 5 of 24 triangles of the surface and between pieces, 0 of 12 elements inside, half of them the "
         "worst");
+}
+
+TEST_CASE("sides are the same, and in the same order, however few are in memory at a time") {
+  const io::loaded_mesh row = testing::row_of_cubes(4);
+  const auto sides_of = [&](std::size_t most) {
+    std::vector<std::vector<std::uint32_t>> found;
+    for_each_side(
+        span_of(row.mesh.elements), row.mesh.points.size(),
+        [&](std::span<const std::uint32_t> members) { found.emplace_back(members.begin(), members.end()); },
+        most);
+    return found;
+  };
+  const auto together = sides_of(1000);
+  CHECK(together.size() == (4 * 24 + 36) / 2); // 36 are outside
+  for (const std::size_t most : {1, 10, 50})
+    CHECK(sides_of(most) == together);
+}
+
+TEST_CASE("an angle under which no element is left out is known") {
+  const view_scene scene = scene_of(uneven_cubes(5));
+  const auto triangles = static_cast<std::int64_t>(scene.triangles.size());
+  CHECK_FALSE(complete_under(scene, part_that_fits(scene, triangles + 4 * 30)));
+  const auto under = complete_under(scene, part_that_fits(scene, triangles + 4 * 10));
+  REQUIRE(under);
+  CHECK(std::count_if(scene.angles.begin(), scene.angles.end(), [&](float a) { return a < *under; }) <= 5);
+  CHECK(std::count_if(scene.angles.begin(), scene.angles.end(), [&](float a) { return a <= *under; }) >= 5);
+  CHECK(complete_under(scene, part_that_fits(scene, 1)) == scene.least_angle);
+}
+
+TEST_CASE("the least angle is a number whatever the coordinates, so that elements can be sorted by it") {
+  CHECK(least_angle_of(std::array<vec3, 4>{vec3{}, {1e200, 0, 0}, {0, 1e200, 0}, {0, 0, 1e200}}) >= 0);
+  CHECK(least_angle_of(std::array<vec3, 4>{}) >= 0);
+  CHECK(least_angle_of(std::array<vec3, 3>{vec3{}, {1, 0, 0}, {0, 1, 0}}) == doctest::Approx(45));
 }
 
 TEST_CASE("an element that names no point is refused") {
