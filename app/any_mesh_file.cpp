@@ -128,8 +128,8 @@ io::loaded_mesh read_any_mesh(const std::filesystem::path& path) {
   const other_format format = format_of(path);
   if (format == other_format::none)
     return io::read_mesh(path, io::zlib_expand);
-  return io::detail::joined_pieces(
-      path, [&](const io::piece_visitor& f) { for_each_of_other(format, path, f); });
+  return io::detail::joined_pieces(path,
+                                   [&](const io::piece_visitor& f) { for_each_of_other(format, path, f); });
 }
 
 } // namespace dovetail::app

@@ -10,8 +10,8 @@
 
 namespace dovetail::app {
 
-/// The meshes in a folder, each by one of its files: a PVTU, MSH, XDMF or VTKHDF file, MFEM's of the first rank; the
-/// folder itself for a case of OpenFOAM.
+/// The meshes in a folder, each by one of its files: a PVTU, MSH, XDMF or VTKHDF file, MFEM's of the first
+/// rank; the folder itself for a case of OpenFOAM.
 std::vector<std::filesystem::path> all_meshes_in(const std::filesystem::path& folder);
 
 /// What is to be judged where this is given: of a folder that is no mesh itself, the one in it. Throws

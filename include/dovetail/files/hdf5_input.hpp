@@ -69,8 +69,8 @@ public:
     if (found != wanted)
       fail(name, "it is " + text_of(found) + ", not " + text_of(wanted));
   }
-  /// Its extent. Refuses one that has more values, of so many bytes, than there can be in the file: by others,
-  /// which are packed or a constant, nothing may be allocated.
+  /// Its extent. Refuses one that has more values, of so many bytes, than there can be in the file: by
+  /// others, which are packed or a constant, nothing may be allocated.
   extent require_stored(const std::string& name, std::uint64_t columns, std::uint64_t bytes_each) const {
     const extent found = extent_of(name);
     if (found.columns != columns)

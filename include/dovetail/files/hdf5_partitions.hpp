@@ -61,7 +61,8 @@ public:
       file_.fail(root("NumberOfPoints"), "partition " + std::to_string(p) + " is too large to be read");
     read_points(p, mesh);
     check_types(p);
-    const auto corner = file_.read<std::int64_t>(root("Connectivity"), corners_ * cells_[p], corners_ * cells);
+    const auto corner =
+        file_.read<std::int64_t>(root("Connectivity"), corners_ * cells_[p], corners_ * cells);
     for (const std::int64_t v : corner)
       if (v < 0 || static_cast<std::uint64_t>(v) >= points)
         file_.fail(root("Connectivity"), "partition " + std::to_string(p) + " has the point " +
@@ -124,8 +125,8 @@ private:
     const auto cells = cells_[p + 1] - cells_[p];
     for (const auto type : file_.read<std::uint8_t>(root("Types"), cells_[p], cells))
       if (type != type_)
-        file_.fail(root("Types"), "it has elements of the types " + std::to_string(type_) + " and " +
-                                      std::to_string(type));
+        file_.fail(root("Types"),
+                   "it has elements of the types " + std::to_string(type_) + " and " + std::to_string(type));
     const auto offsets = file_.read<std::int64_t>(root("Offsets"), cells_[p] + p, cells + 1);
     for (std::size_t c = 0; c < offsets.size(); ++c)
       if (offsets[c] < 0 || static_cast<std::uint64_t>(offsets[c]) != corners_ * c)

@@ -94,8 +94,8 @@ public:
   }
 
 private:
-  static void check_numbers(const hdf5_input& file, const loaded_mesh& piece, local_id number, local_id shared,
-                            global_id first_point) {
+  static void check_numbers(const hdf5_input& file, const loaded_mesh& piece, local_id number,
+                            local_id shared, global_id first_point) {
     const std::size_t points = piece.node_ids.size();
     if (shared < 0 || static_cast<std::size_t>(shared) > points)
       file.fail("pieces/skeleton_points", "subdomain " + std::to_string(number) + " has " +
@@ -103,9 +103,9 @@ private:
                                               std::to_string(shared) + " or more");
     for (std::size_t v = static_cast<std::size_t>(shared); v < points; ++v)
       if (piece.node_ids[v] != first_point + static_cast<global_id>(v) - shared)
-        file.fail("VTKHDF/PointData/GlobalNodeIds",
-                  "the own points of subdomain " + std::to_string(number) + " do not follow each other from " +
-                      std::to_string(first_point));
+        file.fail("VTKHDF/PointData/GlobalNodeIds", "the own points of subdomain " + std::to_string(number) +
+                                                        " do not follow each other from " +
+                                                        std::to_string(first_point));
     for (const local_id subdomain : piece.subdomains)
       if (subdomain != number)
         file.fail("VTKHDF/CellData/subdomain", "an element of subdomain " + std::to_string(number) +

@@ -32,8 +32,8 @@ public:
     sides_ = input_.read(0);
     for (std::size_t v = 0; v < sides_.node_ids.size(); ++v)
       if (sides_.node_ids[v] != static_cast<global_id>(v))
-        file.fail("VTKHDF/PointData/GlobalNodeIds", "point " + std::to_string(v) + " has the number " +
-                                                        std::to_string(sides_.node_ids[v]));
+        file.fail("VTKHDF/PointData/GlobalNodeIds",
+                  "point " + std::to_string(v) + " has the number " + std::to_string(sides_.node_ids[v]));
     const auto array = [&](const char* name, std::int64_t least, std::uint64_t end) {
       const std::string full = std::string("VTKHDF/CellData/") + name;
       file.require(full, {sides_.triangles.size(), 1});
@@ -49,8 +49,9 @@ public:
     const auto patch = array("patch", -1, file.extent_of("names/patches").rows);
     for (std::size_t t = 0; t < face.size(); ++t) {
       if ((face[t] < 0) != (patch[t] < 0))
-        file.fail("VTKHDF/CellData/patch", "side " + std::to_string(t) + " has a CAD face and no patch, or the "
-                                                                         "other way round");
+        file.fail("VTKHDF/CellData/patch", "side " + std::to_string(t) +
+                                               " has a CAD face and no patch, or the "
+                                               "other way round");
       add(t, behind[t], false);
       if (front[t] >= 0)
         add(t, front[t], true);
@@ -77,8 +78,7 @@ public:
       throw input_error(name + "it has other points or elements than the skeleton says" + anew);
     for (std::size_t v = 0; v < piece.node_ids.size(); ++v) {
       const global_id id = piece.node_ids[v];
-      if (v < shared ? id >= first_point_[0]
-                     : id != first_point_[p] + static_cast<global_id>(v - shared))
+      if (v < shared ? id >= first_point_[0] : id != first_point_[p] + static_cast<global_id>(v - shared))
         throw input_error(name + "point " + std::to_string(v) + " has the number " + std::to_string(id) +
                           ", which is not that of its place" + anew);
       if (v < shared && sides_.mesh.points[static_cast<std::size_t>(id)] != piece.mesh.points[v])
@@ -93,9 +93,9 @@ public:
     const auto begin = std::lower_bound(halves_.begin(), halves_.end(), half{number, {-1, -1, -1}, false});
     const auto end = std::lower_bound(begin, halves_.end(), half{number + 1, {-1, -1, -1}, false});
     if (!std::equal(begin, end, found.begin(), found.end()))
-      throw input_error(name + "its sides are not those that the skeleton has of it: " +
-                        std::to_string(found.size()) + ", turned outwards, and " +
-                        std::to_string(end - begin) + " there" + anew);
+      throw input_error(
+          name + "its sides are not those that the skeleton has of it: " + std::to_string(found.size()) +
+          ", turned outwards, and " + std::to_string(end - begin) + " there" + anew);
   }
 
 private:

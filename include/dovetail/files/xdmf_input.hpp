@@ -103,7 +103,8 @@ private:
     const std::string text = xml_unescaped(item.text);
     const auto colon = text.rfind(":/");
     const auto extent = numbers(item.attribute("Dimensions"));
-    if (item.attribute("Format") != "HDF" || colon == std::string::npos || extent.empty() || extent.size() > 2)
+    if (item.attribute("Format") != "HDF" || colon == std::string::npos || extent.empty() ||
+        extent.size() > 2)
       fail("a <DataItem> does not name a dataset of an HDF5 file, with its dimensions");
     const auto begin = text.find_first_not_of(" \n\t\r");
     const auto end = text.find_last_not_of(" \n\t\r");

@@ -56,7 +56,8 @@ public:
     const auto values = file_.read<double>("geometry/vertices", 0, vertices_);
     for (std::size_t v = 0; v < vertices_; ++v) {
       mesh_.mesh.points.push_back({values[3 * v], values[3 * v + 1], values[3 * v + 2]});
-      if (!std::isfinite(values[3 * v]) || !std::isfinite(values[3 * v + 1]) || !std::isfinite(values[3 * v + 2]))
+      if (!std::isfinite(values[3 * v]) || !std::isfinite(values[3 * v + 1]) ||
+          !std::isfinite(values[3 * v + 2]))
         file_.fail("geometry/vertices", "a coordinate of vertex " + std::to_string(v) + " is not finite");
     }
     auto tags = array("cells/region", elements_, file_.extent_of("names/regions").rows);
@@ -118,8 +119,8 @@ private:
     auto values = file_.read<local_id>(name, 0, count);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (values[i] < 0 || static_cast<std::uint64_t>(values[i]) >= end)
-        file_.fail(name, "entry " + std::to_string(i) + " is " + std::to_string(values[i]) + ", and there are " +
-                             std::to_string(end));
+        file_.fail(name, "entry " + std::to_string(i) + " is " + std::to_string(values[i]) +
+                             ", and there are " + std::to_string(end));
     return values;
   }
   template <int D>

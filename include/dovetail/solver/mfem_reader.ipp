@@ -106,8 +106,8 @@ private:
       if (first && shared.ranks.front() != rank_)
         fail(name_of(shared.ranks) + " is not one of rank " + std::to_string(shared.ranks.front()) +
              ", whose file should list it");
-      if (known.listed != at(std::lower_bound(shared.ranks.begin(), shared.ranks.end(), rank_) -
-                             shared.ranks.begin()))
+      if (known.listed !=
+          at(std::lower_bound(shared.ranks.begin(), shared.ranks.end(), rank_) - shared.ranks.begin()))
         fail(name_of(shared.ranks) + " is listed twice, or not by all ranks before this one");
       if (!first && shared.vertices.size() != known.vertices.size())
         fail(name_of(shared.ranks) + " shares " + std::to_string(shared.vertices.size()) +
@@ -123,8 +123,8 @@ private:
           known.places.push_back(place);
           shared_places_[known.vertices.back()] = place;
         } else if (known.places[i] != place) {
-          fail("shared vertex " + std::to_string(i) + " of " + name_of(shared.ranks) +
-               " is not where rank " + std::to_string(shared.ranks.front()) + " has it");
+          fail("shared vertex " + std::to_string(i) + " of " + name_of(shared.ranks) + " is not where rank " +
+               std::to_string(shared.ranks.front()) + " has it");
         }
         ids[v] = known.vertices[i];
       }
@@ -148,9 +148,8 @@ private:
                " is not that of rank " + std::to_string(shared.ranks.front()));
       }
       if (here.size() != there.size())
-        fail(name_of(shared.ranks) + " shares " + std::to_string(here.size()) + " " + what +
-             "s here, and " + std::to_string(there.size()) + " in the file of rank " +
-             std::to_string(shared.ranks.front()));
+        fail(name_of(shared.ranks) + " shares " + std::to_string(here.size()) + " " + what + "s here, and " +
+             std::to_string(there.size()) + " in the file of rank " + std::to_string(shared.ranks.front()));
     };
     compare_lists(known.edges, shared.edges, "edge");
     compare_lists(known.faces, shared.faces, "face");
@@ -262,8 +261,7 @@ DOVETAIL_INLINE void for_each_mfem_piece(const std::filesystem::path& file, cons
   const auto files = files_of_mfem(file);
   detail::mfem_joint joint(files);
   for (std::size_t rank = 0; rank < files.size(); ++rank) {
-    detail::mfem_part part =
-        detail::read_mfem_part(files[rank], static_cast<local_id>(rank), files.size());
+    detail::mfem_part part = detail::read_mfem_part(files[rank], static_cast<local_id>(rank), files.size());
     joint.add(part);
     detail::order_points(part.piece, files[rank]);
     f(part.piece, files[rank]);

@@ -180,8 +180,9 @@ inline std::vector<mfem_shared> read_mfem_ranks(mfem_text& text, local_id rank, 
     if (g == 0 ? group.ranks != std::vector{rank}
                : ranks < 2 || std::adjacent_find(group.ranks.begin(), group.ranks.end(),
                                                  [](auto a, auto b) { return a >= b; }) != group.ranks.end())
-      text.fail("group " + std::to_string(g) + (g == 0 ? " is not rank " + std::to_string(rank) + " alone"
-                                                       : " has not two or more ranks in growing order"));
+      text.fail("group " + std::to_string(g) +
+                (g == 0 ? " is not rank " + std::to_string(rank) + " alone"
+                        : " has not two or more ranks in growing order"));
     if (!std::binary_search(group.ranks.begin(), group.ranks.end(), rank))
       text.fail("group " + std::to_string(g) + " does not have rank " + std::to_string(rank));
     groups.push_back(std::move(group));
@@ -227,8 +228,9 @@ inline mfem_part read_mfem_part(const std::filesystem::path& file, local_id rank
   mfem_text text(content, file.string());
   const auto kind = text.word();
   if (kind != "MFEM" || text.word() != "mesh" || text.word() != "v1.2")
-    text.fail("it does not begin with 'MFEM mesh v1.2', a parallel mesh of conforming elements; write it with "
-              "--format mfem");
+    text.fail(
+        "it does not begin with 'MFEM mesh v1.2', a parallel mesh of conforming elements; write it with "
+        "--format mfem");
   mfem_part part;
   read_mfem_mesh(text, part.piece);
   text.expect("mfem_serial_mesh_end");

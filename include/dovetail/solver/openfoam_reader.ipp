@@ -79,8 +79,8 @@ private:
     const std::size_t faces = part_.faces.size();
     part_.inner = neighbours.size();
     if (owners.size() != faces)
-      fail("owner", std::to_string(owners.size()) + " faces have an owner, and there are " +
-                        std::to_string(faces));
+      fail("owner",
+           std::to_string(owners.size()) + " faces have an owner, and there are " + std::to_string(faces));
     if (neighbours.size() > faces || (faces + neighbours.size()) % 4 != 0)
       fail("neighbour", std::to_string(neighbours.size()) + " of " + std::to_string(faces) +
                             " faces have a neighbour: the cells cannot have four faces each");
@@ -100,8 +100,9 @@ private:
                               " and the neighbour " + std::to_string(neighbours[f]) +
                               ", which is not the higher one");
       if (f > 0 && std::pair(owners[f - 1], neighbours[f - 1]) >= std::pair(owners[f], neighbours[f]))
-        fail("owner", "face " + std::to_string(f) + " breaks the upper-triangular order, by owner and then "
-                                                    "by neighbour");
+        fail("owner", "face " + std::to_string(f) +
+                          " breaks the upper-triangular order, by owner and then "
+                          "by neighbour");
       add_face("neighbour", neighbours[f], f, false);
     }
   }
@@ -110,7 +111,8 @@ private:
     if (begin == std::string::npos)
       return;
     const auto first = note.find_first_not_of(' ', begin + name.size());
-    const std::string said = first == std::string::npos ? "" : note.substr(first, note.find(' ', first) - first);
+    const std::string said =
+        first == std::string::npos ? "" : note.substr(first, note.find(' ', first) - first);
     if (said != std::to_string(count))
       fail("owner", "its note says " + name + said + ", and there are " + std::to_string(count));
   }
@@ -142,12 +144,13 @@ private:
     std::array<bool, 4> found{true, false, false, false};
     for (std::size_t k = 1; k < 4 && closed; ++k) {
       const auto face = outwards(faces[k]);
-      const auto side = std::find_if(numbering::sides<3>.begin(), numbering::sides<3>.end(), [&](const auto& s) {
-        simplex<2> vertices;
-        for (std::size_t i = 0; i < 3; ++i)
-          vertices[i] = element[at(s[i])];
-        return same_turn(face, vertices);
-      });
+      const auto side =
+          std::find_if(numbering::sides<3>.begin(), numbering::sides<3>.end(), [&](const auto& s) {
+            simplex<2> vertices;
+            for (std::size_t i = 0; i < 3; ++i)
+              vertices[i] = element[at(s[i])];
+            return same_turn(face, vertices);
+          });
       closed = side != numbering::sides<3>.end() &&
                !std::exchange(found[at(side - numbering::sides<3>.begin())], true);
     }
