@@ -111,6 +111,30 @@ std::filesystem::path find_any_mesh(const std::filesystem::path& path) {
   return all.empty() ? io::find_mesh_file(path) : all.front(); // which says what is there instead
 }
 
+std::vector<std::filesystem::path> files_of_any_mesh(const std::filesystem::path& path) {
+  const std::filesystem::path mesh = find_any_mesh(path);
+  const other_format format = format_of(mesh);
+  if (format == other_format::none)
+    return io::files_of_mesh(path);
+  std::vector<std::filesystem::path> files;
+  if (format == other_format::mfem)
+    return io::files_of_mfem(mesh);
+  if (format == other_format::openfoam)
+    for (const auto& folder : io::folders_of_openfoam(mesh))
+      for (const auto& entry : std::filesystem::directory_iterator(folder))
+        files.push_back(entry.path());
+#ifdef DOVETAIL_DRIVER_WITH_HDF5
+  if (format == other_format::hdf5 || format == other_format::hdf5_ranks) {
+    files = io::files_of_hdf5(mesh);
+    for (const char* beside : {"skeleton.vtkhdf", "mesh.xdmf"})
+      if (files.size() > 1)
+        files.push_back(mesh.parent_path() / beside);
+    files.push_back(mesh);
+  }
+#endif
+  return files;
+}
+
 bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f) {
   const other_format format = format_of(path);
   if (format == other_format::none)

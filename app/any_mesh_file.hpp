@@ -18,6 +18,9 @@ std::vector<std::filesystem::path> all_meshes_in(const std::filesystem::path& fo
 /// `input_error`.
 std::filesystem::path find_any_mesh(const std::filesystem::path& path);
 
+/// As `io::files_of_mesh`, of any format.
+std::vector<std::filesystem::path> files_of_any_mesh(const std::filesystem::path& path);
+
 /// As `io::for_each_piece_file`, of any format.
 bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f);
 
