@@ -117,11 +117,11 @@ private:
       fail("owner", "its note says " + name + said + ", and there are " + std::to_string(count));
   }
   void add_face(const char* file, local_id cell, std::size_t face, bool owned) {
-    const std::string of = "face " + std::to_string(face) + " is of cell " + std::to_string(cell);
+    const auto of = [&] { return "face " + std::to_string(face) + " is of cell " + std::to_string(cell); };
     if (at(cell) >= cells_)
-      fail(file, of + ", and there are " + std::to_string(cells_) + " cells of four faces");
+      fail(file, of() + ", and there are " + std::to_string(cells_) + " cells of four faces");
     if (filled_[at(cell)] == 4)
-      fail(file, of + ", which has four other faces already; only tetrahedra are read");
+      fail(file, of() + ", which has four other faces already; only tetrahedra are read");
     cell_faces_[4 * at(cell) + filled_[at(cell)]++] = {static_cast<local_id>(face), owned};
   }
 
@@ -134,7 +134,6 @@ private:
   }
   simplex<3> tetrahedron(std::size_t cell) const {
     const cell_face* const faces = &cell_faces_[4 * cell];
-    const std::string name = "cell " + std::to_string(cell);
     const auto first = outwards(faces[0]);
     simplex<3> element{no_id, first[0], first[1], first[2]}; // side 0 has the vertices 1, 2, 3
     for (const local_id v : part_.faces[at(faces[1].face)])
@@ -158,7 +157,7 @@ private:
       std::string list;
       for (std::size_t k = 0; k < 4; ++k)
         list += " " + std::to_string(faces[k].face);
-      fail("faces", name + " is no tetrahedron: its faces" + list +
+      fail("faces", "cell " + std::to_string(cell) + " is no tetrahedron: its faces" + list +
                         " do not close it, or one is not turned from its owner to its neighbour");
     }
     return element;
