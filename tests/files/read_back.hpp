@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <sstream>
@@ -87,7 +88,7 @@ void expect_refusal(const std::filesystem::path& file, const std::string& expect
   REQUIRE(file_content(file) != before);
   const std::string said = refusal_of<input_error>(read);
   CHECK_MESSAGE(said.find(expected) != std::string::npos, said);
-  CHECK_MESSAGE(said.find(file.parent_path().parent_path().parent_path().string()) == 0, said);
+  CHECK_MESSAGE(said.find(file.parent_path().parent_path().parent_path().parent_path().string()) == 0, said);
   write_content(file, before);
 }
 
@@ -102,6 +103,27 @@ void expect_refusal_when_cut(const std::filesystem::path& file, std::size_t cuts
   }
   write_content(file, before.substr(0, before.size() - 2));
   CHECK_THROWS_AS(read(), input_error);
+  write_content(file, before);
+}
+
+/// Changes one byte after the other, each time another one: the file is read or refused, whatever it says.
+template <class Read>
+void expect_reading_or_refusal(const std::filesystem::path& file, int changes, const Read& read) {
+  const std::string before = file_content(file);
+  std::size_t at = 0;
+  for (int k = 0; k < changes; ++k) {
+    at = (at + 7919 + before.size() / 3) % before.size();
+    std::string changed = before;
+    changed[at] = "0123456789(){}- \n;x\xff"[k % 20];
+    write_content(file, changed);
+    CAPTURE(at);
+    try {
+      read();
+    } catch (const input_error&) {
+    } catch (const std::exception& problem) {
+      FAIL_CHECK(problem.what());
+    }
+  }
   write_content(file, before);
 }
 

@@ -111,7 +111,7 @@ TEST_CASE("pieces: what is read is what was written, by any of the files") {
             testing::by_places(whole.points, whole.elements, whole.tags));
     }
     CHECK(faults_of(folder / "mesh.xdmf") == "");
-    CHECK(io::read_hdf5(folder / "skeleton.vtkhdf").triangles.size() == 432 + 4 * 72);
+    CHECK(io::read_hdf5(folder / "skeleton.vtkhdf").triangles.size() == 432 + 6 * 72);
   }
 }
 
@@ -188,8 +188,12 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
          set(file, root + "NumberOfCells", 0, std::numeric_limits<std::int64_t>::max()));
   refuse("NumberOfPoints: the partitions do not add up",
          set(file, root + "NumberOfPoints", 0, std::int64_t{1}));
-  refuse("GlobalNodeIds: the own points of subdomain 0 do not follow each other", [&] {
-    change<global_id>(file, root + "PointData/GlobalNodeIds", [](auto& ids) { std::swap(ids[62], ids[63]); });
+  refuse("GlobalNodeIds: the own points of subdomain 0 do not follow each other",
+         set(file, root + "PointData/GlobalNodeIds", 26, global_id{5}));
+  refuse("GlobalNodeIds: the number -5 is negative",
+         set(file, root + "PointData/GlobalNodeIds", 0, global_id{-5}));
+  refuse("subdomain 0: point 0 is not where the skeleton has it", [&] {
+    change<global_id>(file, root + "PointData/GlobalNodeIds", [](auto& ids) { ids[0] = ids[1]; });
   });
   refuse("CellData/subdomain: an element of subdomain 0 says that it is of 1",
          set(file, root + "CellData/subdomain", 0, local_id{1}));
@@ -202,7 +206,7 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
          set(file, "pieces/first_element", 1, global_id{7}));
   refuse("Points: it announces 1152921504606846976 rows, for which the file is too small",
          [&] { replace<double>(file, root + "Points", {}, 3, std::uint64_t{1} << 60); });
-  refuse("CellData/region: it is 1152921504606846976, not 672",
+  refuse("CellData/region: it is 1152921504606846976, not 624",
          [&] { replace<local_id>(file, root + "CellData/region", {}, 1, std::uint64_t{1} << 60); });
   refuse("NumberOfPoints: it announces",
          [&] { replace<std::int64_t>(file, root + "NumberOfPoints", {}, 1, std::uint64_t{1} << 60); });
@@ -211,7 +215,7 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
         file, root + "Points", [](auto& values) { values.resize(2 * values.size() / 3); }, 2);
   });
   refuse("Connectivity: its values are no whole numbers",
-         [&] { replace(file, root + "Connectivity", std::vector<double>(4 * 672)); });
+         [&] { replace(file, root + "Connectivity", std::vector<double>(4 * 624)); });
   refuse("GlobalNodeIds: it is missing", [&] {
     const hid_t of = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(of, "VTKHDF/PointData/GlobalNodeIds", H5P_DEFAULT);
@@ -224,6 +228,20 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
   refuse("mesh_0000.vtkhdf: HDF5 cannot read the file",
          [&] { testing::write_content(file, testing::file_content(file).substr(0, 20000)); });
   refuse("mesh_0000.vtkhdf: this is no HDF5 file", [&] { testing::write_content(file, "a letter"); });
+
+  refuse("NumberOfCells: it is not of as many partitions", [&] {
+    change<std::int64_t>(file, root + "NumberOfCells", [](auto& counts) { counts.push_back(0); });
+  });
+  refuse("NumberOfConnectivityIds: it is not 4 per element", [&] {
+    change<std::int64_t>(file, root + "NumberOfConnectivityIds", [](auto& counts) {
+      counts[0] += 4;
+      counts[1] -= 4;
+    });
+  });
+  refuse("point 0 has the number 99999, which is not that of its place",
+         set(file, root + "PointData/GlobalNodeIds", 0, global_id{99999}));
+  refuse("has not one number per partition",
+         [&] { change<global_id>(file, "pieces/first_point", [](auto& first) { first.pop_back(); }); });
 
   const auto refuse_skeleton = [&](const std::string& expected, const std::function<void()>& spoil) {
     expect(skeleton, expected, read, spoil);
@@ -246,6 +264,27 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
   });
   refuse_skeleton("GlobalNodeIds: point 3 has the number 4",
                   set(skeleton, root + "PointData/GlobalNodeIds", 3, global_id{4}));
+
+  refuse_skeleton("this is no skeleton of tetrahedra",
+                  [&] { testing::write_content(skeleton, testing::file_content(file)); });
+  refuse_skeleton("the first is not the number of points of the skeleton",
+                  set(skeleton, "pieces/first_point", 0, global_id{1}));
+
+  const std::string leaf = "<DataItem Dimensions=\"4\" Format=\"HDF\">a.h5:/b</DataItem>";
+  for (const auto& [said, inside] :
+       {std::array<std::string, 2>{"there is no <Grid> in the collection",
+                                   "<Grid GridType=\"Collection\"></Grid>"},
+        {"<Topology> has no <DataItem>", "<Grid><Topology/></Grid>"},
+        {"has no NumberOfElements", "<Grid><Topology>" + leaf + "</Topology></Grid>"},
+        {"has not its rows and its dataset", "<Grid><A><DataItem ItemType=\"HyperSlab\"/></A></Grid>"},
+        {"has 2 numbers, not 3 or 6", "<Grid><A><DataItem ItemType=\"HyperSlab\"><DataItem>1 2</DataItem>" +
+                                          leaf + "</DataItem></A></Grid>"},
+        {"does not name a dataset", "<Grid><A><DataItem Dimensions=\"4\">a.h5:/b</DataItem></A></Grid>"},
+        {"does not name a dataset", "<Grid><A><DataItem Format=\"HDF\">a.h5:/b</DataItem></A></Grid>"}}) {
+    testing::write_content(folder / "small.xdmf", "<Xdmf><Domain>" + inside + "</Domain></Xdmf>");
+    const auto refusal = testing::refusal_of<input_error>([&] { io::read_hdf5(folder / "small.xdmf"); });
+    CHECK_MESSAGE(refusal.find(said) != std::string::npos, refusal);
+  }
 
   const auto index = folder / "mesh.xdmf";
   const auto refuse_index = [&](const std::string& expected, const std::string& old,

@@ -61,7 +61,7 @@ public:
       for (const std::size_t size :
            {subdomains.size(), shared.size(), first_point.size(), first_element.size()})
         if (size != input.partitions())
-          file.fail("pieces/subdomain", "or another one beside it has not one number per partition");
+          file.fail("pieces/subdomain", "it or another one beside it has not one number per partition");
       for (std::size_t p = 0; p < subdomains.size(); ++p, ++next_) {
         if (static_cast<std::size_t>(subdomains[p]) != next_ || next_ >= grids_.size())
           file.fail("pieces/subdomain", "partition " + std::to_string(p) + " is subdomain " +

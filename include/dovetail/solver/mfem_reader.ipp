@@ -138,18 +138,18 @@ private:
   void compare(const loaded_mesh& piece, const mfem_shared& shared, const side_table<3>& table) {
     group& known = groups_.at(shared.ranks);
     const bool first = known.listed == 1;
-    const auto compare_lists = [&](auto& there, const auto& here, const char* what) {
+    const auto compare_lists = [&](auto& there, const auto& here, const std::string& what) {
+      if (!first && here.size() != there.size())
+        fail(name_of(shared.ranks) + " shares " + std::to_string(here.size()) + " " + what + "s here, and " +
+             std::to_string(there.size()) + " in the file of rank " + std::to_string(shared.ranks.front()));
       for (std::size_t i = 0; i < here.size(); ++i) {
         const auto ids = ids_of(piece, here[i]);
         if (first)
           there.push_back(ids);
-        else if (i < there.size() && there[i] != ids)
-          fail("shared " + std::string(what) + " " + std::to_string(i) + " of " + name_of(shared.ranks) +
+        else if (there[i] != ids)
+          fail("shared " + what + " " + std::to_string(i) + " of " + name_of(shared.ranks) +
                " is not that of rank " + std::to_string(shared.ranks.front()));
       }
-      if (here.size() != there.size())
-        fail(name_of(shared.ranks) + " shares " + std::to_string(here.size()) + " " + what + "s here, and " +
-             std::to_string(there.size()) + " in the file of rank " + std::to_string(shared.ranks.front()));
     };
     compare_lists(known.edges, shared.edges, "edge");
     compare_lists(known.faces, shared.faces, "face");
