@@ -69,16 +69,17 @@ bool has_number(const std::filesystem::path& file) {
   return extension.size() > 1 && io::detail::is_number(extension.substr(1));
 }
 
-/// Whether a file is of another format, and no other one beside it names it.
-bool is_one_of_its_mesh(const std::filesystem::path& file) {
+/// Whether a file is of another format, and no index beside it names it.
+bool stands_for_mesh(const std::filesystem::path& file) {
   if (has_number(file))
     return format_of(file) == other_format::mfem;
   const std::string stem = file.stem().string(), extension = file.extension().string();
   const auto has_index = [&](const std::string& name) {
     return is_file(file.parent_path() / (name + ".xdmf"));
   };
+  const auto at = stem.rfind('_');
   if (extension == ".vtkhdf")
-    return stem != "skeleton" && !has_index(stem.substr(0, stem.rfind('_')));
+    return stem != "skeleton" && (at == std::string::npos || !has_index(stem.substr(0, at)));
   return extension == ".xdmf" || (extension == ".h5" && !has_index(stem));
 }
 
@@ -89,7 +90,7 @@ std::vector<std::filesystem::path> all_meshes_in(const std::filesystem::path& fo
   std::error_code failure;
   std::vector<std::filesystem::path> others;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
-    if (is_one_of_its_mesh(entry.path()))
+    if (stands_for_mesh(entry.path()))
       others.push_back(entry.path());
   std::sort(others.begin(), others.end());
   // Of the ranks' files of one mesh the first.

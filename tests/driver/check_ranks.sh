@@ -92,7 +92,7 @@ if [[ -e $set/ranks.h5 ]]; then
   damaged ranks.h5 "ranks.h5: HDF5 cannot read the file" truncate -s 30000
   damaged ranks.xdmf "ranks.xdmf: it has not one grid of $elements elements" sed -i 's/NumberOfElements="/&1/'
   damaged mesh.xdmf "mesh.xdmf: subdomain 0 has 1[0-9]* elements, and" sed -i '0,/NumberOfElements="/s//&1/'
-  damaged mesh_0003.vtkhdf "mesh_0003.vtkhdf: this is no HDF5 file" sed -i '1s/HDF/XXX/'
+  damaged mesh_0003.vtkhdf "mesh_0003.vtkhdf: this is no mesh file that is known" sed -i '1s/HDF/XXX/'
 fi
 for command in check stats "improve -o better.vtu" "adapt -s 0.2 -o next.vtu"; do
   # shellcheck disable=SC2086
