@@ -1,3 +1,4 @@
+#include "any_mesh_file.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "file_checksums.hpp"
@@ -6,7 +7,6 @@
 
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/streamed_validity.hpp"
-#include "dovetail/files/zlib.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/validity.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -63,7 +63,9 @@ int print_quality(const quality_statistics& quality, std::uint64_t points, int d
 /// How a mesh in these files is called: by the one that was given, or by the first and last where none stands
 /// for all.
 std::string name_of(const std::filesystem::path& given, const std::vector<std::filesystem::path>& files) {
-  if (files.size() < 2 || files.front().extension() != ".msh")
+  const bool by_number = !files.empty() && (files.front().extension() == ".msh" || // else those of MFEM
+                                            files.front().extension().string().starts_with(".0"));
+  if (files.size() < 2 || !by_number)
     return given.string();
   return files.front().string() + " to " + files.back().filename().string();
 }
@@ -73,7 +75,7 @@ std::optional<int> check_streamed(const std::filesystem::path& file,
                                   std::vector<std::filesystem::path>& files) {
   io::streamed_validity found;
   numbers_of_pieces all;
-  if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
+  if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
         found.add(piece, path.filename().string());
         all.add(piece);
         files.push_back(path);
@@ -101,7 +103,7 @@ std::optional<int> measure_streamed(const std::filesystem::path& file, const sta
   io::number_ranges points;
   numbers_of_pieces all;
   std::vector<std::filesystem::path> files;
-  if (!io::for_each_piece_file(file, io::zlib_expand, [&](const io::loaded_mesh& piece, const auto& path) {
+  if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
         quality.merge(measure_quality(piece.mesh), quality.elements);
         for (const global_id id : piece.node_ids)
           points.add(id);
@@ -139,7 +141,7 @@ int check_files(const std::string& report) {
 int check_file(const std::filesystem::path& file, std::vector<std::filesystem::path>& files) {
   if (const auto result = check_streamed(file, files))
     return *result;
-  io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
+  io::loaded_mesh loaded = read_any_mesh(file);
   files = loaded.files;
   return with_mesh_of(
       file, std::move(loaded),
@@ -156,7 +158,7 @@ int check_mesh(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::is_directory(path, failure))
     return check_file(path, files);
-  const auto all = io::mesh_files_in(path);
+  const auto all = all_meshes_in(path);
   if (all.empty())
     io::find_mesh_file(path); // says what is there instead
   int result = exit_ok;
@@ -183,11 +185,11 @@ int run_check(const check_options& options) {
 }
 
 int run_stats(const stats_options& options) {
-  const std::filesystem::path file = io::find_mesh_file(options.mesh);
+  const std::filesystem::path file = find_any_mesh(options.mesh);
   if (const auto result = measure_streamed(file, options))
     return *result;
   return with_mesh_of(
-      file, io::read_mesh(file, io::zlib_expand),
+      file, read_any_mesh(file),
       [&]<int D>(const simplicial_mesh<D>& mesh, const std::string& name, const std::string& elsewhere) {
         warn_of_part(name, elsewhere);
         return print_quality(measure_quality(mesh), mesh.points.size(), D, name, options);

@@ -1,12 +1,12 @@
 #include "command_files.hpp"
 
+#include "any_mesh_file.hpp"
 #include "failure.hpp"
 #include "file_place.hpp"
 #include "output.hpp"
 
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/files/json_tree.hpp"
-#include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/sizing_json.hpp"
 
 #include <algorithm>
@@ -122,7 +122,7 @@ command_inputs inputs_of_mesh(const std::string& option, const std::filesystem::
   if (!can_be_looked_into(file))
     return inputs;
   try {
-    for (const auto& each : io::files_of_mesh(file))
+    for (const auto& each : files_of_any_mesh(file))
       if (each != file)
         inputs.push_back({"a file of " + option, each});
   } catch (const std::exception&) {

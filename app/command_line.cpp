@@ -348,10 +348,10 @@ struct parser {
     command.callback([this] { chosen = run_models; });
   }
   void add_check() {
-    auto& command =
-        *app.add_subcommand("check", "Check that a mesh file (VTU, PVTU, VTP, MSH) is a valid mesh");
+    auto& command = *app.add_subcommand(
+        "check", "Check that a mesh is valid: files of any format that is written, or a folder");
     add_examples(command, {"dovetail check wing/mesh.pvtu", "dovetail check --report wing.json"});
-    command.add_option("MESH", check.mesh, "Mesh file");
+    command.add_option("MESH", check.mesh, "Mesh file, or a folder with one or several");
     command.add_option("--report", check.report,
                        "Report of a run: check that its files are as it wrote them");
     command.callback([this] { chosen = [this] { return run_check(check); }; });

@@ -57,20 +57,54 @@ for file in ranks_1.msh ranks_4.msh; do
   [[ $(counter elements) == "$elements" ]] || fault "not the figures of the whole mesh"
 done
 expect_success check "$set"
-for file in mesh.pvtu ranks.pvtu "ranks_1.msh to ranks_4.msh"; do
+judged=(mesh.pvtu ranks.pvtu "ranks_1.msh to ranks_4.msh" "mesh.000000 to mesh.000003" set)
+[[ ! -e $set/ranks.h5 ]] || judged+=(mesh.xdmf ranks.xdmf ranks.vtkhdf)
+for file in "${judged[@]}"; do
   grep -q "/$file: a valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "not judged: $file"
 done
-(($(wc -l <"$sandbox/stdout") == 3)) || fault "not three meshes"
+(($(wc -l <"$sandbox/stdout") == ${#judged[@]})) || fault "not ${#judged[@]} meshes"
+
+# So it is with those that no other command reads, by any of their files; a damaged one is named.
+others=(mesh.000001 processor1 processor2/constant/polyMesh/faces)
+[[ ! -e $set/ranks.h5 ]] || others+=(ranks.h5 ranks.xdmf ranks.vtkhdf mesh.xdmf mesh_0001.vtkhdf)
+for file in "${others[@]}"; do
+  expect_success check "$set/$file"
+  grep -q "a valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "not the whole mesh"
+  expect_success stats "$set/$file" --report report.json
+  [[ $(counter elements) == "$elements" ]] || fault "not the figures of the whole mesh"
+done
+damaged() { # file, what is said, command that changes it
+  cp "$set/$1" "$inputs/before"
+  "${@:3}" "$set/$1"
+  cmp -s "$inputs/before" "$set/$1" && fault "nothing is changed in $1"
+  expect_error "$2" check "$set/$1"
+  cp "$inputs/before" "$set/$1"
+}
+damaged mesh.000002 "mesh.000002: line .*: the attribute 0 is not" sed -i '/^elements/{n;n;s/^1/0/}'
+damaged mesh.000002 "mesh.000002: line .*: the file ends" truncate -s 5000
+damaged mesh.000001 "mesh.000001: shared vertex 0 of the group of ranks .* is not where" \
+  sed -i '/^# group 1$/,/^shared_edges/{/^shared_vertices/{n;N;s/\(.*\)\n\(.*\)/\2\n\1/}}'
+damaged processor1/constant/polyMesh/points "points: line .*: .*end" truncate -s 5000
+damaged processor1/constant/polyMesh/boundary "boundary: .*its patches are not those of processor 0" \
+  sed -i '0,/type patch/s//type processor; myProcNo 1; neighbProcNo 0/'
+damaged processor2/constant/polyMesh/faces "faces: .*is no tetrahedron" sed -i '0,/^3(/s/^3(\([0-9]*\) \([0-9]*\) /3(\2 \1 /'
+if [[ -e $set/ranks.h5 ]]; then
+  damaged ranks.h5 "ranks.h5: HDF5 cannot read the file" truncate -s 30000
+  damaged ranks.xdmf "ranks.xdmf: it has not one grid of $elements elements" sed -i 's/NumberOfElements="/&1/'
+  damaged mesh.xdmf "mesh.xdmf: subdomain 0 has 1[0-9]* elements, and" sed -i '0,/NumberOfElements="/s//&1/'
+  damaged mesh_0003.vtkhdf "mesh_0003.vtkhdf: this is no mesh file that is known" sed -i '1s/HDF/XXX/'
+fi
 for command in check stats "improve -o better.vtu" "adapt -s 0.2 -o next.vtu"; do
   # shellcheck disable=SC2086
   set -- $command
   expect_error "ranks_0001.vtu: this is one of the 4 files of .*ranks.pvtu, not a whole mesh" "$1" "$set/ranks_0001.vtu" "${@:2}"
   expect_error "mesh_0001.vtu: this is one of the 8 files of .*mesh.pvtu, not a whole mesh" "$1" "$set/mesh_0001.vtu" "${@:2}"
-  expect_error "mesh.000001: this is a file of MFEM, which dovetail writes but does not read" "$1" "$set/mesh.000001" "${@:2}"
+  [[ $1 != check && $1 != stats ]] || continue
+  expect_error "mesh.000001: this is a file of MFEM, which dovetail writes and checks but does not read" "$1" "$set/mesh.000001" "${@:2}"
   expect_error "processor1: there is no .pvtu or .msh file.*" "$1" "$set/processor1" "${@:2}"
   if [[ -e $set/ranks.h5 ]]; then
     for file in ranks.h5 ranks.vtkhdf mesh_0000.vtkhdf; do
-      expect_error "$file: this is a file of HDF5, which dovetail writes but does not read" "$1" "$set/$file" "${@:2}"
+      expect_error "$file: this is a file of HDF5, which dovetail writes and checks but does not read" "$1" "$set/$file" "${@:2}"
     done
     expect_error "ranks.xdmf: this is a file of XDMF" "$1" "$set/ranks.xdmf" "${@:2}"
   fi

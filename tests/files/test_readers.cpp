@@ -423,9 +423,9 @@ TEST_CASE("a folder with several meshes, or with files that are not read") {
   testing::write_content(other / "mesh.000001", "MFEM mesh v1.2");
   std::filesystem::create_directory(other / "processor0");
   check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other); }),
-             "it has files of HDF5, MFEM, OpenFOAM, which dovetail writes but does not read");
+             "it has files of HDF5, MFEM, OpenFOAM, which dovetail writes and checks but does not read");
   check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other / "ranks.h5"); }),
-             "a file of HDF5, which dovetail writes but does not read");
+             "a file of HDF5, which dovetail writes and checks but does not read");
   check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(other / "mesh.000001"); }),
              "a file of MFEM");
 }

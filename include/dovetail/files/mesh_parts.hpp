@@ -40,7 +40,7 @@ bool names_partitions(const std::filesystem::path& file);
 /// Throws `input_error` for a VTU file that a PVTU file beside it names as one of several.
 void refuse_one_piece(const std::filesystem::path& file);
 
-/// A format that is written and not read, told by how a file begins; empty: none of these.
+/// A format that is written and checked and not read, told by how a file begins; empty: none of these.
 std::string unread_format(const std::string& start);
 
 } // namespace dovetail::io::detail

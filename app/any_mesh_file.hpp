@@ -1,0 +1,30 @@
+/// @file
+/// Meshes of every format that is written, whether or not other commands than those that judge them read it.
+#pragma once
+
+#include "dovetail/files/piece_visitor.hpp"
+#include "dovetail/mesh/loaded_mesh.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace dovetail::app {
+
+/// The meshes in a folder, each by one of its files: a PVTU, MSH, XDMF or VTKHDF file, MFEM's of the first
+/// rank; the folder itself for a case of OpenFOAM.
+std::vector<std::filesystem::path> all_meshes_in(const std::filesystem::path& folder);
+
+/// What is to be judged where this is given: of a folder that is no mesh itself, the one in it. Throws
+/// `input_error`.
+std::filesystem::path find_any_mesh(const std::filesystem::path& path);
+
+/// As `io::files_of_mesh`, of any format.
+std::vector<std::filesystem::path> files_of_any_mesh(const std::filesystem::path& path);
+
+/// As `io::for_each_piece_file`, of any format.
+bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f);
+
+/// As `io::read_mesh`, of any format.
+io::loaded_mesh read_any_mesh(const std::filesystem::path& path);
+
+} // namespace dovetail::app
