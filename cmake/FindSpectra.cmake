@@ -1,6 +1,6 @@
-# Finds Spectra, a library of headers on top of Eigen: Debian's package has no CMake configuration.
+# Finds Spectra, a library of headers on top of Eigen: the package of Debian 12 has no CMake configuration.
 # Defines Spectra::Spectra.
-find_package(Eigen3 3.3 QUIET CONFIG)
+find_package(Eigen3 QUIET CONFIG)
 find_path(Spectra_INCLUDE_DIR NAMES Spectra/SymEigsSolver.h)
 mark_as_advanced(Spectra_INCLUDE_DIR)
 

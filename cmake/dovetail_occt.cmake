@@ -2,10 +2,15 @@
 # and by dovetailConfig.cmake after find_package(OpenCASCADE). The toolkits are linked by file: the targets of Debian's
 # configuration name files (libtbb.so, libfreetype.so) of development packages that it does not depend on.
 if(NOT TARGET dovetail_occt_toolkits)
-  set(toolkits
-    TKXDEIGES TKXDESTEP TKXCAF TKVCAF TKCAF TKLCAF TKCDF TKIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase TKXSBase
-    TKMesh TKFillet TKOffset TKFeat TKBool TKBO TKPrim TKShHealing TKTopAlgo TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d
-    TKMath TKernel)
+  # Open CASCADE 7.8 merged the toolkits of each format of files into one.
+  if(OpenCASCADE_VERSION VERSION_LESS 7.8)
+    set(toolkits TKXDEIGES TKXDESTEP TKIGES TKSTEP TKSTEP209 TKSTEPAttr TKSTEPBase)
+  else()
+    set(toolkits TKDEIGES TKDESTEP TKDE)
+  endif()
+  list(APPEND toolkits
+    TKXCAF TKVCAF TKCAF TKLCAF TKCDF TKXSBase TKMesh TKFillet TKOffset TKFeat TKBool TKBO TKPrim TKShHealing TKTopAlgo
+    TKBRep TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
   set(toolkit_files "")
   foreach(toolkit IN LISTS toolkits)
     find_library(dovetail_occt_${toolkit} ${toolkit} HINTS "${OpenCASCADE_LIBRARY_DIR}" NO_CACHE REQUIRED)

@@ -80,7 +80,10 @@ dovetail_adapter(netgen FOUND "${Netgen_FOUND}" LIBRARIES Netgen::nglib)
 find_package(Spectra QUIET)
 dovetail_adapter(spectra FOUND "${Spectra_FOUND}" LIBRARIES Spectra::Spectra)
 
-find_package(Eigen3 3.3 QUIET CONFIG)
+find_package(Eigen3 QUIET CONFIG) # 3.3 or newer: of a version asked for, its config accepts the same major version only
+if(Eigen3_VERSION VERSION_LESS 3.3)
+  set(Eigen3_FOUND FALSE)
+endif()
 dovetail_adapter(eigen FOUND "${Eigen3_FOUND}" LIBRARIES Eigen3::Eigen)
 
 find_package(Boost 1.71 QUIET CONFIG) # headers of Boost.Graph

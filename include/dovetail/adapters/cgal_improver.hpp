@@ -6,9 +6,14 @@
 #include "dovetail/distributed/run_in_child.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Mesh_3/tet_soup_to_c3t3.h>
 #include <CGAL/Tetrahedral_remeshing/Remeshing_triangulation_3.h>
 #include <CGAL/tetrahedral_remeshing.h>
+#include <CGAL/version.h>
+#if CGAL_VERSION_NR >= 1050600000 // 5.6 moved it
+#include <CGAL/SMDS_3/tet_soup_to_c3t3.h>
+#else
+#include <CGAL/Mesh_3/tet_soup_to_c3t3.h>
+#endif
 
 #include <array>
 #include <map>
@@ -36,37 +41,52 @@ struct cgal {
 
 namespace detail {
 
-inline simplicial_mesh<3> remesh_with_cgal(const cgal& parameters, const library_piece& piece,
-                                           const any_sizing& size) {
-  using kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using triangulation = CGAL::Tetrahedral_remeshing::Remeshing_triangulation_3<kernel>;
-  using point = triangulation::Point;
+using cgal_triangulation = CGAL::Tetrahedral_remeshing::Remeshing_triangulation_3<
+    CGAL::Exact_predicates_inexact_constructions_kernel>;
 
-  std::vector<point> points;
+/// Whether the result is valid in the sense of CGAL is not asked: with one infinite vertex it is not when the
+/// boundary has handles, and yet the remesher works. CGAL's documented function, new in 5.6, asserts a convex
+/// mesh.
+inline bool build_for_cgal(cgal_triangulation& mesh, const library_piece& piece, int inside) {
+  std::vector<cgal_triangulation::Point> points;
   for (const vec3& p : piece.mesh.points)
     points.emplace_back(p.x, p.y, p.z);
+  const std::map<std::array<int, 3>, cgal_triangulation::Cell::Surface_patch_index> no_patches;
+#if CGAL_VERSION_NR >= 1050600000
+  std::vector<std::array<int, 4>> cells;
+  for (const auto& [a, b, c, d] : piece.mesh.elements)
+    cells.push_back({a, b, c, d});
+  return CGAL::SMDS_3::build_triangulation_one_subdomain(mesh, points, cells, inside, no_patches, false,
+                                                         false, false);
+#else
   std::vector<std::array<int, 5>> cells;
-  const int inside = 1;
   for (const auto& [a, b, c, d] : piece.mesh.elements)
     cells.push_back({a, b, c, d, inside});
-  triangulation mesh;
-  std::vector<triangulation::Vertex_handle> vertices;
-  const std::map<std::array<int, 3>, triangulation::Cell::Surface_patch_index> no_patches;
-  // Whether the result is valid in the sense of CGAL is not asked: with one infinite vertex it is not when
-  // the boundary has handles, and yet the remesher works.
+  std::vector<cgal_triangulation::Vertex_handle> vertices;
   constexpr bool unchecked = true;
-  if (!CGAL::build_triangulation<triangulation, unchecked>(mesh, points, cells, no_patches, vertices))
+  return CGAL::build_triangulation<cgal_triangulation, unchecked>(mesh, points, cells, no_patches, vertices);
+#endif
+}
+
+inline simplicial_mesh<3> remesh_with_cgal(const cgal& parameters, const library_piece& piece,
+                                           const any_sizing& size) {
+  const int inside = 1;
+  cgal_triangulation mesh;
+  if (!build_for_cgal(mesh, piece, inside))
     throw mesher_error("CGAL does not take the mesh");
 
   const double mean = mean_edge_length(piece.mesh);
-  const auto target = [&](const point& p) { return size ? size({p.x(), p.y(), p.z()}) : mean; };
+  // Since 6.0 CGAL also says on what the point is.
+  const auto target = [&](const cgal_triangulation::Point& p, const auto&...) {
+    return size ? size({p.x(), p.y(), p.z()}) : mean;
+  };
   CGAL::tetrahedral_isotropic_remeshing(
       mesh, target,
       CGAL::parameters::number_of_iterations(static_cast<std::size_t>(parameters.iterations))
           .remesh_boundaries(false));
 
   simplicial_mesh<3> made;
-  std::map<triangulation::Vertex_handle, local_id> number;
+  std::map<cgal_triangulation::Vertex_handle, local_id> number;
   for (const auto v : mesh.finite_vertex_handles()) {
     number.emplace(v, static_cast<local_id>(made.points.size()));
     made.points.push_back({v->point().x(), v->point().y(), v->point().z()});

@@ -115,7 +115,7 @@ private:
   }
 
   template <class Item>
-  static std::span<const Item> items_at(const std::vector<Item>& items, const simplex<1>& edge) {
+  static std::span<const Item> items_at(const std::vector<Item>& items, simplex<1> edge) {
     const auto [first, last] = std::equal_range(items.begin(), items.end(), Item{edge, {}},
                                                 [](const Item& a, const Item& b) { return a.edge < b.edge; });
     return {first, last};
