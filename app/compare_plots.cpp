@@ -219,7 +219,7 @@ std::string plot_of_angles(const comparison& compared) {
         first.push_back(row);
       }
   const auto share = [](const comparison_row& row, int degree) {
-    const auto count = static_cast<double>(row.quality.min_dihedrals.bins[static_cast<std::size_t>(degree)]);
+    const auto count = static_cast<double>(row.quality.min_dihedrals.bins[degree]);
     return row.elements > 0 ? 1e6 * count / static_cast<double>(row.elements) : 0;
   };
   double most = 10;

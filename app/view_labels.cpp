@@ -30,14 +30,14 @@ view_labels labels_of(const std::vector<local_id>& tags, const tag_names& names,
 
 local_id group_labels::label(std::optional<local_id> tag, bool outer, local_id element) {
   if (tag)
-    return label_named(tags_.names()[static_cast<std::size_t>(tags_.label(*tag))]);
+    return label_named(tags_.names()[tags_.label(*tag)]);
   if (!outer)
     return label_named("between pieces");
   const view_labels& materials = scene_.materials;
   if (has_triangles_ || materials.names.size() < 2)
     return label_named(has_triangles_ ? "without a group" : "surface");
-  const local_id material = materials.of[static_cast<std::size_t>(element)];
-  return label_named("surface of " + materials.names[static_cast<std::size_t>(material)]);
+  const local_id material = materials.of[element];
+  return label_named("surface of " + materials.names[material]);
 }
 
 local_id group_labels::label_named(const std::string& name) {
@@ -53,13 +53,12 @@ void group_labels::sort() {
   std::vector<local_id> label(scene_.groups.names.size(), no_id);
   std::vector<std::string> sorted;
   for (const std::string& name : names)
-    if (const auto at = labels_.find(name);
-        at != labels_.end() && label[static_cast<std::size_t>(at->second)] == no_id) {
-      label[static_cast<std::size_t>(at->second)] = static_cast<local_id>(sorted.size());
+    if (const auto at = labels_.find(name); at != labels_.end() && label[at->second] == no_id) {
+      label[at->second] = static_cast<local_id>(sorted.size());
       sorted.push_back(name);
     }
   for (local_id& of : scene_.groups.of)
-    of = label[static_cast<std::size_t>(of)];
+    of = label[of];
   scene_.groups.names = std::move(sorted);
 }
 

@@ -40,8 +40,7 @@ private:
 simplex<2> side_of(std::span<const simplex<3>> elements, std::size_t number) {
   const simplex<3>& element = elements[number / sides_of_one];
   const auto& local = numbering::sides<3>[number % sides_of_one];
-  return {element[static_cast<std::size_t>(local[0])], element[static_cast<std::size_t>(local[1])],
-          element[static_cast<std::size_t>(local[2])]};
+  return {element[local[0]], element[local[1]], element[local[2]]};
 }
 
 void require_points(std::span<const simplex<3>> elements, std::size_t points) {

@@ -49,7 +49,7 @@ std::vector<vec3> places(const view_scene& scene, const Simplices& simplices) {
   std::vector<vec3> at;
   for (const auto& vertices : simplices)
     for (const local_id v : vertices)
-      at.push_back(scene.points[static_cast<std::size_t>(v)]);
+      at.push_back(scene.points[v]);
   return at;
 }
 
@@ -58,7 +58,7 @@ template <class T>
 std::vector<T> behind(const view_scene& scene, const std::vector<T>& of_elements) {
   std::vector<T> said;
   for (const local_id e : scene.element_of)
-    said.push_back(of_elements.at(static_cast<std::size_t>(e)));
+    said.push_back(of_elements.at(e));
   return said;
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("of the elements there are those of a page: the worst of the whole mes
     for (std::size_t k = 0; k < part.elements.size(); ++k) {
       const auto at = static_cast<std::size_t>(part.elements[k]);
       if (k < worst)
-        CHECK(scene.angles[at] == whole.angles[static_cast<std::size_t>(part_of_whole.elements[k])]);
+        CHECK(scene.angles[at] == whole.angles[part_of_whole.elements[k]]);
       std::vector<double> place;
       for (const vec3 p : corners(span_of(scene.points), scene.tetrahedra[at]))
         place.insert(place.end(), {p.x, p.y, p.z});

@@ -35,7 +35,7 @@ auto by_places(const std::vector<vec3>& points, const std::vector<std::array<loc
   for (std::size_t e = 0; e < simplices.size(); ++e) {
     std::array<place, N> corners;
     for (std::size_t k = 0; k < N; ++k) {
-      const vec3 p = points[static_cast<std::size_t>(simplices[e][k])];
+      const vec3 p = points[simplices[e][k]];
       corners[k] = {p.x, p.y, p.z};
     }
     bool odd = false;

@@ -161,7 +161,7 @@ private:
     const auto use = [&](const auto& simplices) {
       for (const auto& vertices : simplices)
         for (const local_id v : vertices)
-          place[static_cast<std::size_t>(v)] = 0;
+          place[v] = 0;
     };
     use(mesh.mesh.elements);
     use(mesh.triangles);
@@ -178,7 +178,7 @@ private:
     const auto renumber = [&](auto& simplices) {
       for (auto& vertices : simplices)
         for (local_id& v : vertices)
-          v = place[static_cast<std::size_t>(v)];
+          v = place[v];
     };
     renumber(mesh.mesh.elements);
     renumber(mesh.triangles);

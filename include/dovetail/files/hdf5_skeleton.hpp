@@ -81,7 +81,7 @@ public:
       if (v < shared ? id >= first_point_[0] : id != first_point_[p] + static_cast<global_id>(v - shared))
         throw input_error(name + "point " + std::to_string(v) + " has the number " + std::to_string(id) +
                           ", which is not that of its place" + anew);
-      if (v < shared && sides_.mesh.points[static_cast<std::size_t>(id)] != piece.mesh.points[v])
+      if (v < shared && sides_.mesh.points[id] != piece.mesh.points[v])
         throw input_error(name + "point " + std::to_string(v) + " is not where the skeleton has it" + anew);
     }
     std::vector<half> found;
@@ -105,7 +105,7 @@ private:
   static std::array<global_id, 3> ids_of(const loaded_mesh& mesh, const simplex<2>& side) {
     std::array<global_id, 3> ids;
     for (std::size_t k = 0; k < 3; ++k)
-      ids[k] = mesh.node_ids[static_cast<std::size_t>(side[k])];
+      ids[k] = mesh.node_ids[side[k]];
     return ids;
   }
   static half half_of(std::array<global_id, 3> ids, local_id piece, bool from_front) {

@@ -265,8 +265,7 @@ inline std::vector<std::string> read_foam_zones(const std::filesystem::path& fil
         if (static_cast<std::size_t>(cell) >= of_cell.size())
           text.fail("zone " + names.back() + " has the cell " + std::to_string(cell) + ", and there are " +
                     std::to_string(of_cell.size()));
-        if (std::exchange(of_cell[static_cast<std::size_t>(cell)], static_cast<local_id>(names.size()) - 1) !=
-            no_id)
+        if (std::exchange(of_cell[cell], static_cast<local_id>(names.size()) - 1) != no_id)
           text.fail("cell " + std::to_string(cell) + " is in two zones");
       }
       text.expect(';');

@@ -142,9 +142,9 @@ private:
     std::vector<bool> seen(vertices_, false);
     for (std::size_t q = 0; q + 1 < first_cell_.size(); ++q)
       for (global_id e = first_cell_[q]; e < first_cell_[q + 1]; ++e)
-        for (const local_id v : elements[at(e)])
-          if (!seen[at(v)]) {
-            seen[at(v)] = true;
+        for (const local_id v : elements[e])
+          if (!seen[v]) {
+            seen[v] = true;
             if (v < first_vertex_[q] || v >= first_vertex_[q + 1])
               file_.fail("ranks/first_vertex", "vertex " + std::to_string(v) + " is not of rank " +
                                                    std::to_string(q) +

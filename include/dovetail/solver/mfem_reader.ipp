@@ -72,7 +72,7 @@ private:
 
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   [[noreturn]] void fail(const std::string& what) const {
-    throw input_error(files_[at(rank_)].string() + ": " + what + "; write all files anew");
+    throw input_error(files_[rank_].string() + ": " + what + "; write all files anew");
   }
   static std::string name_of(const std::vector<local_id>& ranks) {
     std::string text = "the group of ranks";
@@ -84,7 +84,7 @@ private:
   std::array<global_id, N> ids_of(const loaded_mesh& piece, const std::array<local_id, N>& vertices) const {
     std::array<global_id, N> ids;
     for (std::size_t k = 0; k < N; ++k)
-      ids[k] = piece.node_ids[at(vertices[k])];
+      ids[k] = piece.node_ids[vertices[k]];
     return ids;
   }
   template <std::size_t N>
@@ -159,7 +159,7 @@ private:
       const std::string name = "shared face " + std::to_string(i) + " of " + name_of(shared.ranks);
       if (side == no_id || !table.is_boundary(side))
         fail(name + " is no side where the elements of the rank end");
-      if (same_turn(table.vertices[at(side)], face) != (shared.ranks.front() == rank_))
+      if (same_turn(table.vertices[side], face) != (shared.ranks.front() == rank_))
         fail(name + " is turned the wrong way");
     }
   }
@@ -208,7 +208,7 @@ private:
       const local_id side = find_side<3>(table, triangle);
       if (side == no_id)
         fail("boundary element " + std::to_string(t) + " is no side of an element");
-      if (table.is_boundary(side) && !same_turn(table.vertices[at(side)], triangle))
+      if (table.is_boundary(side) && !same_turn(table.vertices[side], triangle))
         fail("boundary element " + std::to_string(t) + " is turned inwards");
       boundary_.emplace_back(ascending(ids_of(piece, triangle)), rank_);
     }

@@ -120,14 +120,14 @@ private:
     const auto of = [&] { return "face " + std::to_string(face) + " is of cell " + std::to_string(cell); };
     if (at(cell) >= cells_)
       fail(file, of() + ", and there are " + std::to_string(cells_) + " cells of four faces");
-    if (filled_[at(cell)] == 4)
+    if (filled_[cell] == 4)
       fail(file, of() + ", which has four other faces already; only tetrahedra are read");
-    cell_faces_[4 * at(cell) + filled_[at(cell)]++] = {static_cast<local_id>(face), owned};
+    cell_faces_[4 * at(cell) + filled_[cell]++] = {static_cast<local_id>(face), owned};
   }
 
   /// A face of a cell as it is turned out of the cell.
   simplex<2> outwards(const cell_face& from) const {
-    simplex<2> face = part_.faces[at(from.face)];
+    simplex<2> face = part_.faces[from.face];
     if (!from.owned)
       std::swap(face[1], face[2]);
     return face;
@@ -136,7 +136,7 @@ private:
     const cell_face* const faces = &cell_faces_[4 * cell];
     const auto first = outwards(faces[0]);
     simplex<3> element{no_id, first[0], first[1], first[2]}; // side 0 has the vertices 1, 2, 3
-    for (const local_id v : part_.faces[at(faces[1].face)])
+    for (const local_id v : part_.faces[faces[1].face])
       if (std::find(first.begin(), first.end(), v) == first.end())
         element[0] = v;
     bool closed = element[0] != no_id && first[0] != first[1] && first[1] != first[2] && first[2] != first[0];
@@ -147,11 +147,11 @@ private:
           std::find_if(numbering::sides<3>.begin(), numbering::sides<3>.end(), [&](const auto& s) {
             simplex<2> vertices;
             for (std::size_t i = 0; i < 3; ++i)
-              vertices[i] = element[at(s[i])];
+              vertices[i] = element[s[i]];
             return same_turn(face, vertices);
           });
       closed = side != numbering::sides<3>.end() &&
-               !std::exchange(found[at(side - numbering::sides<3>.begin())], true);
+               !std::exchange(found[side - numbering::sides<3>.begin()], true);
     }
     if (!closed) {
       std::string list;
@@ -179,7 +179,7 @@ private:
       const auto tag = static_cast<local_id>(piece.triangle_names.size());
       piece.triangle_names.emplace_back(tag, patch.name);
       for (std::int64_t f = patch.first; f < next; ++f) {
-        piece.triangles.push_back(part_.faces[at(f)]);
+        piece.triangles.push_back(part_.faces[f]);
         piece.triangle_tags.push_back(tag);
       }
     }
@@ -210,7 +210,7 @@ public:
       for (std::int64_t f = patch.first; f < patch.first + patch.faces; ++f) {
         std::array<global_id, 3> ids;
         for (std::size_t k = 0; k < 3; ++k)
-          ids[k] = part.piece.node_ids[at(part.faces[at(f)][k])];
+          ids[k] = part.piece.node_ids[part.faces[f][k]];
         faces_.add({ascending(ids), here_, between ? 2 : 1});
         if (between)
           faces.push_back(ids);
@@ -237,7 +237,7 @@ public:
 private:
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   [[noreturn]] void fail(local_id processor, const std::string& what) const {
-    throw input_error((folders_[at(processor)] / "boundary").string() + ": " + what +
+    throw input_error((folders_[processor] / "boundary").string() + ": " + what +
                       "; write the meshes of all processors anew");
   }
 
@@ -248,7 +248,7 @@ private:
     std::vector<bool> at_end(points.size(), false);
     for (std::size_t f = part.inner; f < part.faces.size() && several; ++f)
       for (const local_id v : part.faces[f])
-        at_end[at(v)] = true;
+        at_end[v] = true;
     std::vector<global_id> taken;
     for (std::size_t v = 0; v < points.size(); ++v) {
       global_id id = next_;
@@ -262,7 +262,7 @@ private:
     }
     sort_all(taken);
     if (std::adjacent_find(taken.begin(), taken.end()) != taken.end())
-      throw input_error((folders_[at(here_)] / "points").string() +
+      throw input_error((folders_[here_] / "points").string() +
                         ": two points are at the same place; write the mesh anew");
   }
 
@@ -277,7 +277,7 @@ private:
     if (names != patches_)
       fail(here_, "its patches are not those of processor 0, but for those between processors");
     if (part.zones != zones_)
-      throw input_error((folders_[at(here_)] / "cellZones").string() +
+      throw input_error((folders_[here_] / "cellZones").string() +
                         ": the zones are not those of processor 0; write the meshes of all processors anew");
   }
 
