@@ -100,8 +100,8 @@ template <class T>
 void add_spread(std::vector<T>& to, std::span<const T> from, std::size_t count) {
   count = std::min(count, from.size());
   for (std::size_t k = 0; k < count; ++k)
-    to.push_back(
-        from[static_cast<double>(k) * static_cast<double>(from.size()) / static_cast<double>(count)]);
+    to.push_back(from[static_cast<std::size_t>(static_cast<double>(k) * static_cast<double>(from.size()) /
+                                               static_cast<double>(count))]);
 }
 
 /// As much as there is room for. Of triangles that do not fit there are evenly spread ones; of the elements
