@@ -209,8 +209,8 @@ TEST_CASE("Ito's improver collects the elements of two layers, and no others, in
     for (const auto& [material, elements] : expected)
       wanted.insert(elements);
     CHECK(collected == wanted);
-    CHECK(made.summary.find("collection").get("elements") == count);
-    CHECK(made.summary.find("second pass").get("elements") == count);
+    CHECK(made.summary.find("collection").get("elements", 0) == count);
+    CHECK(made.summary.find("second pass").get("elements", 0) == count);
   }
 }
 
