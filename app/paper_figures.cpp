@@ -3,6 +3,8 @@
 #include "dovetail/core/error.hpp"
 #include "paper_figures_text.hpp" // paper_figures.json as a string
 
+#include <string>
+
 namespace dovetail::app {
 
 const nlohmann::ordered_json& paper_figures() {
@@ -10,11 +12,12 @@ const nlohmann::ordered_json& paper_figures() {
   return figures;
 }
 
-const nlohmann::ordered_json& paper_table(const std::string& name) {
+const nlohmann::ordered_json& paper_table(std::string_view name) {
   const auto& tables = paper_figures().at("tables");
-  if (!tables.contains(name))
-    throw usage_error("the figures of the paper have no " + name);
-  return tables.at(name);
+  const auto table = tables.find(std::string(name));
+  if (table == tables.end())
+    throw usage_error("the figures of the paper have no " + std::string(name));
+  return *table;
 }
 
 } // namespace dovetail::app

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <string>
+#include <string_view>
 
 namespace dovetail::app {
 
@@ -14,6 +14,6 @@ namespace dovetail::app {
 const nlohmann::ordered_json& paper_figures();
 
 /// One table of them. Throws `usage_error` for one that is not there.
-const nlohmann::ordered_json& paper_table(const std::string& name);
+const nlohmann::ordered_json& paper_table(std::string_view name);
 
 } // namespace dovetail::app

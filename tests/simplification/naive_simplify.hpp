@@ -9,7 +9,9 @@
 #include "support/adjacency.hpp"
 
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace dovetail_test {

@@ -70,8 +70,9 @@ public:
       gmsh::model::geo::addVolume(loops);
     }
     gmsh::model::geo::synchronize();
-    gmsh::model::mesh::setSizeCallback([this](int, int, double x, double y, double z) {
-      return scale_ * size_at({x, y, z});
+    // Since 4.9 Gmsh also says what its other limits are, and no longer takes the least of all by itself.
+    gmsh::model::mesh::setSizeCallback([this](int, int, double x, double y, double z, auto... others) {
+      return std::min({scale_ * size_at({x, y, z}), others...});
     });
     gmsh::model::mesh::generate(3);
     if (!failure_.empty())

@@ -141,8 +141,9 @@ private:
     geo::synchronize();
     if (!slits.empty())
       gmsh::model::mesh::embed(1, slits, 2, face);
-    gmsh::model::mesh::setSizeCallback([this](int, int, double x, double y, double) {
-      return size_at({x, y});
+    // Since 4.9 Gmsh also says what its other limits are, and no longer takes the least of all by itself.
+    gmsh::model::mesh::setSizeCallback([this](int, int, double x, double y, double, auto... others) {
+      return std::min({size_at({x, y}), others...});
     });
   }
 
