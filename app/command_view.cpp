@@ -165,7 +165,11 @@ void write_page(const view_scene& scene, const view_options& options, const view
               left_out.empty() ? "" : (", " + left_out + "; see --most").c_str());
 }
 
-void write_picture(const view_scene& scene, const view_wishes& wishes, const view_options& options) {
+/// \param count of the elements under the angle that is asked for
+void write_picture(const view_scene& scene, view_wishes wishes, const view_options& options,
+                   std::size_t count) {
+  if (wishes.under)
+    wishes.under = angle_of_worst(scene, *wishes.under);
   const auto png = encode_png(picture_of_view(scene, wishes));
   output_file file(options.png);
   file.bytes(png.data(), png.size());
@@ -173,9 +177,10 @@ void write_picture(const view_scene& scene, const view_wishes& wishes, const vie
   std::printf("%s: %d x %d pixels\n", options.png.c_str(), wishes.width, wishes.height);
   if (!options.under)
     return;
-  const std::size_t shown = elements_under(scene, *options.under);
-  std::printf("%zu of %zu elements have an angle under %g degrees\n", shown, scene.count, *options.under);
-  if (shown == 0)
+  std::printf("%zu of %zu elements have an angle under %g degrees\n", count, scene.count, *options.under);
+  if (const std::size_t drawn = elements_under(scene, *wishes.under); drawn < count)
+    std::fprintf(stderr, "warning: %s: only the worst %zu of them are drawn\n", options.png.c_str(), drawn);
+  if (count == 0)
     std::fprintf(stderr, "warning: %s: no element has so small an angle; the picture is the outline alone\n",
                  options.png.c_str());
 }
@@ -189,6 +194,9 @@ void say_marks(const view_marks& marks, const box3& box) {
                  "warning: %s: %zu of %zu marks are outside of the mesh; is this the report of its run?\n",
                  marks.report.c_str(), outside, marks.all.size());
 }
+
+/// Of a section, which has few and would have gaps.
+constexpr std::size_t all_elements = std::numeric_limits<std::size_t>::max() / 4;
 
 /// A mesh as far as it is in memory.
 class shown_mesh {
@@ -212,11 +220,14 @@ public:
   const view_scene& scene() const { return pieces_ ? pieces_->scene : whole_; }
 
   /// Sees to it that the elements in a picture are there, whatever a page has of them.
-  void prepare(const view_wishes& wishes) {
+  /// \return how many have an angle under that of the picture, if there is one
+  std::size_t prepare(const view_wishes& wishes) {
+    std::size_t wanted = 0;
     if (pieces_ && (wishes.cut || wishes.under))
-      pieces_->take_elements(wishes.explode, [&](float angle, const std::array<vec3, 4>& corners) {
-        return is_drawn(wishes, angle, corners);
-      });
+      wanted = pieces_->take_elements(
+          wishes.explode, wishes.under ? most_elements_drawn : all_elements,
+          [&](float angle, const std::array<vec3, 4>& corners) { return is_drawn(wishes, angle, corners); });
+    return pieces_ || !wishes.under ? wanted : elements_under(whole_, *wishes.under);
   }
 
 private:
@@ -244,8 +255,8 @@ int run_view(const view_options& options) {
     write_page(shown.scene(), options, marks);
   if (!options.png.empty()) {
     const view_wishes wishes = asked.wishes(shown.scene(), options, marks);
-    shown.prepare(wishes);
-    write_picture(shown.scene(), wishes, options);
+    const std::size_t count = shown.prepare(wishes);
+    write_picture(shown.scene(), wishes, options, count);
   }
   say_marks(marks, shown.scene().box);
   return exit_ok;

@@ -232,11 +232,27 @@ bool is_drawn(const view_wishes& wishes, float angle, const std::array<vec3, 4>&
   return wishes.cut && !section(corners, *wishes.cut).empty();
 }
 
+namespace {
+
+std::span<const float> angles_of_elements(const view_scene& scene) {
+  return std::span(scene.angles).first(scene.dimension == 3 ? scene.tetrahedra.size() : scene.count);
+}
+
+} // namespace
+
 std::size_t elements_under(const view_scene& scene, double degrees) {
-  const std::size_t count = scene.dimension == 3 ? scene.tetrahedra.size() : scene.count;
-  return static_cast<std::size_t>(std::count_if(scene.angles.begin(),
-                                                scene.angles.begin() + static_cast<std::ptrdiff_t>(count),
-                                                [&](float angle) { return angle < degrees; }));
+  const auto angles = angles_of_elements(scene);
+  return static_cast<std::size_t>(
+      std::count_if(angles.begin(), angles.end(), [&](float angle) { return angle < degrees; }));
+}
+
+double angle_of_worst(const view_scene& scene, double degrees, std::size_t most) {
+  if (elements_under(scene, degrees) <= most)
+    return degrees;
+  const auto all = angles_of_elements(scene);
+  std::vector<float> angles(all.begin(), all.end());
+  std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(most), angles.end());
+  return angles[most];
 }
 
 } // namespace dovetail::app

@@ -42,6 +42,12 @@ raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes)
 /// \param corners where the picture has them, with pieces apart
 bool is_drawn(const view_wishes& wishes, float angle, const std::array<vec3, 4>& corners);
 
+/// More elements than this are not drawn one by one: each takes a kilobyte, and they hide each other.
+inline constexpr std::size_t most_elements_drawn = 1'000'000;
+
+/// The angle, up to `degrees`, under which there are at most so many elements of a scene.
+double angle_of_worst(const view_scene& scene, double degrees, std::size_t most = most_elements_drawn);
+
 /// How many elements that a scene has have a smaller angle.
 std::size_t elements_under(const view_scene& scene, double degrees);
 

@@ -336,9 +336,19 @@ std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, 
   return read;
 }
 
-void view_pieces::take_elements(double apart,
-                                const std::function<bool(float, const std::array<vec3, 4>&)>& wanted) {
+std::size_t view_pieces::take_elements(double apart, std::size_t most,
+                                       const std::function<bool(float, const std::array<vec3, 4>&)>& wanted) {
   std::vector<lone_element> elements;
+  std::uint64_t count = 0;
+  const auto leave_worst = [&] {
+    if (elements.size() <= most)
+      return;
+    const auto end = elements.begin() + static_cast<std::ptrdiff_t>(most);
+    std::nth_element(elements.begin(), end, elements.end(), is_worse);
+    elements.erase(end, elements.end());
+    std::sort(elements.begin(), elements.end(), // as they were read
+              [](const lone_element& a, const lone_element& b) { return a.number < b.number; });
+  };
   const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(span_of(piece.mesh.points), piece.mesh.elements[e]);
@@ -349,12 +359,17 @@ void view_pieces::take_elements(double apart,
         for (vec3& p : moved)
           p += apart * (scene.centres[index(pieces_.label(tag))] - scene.box.center());
       }
-      if (wanted(angle, moved))
-        elements.push_back(lone(piece, e, at, angle));
+      if (!wanted(angle, moved))
+        continue;
+      elements.push_back(lone(piece, e, at, angle));
+      elements.back().number = count++;
+      if (elements.size() >= 2 * most + 1)
+        leave_worst();
     }
   };
   if (!io::for_each_piece_file(mesh_, io::zlib_expand, add))
     throw input_error(mesh_.string() + ": the file has changed while it was read");
+  leave_worst();
   // They have points of their own: what is drawn does not ask which are the same.
   std::vector<simplex<3>> vertices;
   vertices.reserve(elements.size());
@@ -366,6 +381,7 @@ void view_pieces::take_elements(double apart,
     vertices.push_back({first, first + 1, first + 2, first + 3});
   }
   set_elements(elements, std::move(vertices));
+  return count;
 }
 
 void view_pieces::set_elements(std::span<const lone_element> elements, std::vector<simplex<3>> vertices) {

@@ -7,6 +7,7 @@
 #include "view_scene.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -27,9 +28,12 @@ public:
   /// \param most 0: no elements
   static std::optional<view_pieces> read(const std::filesystem::path& mesh, std::int64_t most);
 
-  /// Reads all pieces again: the scene has those elements instead for which `wanted(angle, corners)`.
+  /// Reads all pieces again: the scene has those elements instead for which `wanted(angle, corners)`, or the
+  /// worst `most` of them.
   /// \param apart how far pieces are moved, over their distance from the middle
-  void take_elements(double apart, const std::function<bool(float, const std::array<vec3, 4>&)>& wanted);
+  /// \return how many are wanted
+  std::size_t take_elements(double apart, std::size_t most,
+                            const std::function<bool(float, const std::array<vec3, 4>&)>& wanted);
 
   view_scene scene;
   std::string elsewhere; ///< in words, that these are parts of a larger mesh; empty: they are not

@@ -24,6 +24,11 @@ struct lone_element {
   std::uint64_t number = 0; ///< in the order in which they came
 };
 
+/// The order of elements from the worst on, each of which has its place.
+inline bool is_worse(const lone_element& a, const lone_element& b) {
+  return std::tie(a.angle, a.number) < std::tie(b.angle, b.number);
+}
+
 /// Memory: three times as many elements as are wanted.
 class element_sample {
 public:
@@ -73,9 +78,6 @@ private:
   static lone_element numbered(lone_element element, std::uint64_t number) {
     element.number = number;
     return element;
-  }
-  static bool is_worse(const lone_element& a, const lone_element& b) {
-    return std::tie(a.angle, a.number) < std::tie(b.angle, b.number);
   }
   /// Every n-th; of these every second is left once they are twice as many as are wanted.
   void add_to_spread(const lone_element& element) {

@@ -145,7 +145,7 @@ TEST_CASE("pictures are those of the whole mesh, with all elements in sections a
     const auto check = [&](const std::string& what) {
       INFO(how << ", " << what);
       if (wishes.cut || wishes.under)
-        read->take_elements(wishes.explode, [&](float angle, const std::array<vec3, 4>& corners) {
+        read->take_elements(wishes.explode, 100'000, [&](float angle, const std::array<vec3, 4>& corners) {
           return is_drawn(wishes, angle, corners);
         });
       const raster_image expected = picture_of_view(whole, wishes),
@@ -169,6 +169,30 @@ TEST_CASE("pictures are those of the whole mesh, with all elements in sections a
     check("nothing");
     CHECK(read->scene.tetrahedra.empty());
   }
+}
+
+TEST_CASE("of more elements than can be drawn there are the worst ones, in their order") {
+  const scratch_folder folder("view_pieces");
+  write("vtu", folder);
+  const view_scene whole = whole_of(folder);
+  auto read = view_pieces::read(io::find_mesh_file(folder), 0);
+  REQUIRE(read);
+  const auto all_of_them = [](float, const std::array<vec3, 4>&) { return true; };
+  for (const std::size_t most : {1, 10, 700}) {
+    CHECK(read->take_elements(0, most, all_of_them) == whole.count);
+    REQUIRE(read->scene.tetrahedra.size() == most);
+    const double under = angle_of_worst(whole, 180, most);
+    CHECK(elements_under(whole, under) <= most);
+    CHECK(elements_under(read->scene, under) == elements_under(whole, under));
+    CHECK(std::all_of(read->scene.angles.begin(),
+                      read->scene.angles.begin() + static_cast<std::ptrdiff_t>(most),
+                      [&](float angle) { return angle <= under; }));
+    CHECK(angle_of_worst(read->scene, 170, most) == 170);
+  }
+  const auto at = places(read->scene, read->scene.tetrahedra), at_whole = places(whole, whole.tetrahedra);
+  auto from = at_whole.begin();
+  for (const vec3 p : at) // each is found behind the one before
+    REQUIRE((from = std::find(from, at_whole.end(), p)) != at_whole.end());
 }
 
 TEST_CASE("what is in one file, or has no numbers, is not read in pieces") {
