@@ -12,7 +12,7 @@
 namespace dovetail::app {
 
 /// Over the size of an MSH or VTU file without compression: what was measured, and something for the system.
-inline constexpr double memory_over_file = 4;
+inline constexpr double memory_over_file = 3.5;
 
 /// Of this machine, in bytes; 0: not known.
 inline double memory_of_machine() {

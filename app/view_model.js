@@ -148,8 +148,10 @@ function shownMarks() {
 function gaps() {
   const text = count => count.toLocaleString("en"), some = (here, all) => `${text(here)} of ${text(all)}`;
   const here = elements.pieces.length, all = solid ? data.count : 0, isSection = state.cut !== null && solid;
+  const outer = triangles.outer, inner = triangles.pieces.length - outer;
   return [
-    triangles.pieces.length < data.sides && `The surface has gaps, as this page has ${some(triangles.pieces.length, data.sides)} triangles.`,
+    outer < data.outer && `The surface has gaps, as this page has ${some(outer, data.outer)} triangles.`,
+    inner < data.inner && `There are gaps between pieces, as this page has ${some(inner, data.inner)} triangles there.`,
     here < all && isSection && `The section has gaps, as this page has ${some(here, all)} elements; dovetail view --png --cut draws all.`,
     here < all && state.under !== null && state.under > data.complete &&
       `Elements under ${data.complete.toFixed(1)}° are all here, and some of the others.`

@@ -52,7 +52,8 @@ public:
     }
   }
 
-  std::uint64_t seen() const { return seen_; } ///< how many there were
+  std::uint64_t seen() const { return seen_; }                        ///< how many there were
+  std::size_t held() const { return worst_.size() + spread_.size(); } ///< how many are in memory
 
   /// As many as there is room for, but not more than the sample was made for: all; or half of them the worst
   /// ones, the worst first, then spread ones of the others in their order. The sample is empty then.

@@ -49,7 +49,7 @@ mapfile -t hashes < <(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "me
 ! grep -qE 'http|src="[^d]|href=' "$page" || fault "the page refers to something outside"
 check_static_page() { # of what
   (echo "<body>" && sed '1,/<body>/d; /<script/,$d' "$page" && echo "</body>") >"$static"
-  (($(grep -c 'src="data:image/png;base64,' "$static") == 10)) || fault "not ten pictures of $1"
+  (($(grep -c '<img alt="[^"]*" src="data:image/png;base64,' "$static") == 10)) || fault "not ten pictures of $1"
   (($(grep -c '</svg>' "$static") == 4)) || fault "not four plots of $1"
   (($(grep -c '<tbody><tr>' "$static") == 2)) || fault "not two tables of $1"
   ! sed 's/base64,[^"]*//' "$static" | grep -qwiE 'nan|null|undefined|inf|infinity' ||

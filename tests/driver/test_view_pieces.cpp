@@ -5,6 +5,7 @@
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/files/write_msh.hpp"
+#include "dovetail/files/write_vtu.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/solver/rank_files.hpp"
 #include "dovetail/solver/rank_msh_format.hpp"
@@ -101,6 +102,36 @@ TEST_CASE("read piece by piece, a mesh has the scene of the whole") {
   }
 }
 
+TEST_CASE("what is between files but not between pieces is seen where it has a group") {
+  for (const bool grouped : {false, true}) {
+    const scratch_folder folder("view_pieces");
+    std::string index = "<?xml version=\"1.0\"?><VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>";
+    for (local_id part = 0; part < 2; ++part) { // a row of two cubes, each in a file of its own
+      io::loaded_mesh cube = testing::row_of_cubes(1);
+      for (std::size_t v = 0; v < cube.mesh.points.size(); ++v) {
+        cube.mesh.points[v].x += part;
+        cube.node_ids.push_back(static_cast<global_id>(v) + 4 * part);
+      }
+      cube.subdomains.assign(cube.mesh.elements.size(), 0);
+      if (grouped && part == 1) { // one file alone has it
+        cube.triangles = {{0, 1, 3}};
+        cube.triangle_tags = {5};
+      }
+      const std::string name = "part_" + std::to_string(part) + ".vtu";
+      io::write_vtu(cube, folder / name);
+      index += "<Piece Source=\"" + name + "\"/>";
+    }
+    dovetail::testing::write_content(folder / "mesh.pvtu", index + "</PUnstructuredGrid></VTKFile>");
+    const auto read = view_pieces::read(folder / "mesh.pvtu", all);
+    REQUIRE(read);
+    CHECK(read->scene.outer == 20);
+    CHECK(read->scene.triangles.size() == (grouped ? 22 : 20));
+    CHECK(read->scene.vertices == 12);
+    CHECK(places(read->scene, read->scene.triangles) ==
+          places(whole_of(folder / "mesh.pvtu"), whole_of(folder / "mesh.pvtu").triangles));
+  }
+}
+
 TEST_CASE("of the elements there are those of a page: the worst of the whole mesh, and spread ones") {
   const scratch_folder folder("view_pieces");
   write("vtu", folder);
@@ -158,6 +189,7 @@ TEST_CASE("pictures are those of the whole mesh, with all elements in sections a
     CHECK(read->scene.tetrahedra.size() > 100);
     CHECK(read->scene.tetrahedra.size() < whole.tetrahedra.size() / 2);
     wishes.explode = 0.5;
+    wishes.cut->place = 0.15; // in another layer of cells than where pieces are together
     wishes.colours = view_colours::piece;
     check("section of pieces apart");
     wishes.under = whole.least_angle + 15;
@@ -236,6 +268,7 @@ std::vector<float> kept_of(const std::vector<float>& angles, std::size_t most, s
   for (const float angle : angles)
     sample.add(angle, [&] { return lone_element{{}, {}, 0, 0, angle, 0}; });
   CHECK(sample.seen() == angles.size());
+  CHECK(sample.held() <= 3 * most);
   std::vector<float> kept;
   for (const lone_element& element : sample.take(room))
     kept.push_back(element.angle);

@@ -136,7 +136,6 @@ TEST_CASE("no part has more than it may have; the outer surface goes first") {
     const view_part part = part_that_fits(scene, most);
     CHECK(part.triangles.size() + 4 * part.elements.size() <= static_cast<std::size_t>(most));
     CHECK((part.elements.empty() || part.triangles.size() >= 20));
-    CHECK(4 * part.elements.size() + 4 > static_cast<std::size_t>(std::max<std::int64_t>(most - 20, 0)) / 4);
     const auto outer =
         std::count_if(part.triangles.begin(), part.triangles.end(), [](local_id t) { return t < 20; });
     CHECK(outer == std::min<std::int64_t>(most, 20));
@@ -144,6 +143,16 @@ TEST_CASE("no part has more than it may have; the outer surface goes first") {
   CHECK(text_of_left_out(scene, part_that_fits(scene, 5)) ==
         "only 5 of 24 triangles of the surface and between pieces, 0 of 12 elements inside, half of them the "
         "worst");
+}
+
+TEST_CASE("elements have a quarter of what the outer surface leaves, or all that nothing else needs") {
+  const auto parts = [](const view_room& room) { return std::array{room.outer, room.inner, room.elements}; };
+  using counts = std::array<std::size_t, 3>;
+  CHECK(parts({100, 1000, 1000, 500}) == counts{100, 300, 25});
+  CHECK(parts({100, 100, 1000, 500}) == counts{100, 100, 75});
+  CHECK(parts({100, 1000, 5, 500}) == counts{100, 380, 5});
+  CHECK(parts({600, 1000, 5, 500}) == counts{500, 0, 0});
+  CHECK(parts({10, 10, 5, 500}) == counts{10, 10, 5});
 }
 
 TEST_CASE("sides are the same, and in the same order, however few are in memory at a time") {
