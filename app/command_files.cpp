@@ -28,14 +28,11 @@ bool can_be_looked_into(const std::filesystem::path& file) {
 
 void append_backgrounds(const sizing::json_value& value, const std::filesystem::path& folder,
                         command_inputs& inputs) {
-  for (const auto& [key, member] : value.members) {
-    if (key == "background")
-      if (const auto* file = member.find("file")) {
-        const auto read = inputs_of_mesh("a mesh that --sizing names,", folder / file->text);
-        inputs.insert(inputs.end(), read.begin(), read.end());
-      }
-    append_backgrounds(member, folder, inputs);
-  }
+  if (const auto* background = value.find("background"))
+    if (const auto* file = background->find("file")) {
+      const auto read = inputs_of_mesh("a mesh that --sizing names,", folder / file->text);
+      inputs.insert(inputs.end(), read.begin(), read.end());
+    }
   for (const auto& item : value.items)
     append_backgrounds(item, folder, inputs);
 }

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -21,20 +22,20 @@ struct json_value {
   /// What kind of value it is: `null`, `boolean`, `number`, `text`, `array` or `object`.
   enum class kind { null, boolean, number, text, array, object };
 
-  kind type = kind::null;                                       ///< which kind it is
-  std::size_t line = 0;                                         ///< of the file, from 1
-  bool boolean = false;                                         ///< of a `kind::boolean`
-  double number = 0;                                            ///< of a `kind::number`
-  std::string text = {};                                        ///< of a `kind::text`
-  std::vector<json_value> items = {};                           ///< of an array
-  std::vector<std::pair<std::string, json_value>> members = {}; ///< of an object, in the file's order
+  kind type = kind::null;             ///< which kind it is
+  std::size_t line = 0;               ///< of the file, from 1
+  bool boolean = false;               ///< of a `kind::boolean`
+  double number = 0;                  ///< of a `kind::number`
+  std::string text = {};              ///< of a `kind::text`
+  std::vector<json_value> items = {}; ///< of an array, or an object's in the file's order
+  /// Of an object's items. Pairs of key and item would be one member, which clang 22 with the library of g++
+  /// 16 does not take: pairs ask whether this type can be made before it is known how.
+  std::vector<std::string> keys = {};
 
   /// The member of that name, or null.
   const json_value* find(std::string_view key) const {
-    for (const auto& [name, value] : members)
-      if (name == key)
-        return &value;
-    return nullptr;
+    const auto found = std::find(keys.begin(), keys.end(), key);
+    return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
   }
 };
 
@@ -92,10 +93,9 @@ public:
   bool end_array() { return close(); }
 
   bool key(std::string& name) {
-    for (const auto& [other, value] : open_.back()->members)
-      if (other == name)
-        throw sizing_error(file_ + ":" + std::to_string(*line_) + ": key \"" + name +
-                           "\" is given twice, first on line " + std::to_string(value.line) + "; keep one");
+    if (const json_value* other = open_.back()->find(name))
+      throw sizing_error(file_ + ":" + std::to_string(*line_) + ": key \"" + name +
+                         "\" is given twice, first on line " + std::to_string(other->line) + "; keep one");
     key_ = name;
     key_line_ = *line_;
     return true;
@@ -117,12 +117,10 @@ private:
       return &root_;
     }
     json_value& parent = *open_.back();
-    if (parent.type == json_value::kind::object) {
-      value.line = key_line_;
-      parent.members.emplace_back(key_, std::move(value));
-      return &parent.members.back().second;
-    }
-    value.line = *line_;
+    const bool has_key = parent.type == json_value::kind::object;
+    value.line = has_key ? key_line_ : *line_;
+    if (has_key)
+      parent.keys.push_back(key_);
     parent.items.push_back(std::move(value));
     return &parent.items.back();
   }

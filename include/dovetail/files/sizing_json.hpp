@@ -71,12 +71,12 @@ private:
                     const std::string& what) const {
     if (v.type != json_value::kind::object)
       fail(v, what + " must be an object { ... }");
-    for (const auto& [key, value] : v.members)
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
+    for (std::size_t i = 0; i < v.keys.size(); ++i)
+      if (std::find(known.begin(), known.end(), v.keys[i]) == known.end()) {
         std::string list;
         for (const std::string_view k : known)
           list += (list.empty() ? "" : ", ") + std::string(k);
-        fail(value, "unknown key \"" + key + "\" in " + what + "; known are " + list);
+        fail(v.items[i], "unknown key \"" + v.keys[i] + "\" in " + what + "; known are " + list);
       }
   }
 
