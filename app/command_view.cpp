@@ -1,3 +1,4 @@
+#include "any_mesh_file.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "mesh_files.hpp"
@@ -11,8 +12,6 @@
 #include "view_scene.hpp"
 
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/files/read_mesh.hpp"
-#include "dovetail/files/zlib.hpp"
 
 #include <array>
 #include <charconv>
@@ -208,7 +207,7 @@ public:
       const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
       if (const std::string much = failure ? "" : text_of_memory(bytes, memory_of_machine()); !much.empty())
         std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), much.c_str());
-      io::loaded_mesh loaded = io::read_mesh(file, io::zlib_expand);
+      io::loaded_mesh loaded = read_any_mesh(file);
       warn_of_part(loaded, file);
       whole_ = scene_of(std::move(loaded));
     } else if (!pieces_->elsewhere.empty()) {
@@ -249,7 +248,7 @@ int run_view(const view_options& options) {
     if (!file.empty())
       check_can_create(file);
   const view_marks marks = options.report.empty() ? view_marks{} : marks_of_report(options.report);
-  const std::filesystem::path mesh = io::find_mesh_file(options.mesh);
+  const std::filesystem::path mesh = find_any_mesh(options.mesh);
   shown_mesh shown(mesh, options.out.empty() ? 0 : options.most);
   if (!options.out.empty())
     write_page(shown.scene(), options, marks);

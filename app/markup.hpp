@@ -4,6 +4,8 @@
 
 #include "json_text.hpp"
 
+#include "dovetail/files/vtk_xml_output.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -22,22 +24,14 @@ inline std::string fixed(double number, int decimals = 1) {
 
 /// Any bytes as content or an attribute's value: what is no text is replaced by the sign for that.
 inline std::string escaped(const std::string& text) {
-  std::string markup;
+  std::string shown;
   for (const char c : nlohmann::json::parse(text_of_json(nlohmann::json(text))).get<std::string>()) {
-    if (c == '&')
-      markup += "&amp;";
-    else if (c == '<')
-      markup += "&lt;";
-    else if (c == '>')
-      markup += "&gt;";
-    else if (c == '"')
-      markup += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
-      markup += "\xef\xbf\xbd";
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+      shown += "\xef\xbf\xbd";
     else
-      markup += c;
+      shown += c;
   }
-  return markup;
+  return io::xml_escaped(shown);
 }
 
 /// Of an element; numbers are those of pixels, to a tenth.

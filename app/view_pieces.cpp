@@ -1,12 +1,11 @@
 #include "view_pieces.hpp"
 
+#include "any_mesh_file.hpp"
 #include "mesh_files.hpp"
 #include "view_sides.hpp"
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/files/read_mesh.hpp"
-#include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 
 #include <algorithm>
@@ -16,11 +15,6 @@
 
 namespace dovetail::app {
 namespace {
-
-template <class T>
-std::size_t index(T i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Of what a file may say for each element, or for none.
 local_id tag_at(const std::vector<local_id>& tags, std::size_t element) {
@@ -33,7 +27,7 @@ lone_element lone(const io::loaded_mesh& piece, std::size_t e, const std::array<
   const simplex<3>& vertices = piece.mesh.elements[e];
   lone_element element{{}, corners, tag_at(piece.subdomains, e), tag_at(piece.mesh.tags, e), angle, 0};
   for (std::size_t k = 0; k < 4; ++k)
-    element.ids[k] = piece.node_ids[index(vertices[k])];
+    element.ids[k] = piece.node_ids[vertices[k]];
   return element;
 }
 
@@ -134,12 +128,12 @@ public:
     std::vector<place> places(piece.mesh.points.size(), place::unused);
     for (const simplex<3>& element : piece.mesh.elements)
       for (const local_id v : element)
-        places[index(v)] = place::within;
+        places[v] = place::within;
     for (const auto* some : {&sides.inner, &sides.outer})
       for (const seen_side& side : *some) {
-        add_side(piece, side, angles[index(side.element)], some == &sides.outer);
+        add_side(piece, side, angles[side.element], some == &sides.outer);
         for (const local_id v : side.vertices)
-          places[index(v)] = some == &sides.outer ? place::on_boundary : place::at_side;
+          places[v] = some == &sides.outer ? place::on_boundary : place::at_side;
       }
     add_points(piece, places);
   }
@@ -228,10 +222,10 @@ private:
   }
 
   void add_side(const io::loaded_mesh& piece, const seen_side& side, float angle, bool open) {
-    const std::size_t e = index(side.element);
+    const std::size_t e = static_cast<std::size_t>(side.element);
     lone_side made{{}, tag_at(piece.subdomains, e), tag_at(piece.mesh.tags, e), angle, open, side.tag};
     for (std::size_t k = 0; k < 3; ++k)
-      made.ids[k] = piece.node_ids[index(side.vertices[k])];
+      made.ids[k] = piece.node_ids[side.vertices[k]];
     sides_.push_back(made);
   }
 
@@ -316,7 +310,7 @@ std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, 
       throw input_error(file.string() + ": " + problem.what());
     }
   };
-  if (!io::for_each_piece_file(mesh, io::zlib_expand, add) || !collector.agree())
+  if (!for_each_piece_of_any(mesh, add) || !collector.agree())
     return std::nullopt;
   view_pieces read;
   read.mesh_ = mesh;
@@ -357,7 +351,7 @@ std::size_t view_pieces::take_elements(double apart, std::size_t most,
       if (apart > 0) {
         const local_id tag = tag_at(has_subdomains_ ? piece.subdomains : piece.mesh.tags, e);
         for (vec3& p : moved)
-          p += apart * (scene.centres[index(pieces_.label(tag))] - scene.box.center());
+          p += apart * (scene.centres[pieces_.label(tag)] - scene.box.center());
       }
       if (!wanted(angle, moved))
         continue;
@@ -367,13 +361,14 @@ std::size_t view_pieces::take_elements(double apart, std::size_t most,
         leave_worst();
     }
   };
-  if (!io::for_each_piece_file(mesh_, io::zlib_expand, add))
+  if (!for_each_piece_of_any(mesh_, add))
     throw input_error(mesh_.string() + ": the file has changed while it was read");
   leave_worst();
   // They have points of their own: what is drawn does not ask which are the same.
   std::vector<simplex<3>> vertices;
   vertices.reserve(elements.size());
-  if (4 * elements.size() + scene.points.size() > index(std::numeric_limits<local_id>::max()))
+  if (4 * elements.size() + scene.points.size() >
+      static_cast<std::size_t>(std::numeric_limits<local_id>::max()))
     throw input_error(mesh_.string() + ": too many elements to be drawn at once");
   for (const lone_element& element : elements) {
     const auto first = static_cast<local_id>(scene.points.size());

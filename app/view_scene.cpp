@@ -17,11 +17,6 @@
 namespace dovetail::app {
 namespace {
 
-template <class T>
-std::size_t index(T i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The sides to be seen of tetrahedra.
 void add_sides(view_scene& scene, const io::loaded_mesh& loaded) {
   const seen_sides sides = find_seen_sides(loaded, scene.pieces.of, scene.materials.of);
@@ -49,7 +44,7 @@ void measure(view_scene& scene, const std::vector<simplex<D>>& elements) {
     scene.angles.push_back(least_angle_of(corners(span_of(scene.points), element)));
     scene.least_angle = std::min(scene.least_angle, scene.angles.back());
     for (const local_id v : element)
-      used[index(v)] = true;
+      used[v] = true;
   }
   for (std::size_t v = 0; v < used.size(); ++v)
     if (used[v]) {
@@ -65,7 +60,7 @@ void find_centres(view_scene& scene) {
   for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
     const auto p = corners(span_of(scene.points), scene.triangles[t]);
     const double area = norm(cross(p[1] - p[0], p[2] - p[0]));
-    const std::size_t piece = index(scene.piece_of_triangle(t));
+    const std::size_t piece = static_cast<std::size_t>(scene.piece_of_triangle(t));
     scene.centres[piece] += area / 3 * (p[0] + p[1] + p[2]);
     areas[piece] += area;
   }
@@ -76,7 +71,7 @@ void find_centres(view_scene& scene) {
 /// Whether the surface turns at an edge by more than 35 degrees.
 bool turns(const view_scene& scene, local_id a, local_id b) {
   const auto normal = [&](local_id t) {
-    const auto p = corners(span_of(scene.points), scene.triangles[index(t)]);
+    const auto p = corners(span_of(scene.points), scene.triangles[t]);
     return normalized(cross(p[1] - p[0], p[2] - p[0]));
   };
   return dot(normal(a), normal(b)) < std::cos(35 / degrees_per_radian);
@@ -88,12 +83,12 @@ void find_outline(view_scene& scene) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto& [a, b] = edges.elements[e];
     const bool ends = b == no_id || edges.is_non_manifold(static_cast<local_id>(e));
-    if (!ends && scene.groups.of[index(a)] == scene.groups.of[index(b)] && !turns(scene, a, b))
+    if (!ends && scene.groups.of[a] == scene.groups.of[b] && !turns(scene, a, b))
       continue;
-    const local_id piece = scene.piece_of_triangle(index(a));
+    const local_id piece = scene.piece_of_triangle(static_cast<std::size_t>(a));
     scene.outline.push_back({edges.vertices[e], piece});
-    if (b != no_id && scene.piece_of_triangle(index(b)) != piece)
-      scene.outline.push_back({edges.vertices[e], scene.piece_of_triangle(index(b))});
+    if (b != no_id && scene.piece_of_triangle(static_cast<std::size_t>(b)) != piece)
+      scene.outline.push_back({edges.vertices[e], scene.piece_of_triangle(static_cast<std::size_t>(b))});
   }
 }
 
@@ -129,7 +124,7 @@ view_scene scene_of_triangles(io::loaded_mesh loaded) {
   std::iota(scene.element_of.begin(), scene.element_of.end(), 0);
   for (std::size_t t = 0; t < scene.triangles.size(); ++t)
     for (const local_id v : scene.triangles[t])
-      if (v < 0 || index(v) >= scene.points.size())
+      if (v < 0 || static_cast<std::size_t>(v) >= scene.points.size())
         throw mesh_error("triangle " + std::to_string(t) + " refers to point " + std::to_string(v) +
                          ", but the mesh has " + std::to_string(scene.points.size()) + " points");
   measure<2>(scene, scene.triangles);
@@ -143,7 +138,7 @@ std::vector<local_id> elements_that_fit(const view_scene& scene, std::size_t roo
     return all;
   const auto worst_end = all.begin() + static_cast<std::ptrdiff_t>(view_part::worst_of(room));
   std::partial_sort(all.begin(), worst_end, all.end(), [&](local_id a, local_id b) {
-    return std::pair(scene.angles[index(a)], a) < std::pair(scene.angles[index(b)], b);
+    return std::pair(scene.angles[a], a) < std::pair(scene.angles[b], b);
   });
   std::sort(worst_end, all.end());
   std::vector<local_id> kept(all.begin(), worst_end);
@@ -203,7 +198,7 @@ std::optional<float> complete_under(const view_scene& scene, const view_part& pa
   if (scene.dimension != 3 || part.elements.size() == scene.count)
     return std::nullopt;
   const std::size_t worst = view_part::worst_of(part.elements.size());
-  return worst == 0 ? scene.least_angle : scene.angles[index(part.elements[worst - 1])];
+  return worst == 0 ? scene.least_angle : scene.angles[part.elements[worst - 1]];
 }
 
 } // namespace dovetail::app

@@ -7,8 +7,11 @@
 #include "dovetail/files/write_msh.hpp"
 #include "dovetail/files/write_vtu.hpp"
 #include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/solver/mfem_format.hpp"
+#include "dovetail/solver/openfoam_format.hpp"
 #include "dovetail/solver/rank_files.hpp"
 #include "dovetail/solver/rank_msh_format.hpp"
+#include "any_mesh_file.hpp"
 #include "files/scratch_folder.hpp"
 #include "files/stacked_cubes.hpp"
 #include "support/refusal.hpp"
@@ -31,9 +34,13 @@ using dovetail::testing::scratch_folder;
 constexpr std::int64_t all = 1'000'000; ///< triangles of a page that has everything
 const dovetail::testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-/// The files of a mesh in pieces: a VTU file for each or for some of them, or MSH files, which have groups.
+/// The files of a mesh in pieces: a VTU file for each or for some of them, or files of ranks, which have groups.
 void write(const std::string& how, const std::filesystem::path& folder) {
-  if (how == "msh")
+  if (how == "mfem")
+    io::rank_writer<io::mfem_format>{.ranks = 3}(cubes.distributed(), folder);
+  else if (how == "openfoam")
+    io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
+  else if (how == "msh")
     io::rank_writer<io::rank_msh_format>{.ranks = 3, .format = {.binary = false}}(cubes.distributed(),
                                                                                   folder);
   else
@@ -41,7 +48,7 @@ void write(const std::string& how, const std::filesystem::path& folder) {
 }
 
 view_scene whole_of(const std::filesystem::path& folder) {
-  return scene_of(io::read_mesh(folder));
+  return scene_of(read_any_mesh(find_any_mesh(folder)));
 }
 
 /// Where the corners of some simplices are, in their order.
@@ -71,12 +78,12 @@ std::vector<std::array<local_id, 2>> ends(const view_scene& scene) {
 }
 
 TEST_CASE("read piece by piece, a mesh has the scene of the whole") {
-  for (const std::string how : {"vtu", "vtu of several", "msh"}) {
+  for (const std::string how : {"vtu", "vtu of several", "msh", "mfem", "openfoam"}) {
     INFO(how);
     const scratch_folder folder("view_pieces");
     write(how, folder);
     const view_scene whole = whole_of(folder);
-    const auto read = view_pieces::read(io::find_mesh_file(folder), all);
+    const auto read = view_pieces::read(find_any_mesh(folder), all);
     REQUIRE(read);
     const view_scene& scene = read->scene;
     CHECK(read->elsewhere.empty());

@@ -115,10 +115,9 @@ realized<3> realize_boundaries(const any_geometry& model, const simplicial_backg
   result.fine = std::move(remeshed.fine);
   result.patches = std::move(remeshed.patches);
   result.lines = {};
-  const auto of_patches = remeshed.summary.template as<patch_counts>();
-  result.counts.interface_faces = of_patches.interface_faces;
-  result.counts.triangles = of_patches.triangles;
-  result.counts.points = of_patches.points;
+  result.counts.interface_faces = remeshed.counts.interface_faces;
+  result.counts.triangles = remeshed.counts.triangles;
+  result.counts.points = remeshed.counts.points;
   append(result.summary.warnings, remeshed.summary.warnings);
   append(result.summary.children, remeshed.summary.children);
   result.counts.lines_made = made.lines.made() - lines_before;

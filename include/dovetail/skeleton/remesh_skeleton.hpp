@@ -51,7 +51,8 @@ struct patch_counts {
 struct remeshed_skeleton {
   fine_skeleton fine;       ///< all patches together
   remeshed_patches patches; ///< patch by patch
-  report summary;           ///< what was counted on the way
+  patch_counts counts;      ///< what was counted on the way
+  report summary;           ///< the same, with warnings and deviations
 };
 
 /// What is remeshed: a skeleton of a coarse surface and what lies inside it, with its lines. All of it

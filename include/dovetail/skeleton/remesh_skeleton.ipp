@@ -181,10 +181,11 @@ DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, ske
   result.patches.failures = std::move(patches.failures);
   warn_of_deviations(result.summary, deviation);
   result.summary.children.push_back(std::move(deviation));
-  result.summary.set(patch_counts{.interface_faces = of.skeleton.faces.size(),
-                                  .triangles = result.fine.sides.size(),
-                                  .points = result.fine.points.size(),
-                                  .patches_made = patches.made});
+  result.counts = {.interface_faces = of.skeleton.faces.size(),
+                   .triangles = result.fine.sides.size(),
+                   .points = result.fine.points.size(),
+                   .patches_made = patches.made};
+  result.summary.set(result.counts);
   return result;
 }
 

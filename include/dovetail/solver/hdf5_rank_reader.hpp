@@ -93,11 +93,10 @@ public:
 
 private:
   static constexpr const char* cells_name = "viz/topology/cells";
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
   std::vector<global_id> starts(const std::string& name, std::uint64_t end) const {
     auto firsts = file_.read_list<global_id>(name);
-    if (firsts.size() < 2 || firsts.front() != 0 || at(firsts.back()) != end ||
+    if (firsts.size() < 2 || firsts.front() != 0 || static_cast<std::size_t>(firsts.back()) != end ||
         !std::is_sorted(firsts.begin(), firsts.end()))
       file_.fail(name, "the numbers do not grow from 0 to " + std::to_string(end));
     return firsts;
@@ -163,7 +162,8 @@ private:
     };
     for (std::size_t q = 0; q + 1 < first_side_.size(); ++q) {
       std::vector<local_id> sides;
-      for (auto s = at(first_side_[q]); s < at(first_side_[q + 1]); ++s) {
+      for (auto s = static_cast<std::size_t>(first_side_[q]);
+           s < static_cast<std::size_t>(first_side_[q + 1]); ++s) {
         const local_id side = find_side<3>(table, mesh_.triangles[s]);
         if (side == no_id)
           fail(s, "is none of an element");
@@ -177,7 +177,8 @@ private:
       }
       sort_all(sides);
       if (const auto twice = std::adjacent_find(sides.begin(), sides.end()); twice != sides.end())
-        fail(at(first_side_[q]), "or a later one is twice in rank " + std::to_string(q));
+        fail(static_cast<std::size_t>(first_side_[q]),
+             "or a later one is twice in rank " + std::to_string(q));
     }
   }
 

@@ -70,7 +70,6 @@ private:
     std::vector<std::array<global_id, 3>> faces{};
   };
 
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   [[noreturn]] void fail(const std::string& what) const {
     throw input_error(files_[rank_].string() + ": " + what + "; write all files anew");
   }
@@ -107,14 +106,15 @@ private:
         fail(name_of(shared.ranks) + " is not one of rank " + std::to_string(shared.ranks.front()) +
              ", whose file should list it");
       if (known.listed !=
-          at(std::lower_bound(shared.ranks.begin(), shared.ranks.end(), rank_) - shared.ranks.begin()))
+          static_cast<std::size_t>(std::lower_bound(shared.ranks.begin(), shared.ranks.end(), rank_) -
+                                   shared.ranks.begin()))
         fail(name_of(shared.ranks) + " is listed twice, or not by all ranks before this one");
       if (!first && shared.vertices.size() != known.vertices.size())
         fail(name_of(shared.ranks) + " shares " + std::to_string(shared.vertices.size()) +
              " vertices here, and " + std::to_string(known.vertices.size()) + " in the file of rank " +
              std::to_string(shared.ranks.front()));
       for (std::size_t i = 0; i < shared.vertices.size(); ++i) {
-        const auto v = at(shared.vertices[i]);
+        const local_id v = shared.vertices[i];
         if (ids[v] >= 0)
           fail("vertex " + std::to_string(v) + " is shared twice");
         const vec3 place = part.piece.mesh.points[v];

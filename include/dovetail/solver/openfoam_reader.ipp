@@ -58,7 +58,6 @@ public:
   }
 
 private:
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   [[noreturn]] void fail(const char* file, const std::string& what) const {
     throw input_error((folder_ / file).string() + ": " + what + "; write the mesh anew");
   }
@@ -118,11 +117,11 @@ private:
   }
   void add_face(const char* file, local_id cell, std::size_t face, bool owned) {
     const auto of = [&] { return "face " + std::to_string(face) + " is of cell " + std::to_string(cell); };
-    if (at(cell) >= cells_)
+    if (static_cast<std::size_t>(cell) >= cells_)
       fail(file, of() + ", and there are " + std::to_string(cells_) + " cells of four faces");
     if (filled_[cell] == 4)
       fail(file, of() + ", which has four other faces already; only tetrahedra are read");
-    cell_faces_[4 * at(cell) + filled_[cell]++] = {static_cast<local_id>(face), owned};
+    cell_faces_[4 * static_cast<std::size_t>(cell) + filled_[cell]++] = {static_cast<local_id>(face), owned};
   }
 
   /// A face of a cell as it is turned out of the cell.
@@ -183,7 +182,7 @@ private:
         piece.triangle_tags.push_back(tag);
       }
     }
-    if (at(next) != part_.faces.size())
+    if (static_cast<std::size_t>(next) != part_.faces.size())
       fail("boundary", "the faces from " + std::to_string(next) + " on are in no patch");
   }
 
@@ -235,7 +234,6 @@ public:
   }
 
 private:
-  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
   [[noreturn]] void fail(local_id processor, const std::string& what) const {
     throw input_error((folders_[processor] / "boundary").string() + ": " + what +
                       "; write the meshes of all processors anew");
@@ -282,7 +280,7 @@ private:
   }
 
   void compare(const foam_patch& patch, std::vector<std::array<global_id, 3>> faces) {
-    if (patch.here != here_ || at(patch.there) >= folders_.size())
+    if (patch.here != here_ || static_cast<std::size_t>(patch.there) >= folders_.size())
       fail(here_, "patch " + patch.name + " is between processors " + std::to_string(patch.here) + " and " +
                       std::to_string(patch.there) + ", of " + std::to_string(folders_.size()));
     const auto key = std::minmax(patch.here, patch.there);
