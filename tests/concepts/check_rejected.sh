@@ -5,9 +5,15 @@
 #   check_rejected.sh <compiler> <include directory> <program>
 set -uo pipefail
 program=$3
-compile() { "$compiler" -std=c++20 -DDOVETAIL_COMPILED -I"$includes" -fsyntax-only "-DNEAR_MISS=$1" "$program" 2>&1; }
-compiler=$1
-includes=$2
+command=("$1" -std=c++20 -DDOVETAIL_COMPILED -I"$2")
+# What the program includes is precompiled: all of its near misses begin with it.
+precompiled=$(mktemp -d)
+trap 'rm -rf "$precompiled"' EXIT
+grep '^#include' "$program" >"$precompiled/includes.hpp"
+"${command[@]}" -x c++-header "$precompiled/includes.hpp" -o "$precompiled/includes.hpp.gch" || exit
+compile() {
+  "${command[@]}" -include "$precompiled/includes.hpp" -fsyntax-only "-DNEAR_MISS=$1" "$program" 2>&1
+}
 
 if ! messages=$(compile 0); then
   echo "does not compile even when nothing is missed:"
