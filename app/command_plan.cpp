@@ -22,7 +22,7 @@ struct run_costs {
   double parent_bytes_per_side;    ///< of the skeleton
 };
 template <int D>
-constexpr run_costs costs = D == 3 ? run_costs{100'000, 900, 400} : run_costs{150'000, 400, 400};
+constexpr run_costs costs = D == 3 ? run_costs{100'000, 250, 400} : run_costs{150'000, 400, 400};
 constexpr double bytes_of_program = 60e6;
 
 /// Sides on the boundaries of equal pieces that are about cubes or squares, in a mesh of so many elements.
@@ -53,7 +53,8 @@ int plan_run(const plan_options& options) {
   figures.subdomains = plan.subdomains;
   figures.coarsening = plan.coarse_scale;
   figures.workers = policies.executor.workers();
-  figures.seconds = plan.predicted_elements / (costs<D>.elements_per_second_and_worker * figures.workers);
+  const int busy_workers = std::min(figures.workers, figures.subdomains);
+  figures.seconds = plan.predicted_elements / (costs<D>.elements_per_second_and_worker * busy_workers);
   figures.worker_bytes =
       bytes_of_program + costs<D>.worker_bytes_per_element * plan.predicted_elements / plan.subdomains;
   figures.parent_bytes =

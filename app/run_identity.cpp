@@ -53,7 +53,9 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   if (!source.sizing_meshes.empty())
     identity.emplace_back("meshes of the sizing", source.sizing_meshes);
   identity.emplace_back("sizes", values_of_field(source.size, source.geometry.bounds()));
-  identity.emplace_back("enlarged above", all_digits(make_generate_options(options).enlarged_above));
+  const generate_options numbers = make_generate_options(options);
+  identity.emplace_back("enlarged above", all_digits(numbers.enlarged_above));
+  identity.emplace_back("undivided elements", all_digits(numbers.undivided_elements));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
   identity.emplace_back("decomposition",

@@ -39,6 +39,16 @@ void check_decomposition(const mesh_options& options, int dimension) {
                                " does nothing there, leave it out");
 }
 
+/// Whether nothing is said that only a decomposition is for: then a small mesh may be one piece. Other
+/// meshers than the default one take longer, or are there to be compared.
+bool leaves_decomposition_open(const mesh_options& options) {
+  return options.dimension == 3 && !options.subdomains && !options.ranks && options.files == 0 &&
+         !options.coarsening && !options.dihedral_angle && options.partitioner.empty() &&
+         options.simplifier.empty() && options.background_mesher.empty() &&
+         options.background_improver.empty() && options.decomposition.empty() &&
+         (options.mesher.empty() || options.mesher == "native");
+}
+
 } // namespace
 
 template <int D>
@@ -84,6 +94,10 @@ generate_options make_generate_options(const mesh_options& options) {
                                " is not a number of pieces");
     result.subdomains = *options.subdomains;
   }
+  // Up to here one process meshes six CAD models sooner than it decomposes them.
+  constexpr double sooner_undivided = 650'000;
+  if (leaves_decomposition_open(options))
+    result.undivided_elements = sooner_undivided;
   if (options.coarsening) {
     if (!(*options.coarsening >= 1) || !std::isfinite(*options.coarsening))
       throw command_line_error("--coarsening: " + number_text(*options.coarsening) + " is not 1 or more");

@@ -98,6 +98,18 @@ expect_error "100000000 subdomains are more than" mesh --model combustor --subdo
 write_cube >"$inputs/cube.off"
 expect_error "more than any machine can hold" plan "$inputs/cube.off" --size 3e-9
 
+# A small mesh is one piece, unless something is said that only a decomposition is for.
+planned() { # subdomains, options
+  expect_success plan "$inputs/cube.off" --size "$2" "${@:3}" --report plan.json
+  grep -qE "\"subdomains\": $1[,}]" "$sandbox/work/plan.json" || fault "not $1 subdomains"
+}
+planned 1 0.026
+planned "[1-9][0-9]" 0.02
+for options in "--partitioner greedy" "--simplifier none" "--coarsening 2" "--dihedral-angle 20" "--background-improver none"; do
+  planned "[1-9][0-9]" 0.026 $options
+done
+planned 3 0.026 --subdomains 3
+
 # Without sizes the model's curvature and walls decide, for at most 2 million elements.
 predicted() {
   expect_success plan "$inputs/cube.off" "$@" --report plan.json

@@ -300,6 +300,22 @@ TEST_CASE("sizes that predict more elements than wanted are enlarged: in the pla
   CHECK(plan_background<3>(model, uniform_size(0.02), policies.with_options(options)).size_scale == 1);
 }
 
+TEST_CASE(
+    "a mesh of fewer elements than one piece may have is not divided, unless subdomains are asked for") {
+  const auto model = occt_shape_from(drilled_block()).model;
+  const auto subdomains = [&](double undivided, int wanted) {
+    return plan_background<3>(
+               model, uniform_size(0.02),
+               parameters<>{}.with_options({.subdomains = wanted, .undivided_elements = undivided}))
+        .subdomains;
+  };
+  const int many = subdomains(0, 0);
+  CHECK(many > 4);
+  CHECK(subdomains(1e9, 0) == 1);
+  CHECK(subdomains(1e4, 0) == many);
+  CHECK(subdomains(1e9, 3) == 3);
+}
+
 TEST_CASE("the simplification is by the rule chosen; by none a mesh is made too, for comparison") {
   const auto removed_sides = [](const auto& rule) {
     const auto result = generate<3>(

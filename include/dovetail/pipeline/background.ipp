@@ -50,6 +50,8 @@ inline void require_room(const mesh_plan& plan, const generate_options& options)
 }
 
 inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
+  if (elements < options.undivided_elements)
+    return 1;
   const double plain = elements / per_subdomain;
   const double excess = std::max(1.0, elements / options.many_elements);
   constexpr double most = std::numeric_limits<int>::max();

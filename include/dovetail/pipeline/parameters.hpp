@@ -35,6 +35,9 @@ struct generate_options {
   /// as the square root of their number. 0: what the mesher names (`elements_per_subdomain()`), or 31250.
   double elements_per_subdomain = 0;
   double many_elements = 1e6;
+  /// When `subdomains` is 0, a mesh of fewer predicted elements is one piece: to decompose it would take
+  /// longer than to mesh it.
+  double undivided_elements = 0;
   /// Elements of the background mesh: at least so many per subdomain, and about `background_elements` where
   /// that is no more than a tenth of the final mesh. From there on the simplification hardly refuses
   /// anything.
