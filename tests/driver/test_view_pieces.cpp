@@ -1,5 +1,6 @@
 #include "view_pieces.hpp"
 
+#include "any_mesh_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/files/read_mesh.hpp"
@@ -11,7 +12,6 @@
 #include "dovetail/solver/openfoam_format.hpp"
 #include "dovetail/solver/rank_files.hpp"
 #include "dovetail/solver/rank_msh_format.hpp"
-#include "any_mesh_file.hpp"
 #include "files/scratch_folder.hpp"
 #include "files/stacked_cubes.hpp"
 #include "support/refusal.hpp"
@@ -34,7 +34,8 @@ using dovetail::testing::scratch_folder;
 constexpr std::int64_t all = 1'000'000; ///< triangles of a page that has everything
 const dovetail::testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-/// The files of a mesh in pieces: a VTU file for each or for some of them, or files of ranks, which have groups.
+/// The files of a mesh in pieces: a VTU file for each or for some of them, or files of ranks, which have
+/// groups.
 void write(const std::string& how, const std::filesystem::path& folder) {
   if (how == "mfem")
     io::rank_writer<io::mfem_format>{.ranks = 3}(cubes.distributed(), folder);
