@@ -121,6 +121,13 @@ DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
     mesh.node_ids = detail::chosen(mesh.node_ids, kept);
   for (auto& array : mesh.point_scalars)
     array.values = detail::chosen(array.values, kept);
+  for (auto& field : mesh.point_fields) {
+    const auto size = static_cast<std::size_t>(field.components);
+    std::vector<double> values;
+    for (const auto v : kept)
+      values.insert(values.end(), &field.values[v * size], &field.values[v * size] + size);
+    field.values = std::move(values);
+  }
 }
 
 } // namespace dovetail::io
