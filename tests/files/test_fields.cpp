@@ -131,6 +131,27 @@ TEST_CASE("fields of several pieces: points that are merged keep their values, g
   CHECK(mesh.element_fields[0].values == std::vector<double>{2, 4});
 }
 
+TEST_CASE("pieces that another program has joined in one file are one mesh again") {
+  const testing::scratch_folder folder("joined_pieces");
+  const auto joined = [&](const std::string& ids) {
+    const std::string one =
+        piece(1, array("GlobalNodeIds", "0 1 2 3", 1, "Int64") + array("v", "1 2 3 4 5 6 7 8", 2), "");
+    const std::string two =
+        piece(-1, array("GlobalNodeIds", ids, 1, "Int64") + array("v", "1 2 3 4 5 6 9 10", 2), "");
+    const auto begin = two.find("<Piece"), end = two.find("</UnstructuredGrid>");
+    testing::write_content(folder / "a.vtu", std::string(one).insert(one.find("</UnstructuredGrid>"),
+                                                                     two.substr(begin, end - begin)));
+    return read(folder / "a.vtu");
+  };
+  const auto mesh = joined("0 1 2 4");
+  CHECK(mesh.mesh.points.size() == 5);
+  CHECK(mesh.mesh.elements == std::vector<simplex<3>>{{0, 1, 2, 3}, {0, 2, 1, 4}});
+  REQUIRE(mesh.point_fields.size() == 1);
+  CHECK(mesh.point_fields[0].values == std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  CHECK(joined("4 5 6 7").mesh.points.size() == 8);
+  CHECK(joined("0 1 2 3").mesh.points.size() == 8); // the last are elsewhere: the numbers mean something else
+}
+
 TEST_CASE("fields are written and read back; cells that are no elements have no number") {
   const testing::scratch_folder folder("fields_written");
   io::loaded_mesh mesh;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -97,6 +98,24 @@ inline equal_points find_equal_points(const std::vector<vec3>& points, const std
 }
 
 } // namespace detail
+
+DOVETAIL_INLINE bool repeats_points(const loaded_mesh& mesh) {
+  const auto& ids = mesh.node_ids;
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end())
+    return false;
+  std::vector<local_id> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](local_id a, local_id b) { return ids[a] == ids[b] ? a < b : ids[a] < ids[b]; });
+  bool repeated = false;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (ids[order[i]] == ids[order[i - 1]]) {
+      repeated = true;
+      if (mesh.mesh.points[order[i]] != mesh.mesh.points[order[i - 1]])
+        return false;
+    }
+  return repeated;
+}
 
 DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
   const auto equal = detail::find_equal_points(mesh.mesh.points, mesh.node_ids);

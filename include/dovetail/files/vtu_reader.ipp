@@ -357,7 +357,7 @@ DOVETAIL_INLINE loaded_mesh vtu_reader::operator()(const std::filesystem::path& 
   try {
     if (fields)
       reader_of_fields.give_to(mesh);
-    if (type == "PUnstructuredGrid")
+    if (type == "PUnstructuredGrid" || repeats_points(mesh))
       merge_points(mesh);
   } catch (const input_error& problem) {
     throw input_error(file.string() + ": " + problem.what());
