@@ -1,8 +1,10 @@
+#include "carried_fields.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "finished_run.hpp"
 #include "mesh_files.hpp"
 #include "model_source.hpp"
+#include "named_policies.hpp"
 #include "pipeline.hpp"
 #include "quality_change.hpp"
 #include "run_figures.hpp"
@@ -118,6 +120,7 @@ public:
     std::vector<double> at_points;
     if (!options_.sizes.empty())
       at_points = sizes_of(loaded, options_);
+    const mesh_fields fields = options_.fields ? fields_of(loaded, options_.input) : mesh_fields{};
     const auto old = adaptable<D>(loaded);
     std::optional<terminal_progress> lines;
     if (!options_.quiet)
@@ -133,7 +136,11 @@ public:
     if (!made.failures.empty())
       throw mesher_error(text_of_failures(made.failures));
     const quality_statistics before = measure_quality(old.mesh);
-    const io::loaded_mesh whole = named<D>(whole_mesh(made), loaded);
+    auto next = whole_mesh(made);
+    mesh_fields carried = carried_over<D>(fields, old.mesh, next.mesh);
+    io::loaded_mesh whole = named<D>(std::move(next), loaded);
+    whole.point_fields = std::move(carried.at_points);
+    whole.element_fields = std::move(carried.in_elements);
     write_mesh_file(whole, options_.out);
     lines.reset();
     if (!options_.report.empty())
@@ -143,6 +150,8 @@ public:
       std::printf("Meshed again %s\n", model.said.c_str());
       print_change(D, before, made.quality, clock.seconds());
       print_size(made.summary.find("adaptation"));
+      if (options_.fields)
+        std::printf("Carried over: %s\n", in_words(fields).c_str());
     }
     std::vector<std::string> warnings = model.warnings;
     collect_warnings(made.summary, warnings);
@@ -203,8 +212,14 @@ int run_adapt(const adapt_options& options) {
     throw command_line_error("give sizes: --sizes, --size or --sizing");
   const given_sizes sizes(options.sizing, options.size);
   check_can_write(options.out);
-  io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
+  if (options.fields && !is_vtu(options.out))
+    throw command_line_error("--fields: values are written to files with the extension .vtu, not to " +
+                             options.out);
+  io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand, options.fields);
   warn_of_part(loaded, options.input);
+  if (options.fields && !loaded.passed_over.empty())
+    std::fprintf(stderr, "warning: %s: not carried over: %s\n", options.input.c_str(),
+                 joined(loaded.passed_over).c_str());
   try {
     return is_of_triangles(loaded) ? adapt_run<2>(options, sizes).run(std::move(loaded))
                                    : adapt_run<3>(options, sizes).run(std::move(loaded));

@@ -476,6 +476,10 @@ struct parser {
                     "Edges at which the boundary turns by more degrees stay where they are")
         ->check(CLI::Range(0.0, 180.0))
         ->capture_default_str();
+    command.add_flag(
+        "--fields", adapt.fields,
+        "Carry the values at points and in elements over to the new mesh, a VTU file; in elements "
+        "the integral is kept");
     add_part_options(command, adapt.run);
     add_policy_options(command, adapt.run);
     command.add_option("--report", adapt.report, "JSON file for the figures");

@@ -54,6 +54,10 @@ void check_can_write(const std::filesystem::path& file) {
     throw command_line_error(file.string() + ": meshes are written to files with the extension .vtu or .msh");
 }
 
+bool is_vtu(const std::filesystem::path& file) {
+  return extension_of(file) == ".vtu";
+}
+
 void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
   if (extension_of(file) == ".msh")
     io::write_msh(mesh, file);

@@ -38,7 +38,11 @@ private:
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);
 
-/// Writes a VTU or MSH file; the extension decides. Throws `io_error` naming the file.
+/// Whether a file of this name is written as VTU, which has room for fields.
+bool is_vtu(const std::filesystem::path& file);
+
+/// Writes a VTU or MSH file; the extension decides. Fields are for VTU alone. Throws `io_error` naming the
+/// file.
 void write_mesh_file(const io::loaded_mesh& mesh, const std::filesystem::path& file);
 
 } // namespace dovetail::app

@@ -98,6 +98,7 @@ struct adapt_options {
   std::string model; ///< a file or the name of a built-in model; "none"; empty: that of the run, if known
   std::string unit = "mm"; ///< that a STEP or IGES file of the model is converted to
   mesh_options run;        ///< its policies and parts alone
+  bool fields = false;     ///< whether values at points and in elements are carried over
   std::string report;
   bool quiet = false;
 };

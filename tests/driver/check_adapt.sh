@@ -69,8 +69,102 @@ cmp "$inputs/by_1.vtu" "$inputs/by_2.vtu" || fault "another mesh by two workers"
 grep -qa 'Name="region_names"' "$inputs/by_1.vtu" || fault "the names of the materials are lost"
 expect_success check "$inputs/by_1.vtu"
 
-# On the model: of --model, or of the run that made the mesh, as long as its file is what it was.
+# Fields go with the mesh when that is asked for: linear ones at points stay linear, in elements the integral stays.
+field_file() { # file, then sed expressions that change it
+  sed -e "" "${@:2}" >"$1" <<'VTU'
+<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="2">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points>
+<PointData><DataArray type="Float64" Name="u" format="ascii">1 2 1 1 2</DataArray>
+<DataArray type="Float64" Name="v" NumberOfComponents="3" format="ascii">0 0 5 2 0 5 0 3 5 0 0 4 2 3 4</DataArray></PointData>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3 1 2 3 4</DataArray>
+<DataArray type="Int32" Name="offsets" format="ascii">4 8</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
+<CellData><DataArray type="Int32" Name="region" format="ascii">0 1</DataArray>
+<DataArray type="Float32" Name="load" format="ascii">3 7</DataArray>
+<DataArray type="Float64" Name="flux" NumberOfComponents="2" format="ascii">1 2 3 5</DataArray></CellData>
+</Piece></UnstructuredGrid></VTKFile>
+VTU
+}
+# carried_as_it_was <old> <new>: of the mesh above, or one made of it; VTK finds the volumes.
+carried_as_it_was() {
+  /usr/bin/python3 - "$@" <<'PYTHON' >"$sandbox/stdout" 2>"$sandbox/stderr" || fault "the fields of $2 are not what they were"
+import sys
+import numpy
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+def read(path):
+    reader, sizes = vtkXMLUnstructuredGridReader(), vtkCellSizeFilter()
+    reader.SetFileName(path)
+    sizes.SetInputConnection(reader.GetOutputPort())
+    sizes.Update()
+    grid = sizes.GetOutput()
+    of = lambda data: {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    cells = of(grid.GetCellData())
+    size = cells["Volume"] if cells["Volume"].any() else cells["Area"]
+    return vtk_to_numpy(grid.GetPoints().GetData()), of(grid.GetPointData()), cells, size
+
+points, at_points, in_cells, size = read(sys.argv[2])
+assert len(size) > 30, len(size)
+linear = {"u": 1 + points[:, 0], "v": points * (2, 3, -1) + (0, 0, 5)}
+for name, expected in linear.items():
+    if name in at_points:
+        assert abs(at_points[name] - expected).max() < 1e-12, name
+old_cells, old_size = read(sys.argv[1])[2:]
+for name in ("load", "flux"):
+    whole, before = (numpy.tensordot(s, c[name], 1) for s, c in ((size, in_cells), (old_size, old_cells)))
+    assert abs(whole - before).max() < 1e-6 * abs(before).max(), (name, whole, before)  # VTK may have sizes of 32 bits
+    for region in (0, 1):  # the material keeps its own
+        inside = in_cells["region"] == region
+        assert abs(in_cells[name][inside] - old_cells[name][old_cells["region"] == region].mean(axis=0)).max() < 1e-12, name
+PYTHON
+}
+has_vtk=$(/usr/bin/python3 -c 'import numpy, vtkmodules.vtkFiltersVerdict, vtkmodules.vtkIOXML' 2>/dev/null && echo yes)
+field_file "$inputs/fields.vtu"
+# Triangles in the plane z = 0, without "v".
+field_file "$inputs/flat.vtu" -e 's/>0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</>0 0 0 1 0 0 0 1 0 1 1 0 5 5 0</' -e 's/>1 2 1 1 2</>1 2 1 2 6</' \
+  -e '/Name="v"/s/.*/<\/PointData>/' -e 's/>0 1 2 3 1 2 3 4</>0 1 2 1 3 2</' -e 's/>4 8</>3 6</' -e 's/>10 10</>5 5</'
+for kind in fields flat; do
+  expect_success adapt "$inputs/$kind.vtu" --size 0.25 -o next.vtu --fields
+  cp "$sandbox/work/next.vtu" "$inputs/carried.vtu"
+  grep -q "^Carried over: 'u'.* at points, 'load', 'flux' in elements$" "$sandbox/stdout" || fault "the summary does not name the fields"
+  for array in u load flux region; do
+    grep -qa "Name=\"$array\"" "$inputs/carried.vtu" || fault "the values '$array' are lost"
+  done
+  [[ -z $has_vtk ]] || carried_as_it_was "$inputs/$kind.vtu" "$inputs/carried.vtu"
+  expect_success adapt "$inputs/carried.vtu" --sizes u -o next.vtu --fields --quiet # from 1 to 2; those of adapted files too
+  grep -qa 'Name="flux" NumberOfComponents="2"' "$sandbox/work/next.vtu" || fault "the values 'flux' are lost"
+done
+expect_success adapt "$inputs/fields.vtu" --size 0.5 -o next.vtu
+grep -qa 'Name="u"' "$sandbox/work/next.vtu" && fault "values are carried over that nobody asked for"
+expect_success adapt "$inputs/mesh.msh" --size 0.5 -o next.vtu --fields
+grep -qa 'Name="h"' "$sandbox/work/next.vtu" || fault "node data of MSH are lost"
+! grep -q warning "$sandbox/stderr" || fault "there is a warning"
+{ cat "$inputs/mesh.msh"; printf '%s\n' '$ElementData' '$EndElementData'; } >"$inputs/more.msh"
+expect_success adapt "$inputs/more.msh" --size 0.5 -o next.vtu --fields
+grep -q 'warning: .*more.msh: not carried over: the section \$ElementData' "$sandbox/stderr" || fault "no word of data of elements"
+
+expect_usage_error "--fields: values are written to files with the extension .vtu" \
+  adapt "$inputs/fields.vtu" --size 0.25 -o next.msh --fields
+expect_error "by_1.vtu: --fields: there are no values at points or in elements" adapt "$inputs/by_1.vtu" --size 1 -o next.vtu --fields
 write_cube >"$inputs/cube.off"
+expect_success mesh "$inputs/cube.off" --size 0.6 --subdomains 2 --ranks 2 --quiet
+cp -r "$sandbox/work/out" "$inputs/ranks"
+expect_error "--fields: there are no values" adapt "$inputs/ranks" --size 1 -o next.vtu --fields # but numbers
+refused_fields() { # sed expression, what is said
+  field_file "$inputs/refused.vtu" -e "$1"
+  expect_error "refused.vtu: $2" adapt "$inputs/refused.vtu" --size 0.25 -o next.vtu --fields
+}
+refused_fields 's/>1 2 1 1 2</>1 2 nan 1 2</' "--fields: the values 'u' cannot be carried over: point 2 has none that is finite"
+refused_fields 's/>1 2 3 5</>1 2 3 inf</' "--fields: the values 'flux' cannot be carried over: element 1 has none"
+refused_fields 's/Name="v"/Name="u"/' 'array "u": there are two of this name'
+refused_fields 's/>1 2 3 5</>1 2 3</' 'array "flux": 4 values are expected, but there are 3'
+refused_fields 's/>1 2 1 1 2</>1 2 1 1 2 3</' 'array "u": 5 values are expected, but there are 6'
+
+# On the model: of --model, or of the run that made the mesh, as long as its file is what it was.
 expect_success mesh "$inputs/cube.off" --workers 1 --size 0.3 --subdomains 2
 cp -r "$sandbox/work/out" "$inputs"
 again() { # what is said, options...

@@ -2,6 +2,7 @@
 // names the file. Run under the address and undefined-behaviour sanitizers this shows that no reader crashes.
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/vtu_writer.hpp"
+#include "dovetail/files/write_vtu.hpp"
 #include "dovetail/files/zlib.hpp"
 #include "files/msh_kinds.hpp"
 #include "files/scratch_folder.hpp"
@@ -45,6 +46,12 @@ std::vector<std::pair<std::string, std::string>> valid_files() {
   io::vtu_writer{}(mesh, folder);
   files.emplace_back("mesh_0000.vtu", testing::file_content(folder / "mesh_0000.vtu"));
   files.emplace_back("mesh.pvtu", testing::file_content(folder / "mesh.pvtu"));
+  io::loaded_mesh with_fields;
+  with_fields.mesh = cubes.whole();
+  with_fields.point_fields = {{"v", std::vector<double>(3 * with_fields.mesh.points.size(), 1), 3}};
+  with_fields.element_fields = {{"w", std::vector<double>(with_fields.mesh.elements.size(), 1)}};
+  io::write_vtu(with_fields, folder / "fields.vtu");
+  files.emplace_back("fields.vtu", testing::file_content(folder / "fields.vtu"));
   files.emplace_back("zlib.vtu", compressed_vtu);
   return files;
 }
@@ -52,7 +59,7 @@ std::vector<std::pair<std::string, std::string>> valid_files() {
 /// Reads a file; a mesh must be consistent, and an error must be the right one.
 void read_or_refuse(const std::filesystem::path& path, std::size_t& read, std::size_t& refused) {
   try {
-    const auto mesh = io::read_mesh(path, io::zlib_expand);
+    const auto mesh = io::read_mesh(path, io::zlib_expand, true);
     ++read;
     const auto points = static_cast<local_id>(mesh.mesh.points.size());
     const auto in_range = [&](local_id v) { return v >= 0 && v < points; };
@@ -66,6 +73,13 @@ void read_or_refuse(const std::filesystem::path& path, std::size_t& read, std::s
       consistent = consistent && std::all_of(triangle.begin(), triangle.end(), in_range);
     for (const auto& array : mesh.point_scalars)
       consistent = consistent && array.values.size() == mesh.mesh.points.size();
+    const auto cells = mesh.mesh.elements.empty() ? mesh.triangles.size() : mesh.mesh.elements.size();
+    const auto check_fields = [&](const std::vector<io::mesh_field>& fields, std::size_t count) {
+      for (const auto& field : fields)
+        consistent = consistent && field.values.size() == count * static_cast<std::size_t>(field.components);
+    };
+    check_fields(mesh.point_fields, mesh.mesh.points.size());
+    check_fields(mesh.element_fields, cells);
     if (!consistent)
       FAIL("an inconsistent mesh was read from " << path.string());
   } catch (const input_error& problem) {

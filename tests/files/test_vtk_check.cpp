@@ -89,7 +89,16 @@ TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zl
   std::vector<double> sizes;
   for (const auto& p : mesh.points)
     sizes.push_back(0.1 + p.x * p.y);
-  io::write_vtu(mesh, folder / "mesh.vtu", {{"size", sizes}});
+  io::loaded_mesh with_fields;
+  with_fields.mesh = mesh;
+  with_fields.point_scalars = {{"size", sizes}};
+  with_fields.point_fields = {{"place", {}, 3}};
+  for (const auto& p : mesh.points)
+    with_fields.point_fields[0].values.insert(with_fields.point_fields[0].values.end(), {p.x, p.y, p.z});
+  with_fields.element_fields = {{"number", {}}};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    with_fields.element_fields[0].values.push_back(static_cast<double>(e));
+  io::write_vtu(with_fields, folder / "mesh.vtu");
   const auto variants = folder / "variants";
   std::filesystem::create_directory(variants);
   REQUIRE(std::system((python + " " DOVETAIL_TESTS "/write_vtk_variants.py '" +
@@ -103,11 +112,15 @@ TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zl
       continue;
     }
     CAPTURE(entry.path().string());
-    const auto read = io::read_mesh(entry.path(), io::zlib_expand);
+    const auto read = io::read_mesh(entry.path(), io::zlib_expand, true);
     ++read_files;
     CHECK(read.mesh.elements == mesh.elements);
     CHECK(read.mesh.tags == mesh.tags);
     REQUIRE(read.scalars("size") != nullptr);
+    REQUIRE(read.point_fields.size() == 1);
+    REQUIRE(read.point_fields[0].values.size() == 3 * mesh.points.size());
+    REQUIRE(read.element_fields.size() == 1);
+    CHECK(read.element_fields[0].values == with_fields.element_fields[0].values);
     if (entry.path().filename().string().starts_with("Ascii")) {
       REQUIRE(read.mesh.points.size() == mesh.points.size());
       for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -115,6 +128,7 @@ TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zl
     } else {
       CHECK(read.mesh.points == mesh.points);
       CHECK(*read.scalars("size") == sizes);
+      CHECK(read.point_fields[0].values == with_fields.point_fields[0].values);
     }
   }
   CHECK(read_files == 2 + 3 * 2 * 2 * 2);

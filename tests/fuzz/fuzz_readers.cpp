@@ -23,7 +23,7 @@ using namespace dovetail;
 
 std::function<void(const std::filesystem::path&)> reader_of(const std::string& kind) {
   if (kind == "msh" || kind == "vtu")
-    return [](const auto& file) { io::read_mesh(file, io::zlib_expand); };
+    return [](const auto& file) { io::read_mesh(file, io::zlib_expand, true); };
   if (kind == "svg")
     return [](const auto& file) { read_svg(file); };
   if (kind == "txt")

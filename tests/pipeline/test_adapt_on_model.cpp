@@ -147,6 +147,13 @@ TEST_CASE("what is lost without a model is in the report, with a warning where c
   REQUIRE(told.warnings.size() == 1);
   CHECK(has(told.warnings[0], "where chords of these sizes explain"));
   CHECK(has(told.warnings[0], "adapt on the model"));
+
+  auto on_model = model_of_mesh<3>(two_bodies(), rough);
+  on_model.before.volume *= 1.1;
+  const auto told_of_model =
+      mesh_again<3>(std::move(on_model), uniform_size(0.6), given).summary.find("adaptation").warnings;
+  REQUIRE(told_of_model.size() == 1);
+  CHECK(has(told_of_model[0], "%; take smaller sizes"));
 }
 
 TEST_CASE("a model that is not the mesh's, and ids on parts of its faces, are refused") {

@@ -37,6 +37,10 @@ std::vector<T> chosen(const std::vector<T>& values, const std::vector<local_id>&
 /// other.
 void merge_points(loaded_mesh& mesh);
 
+/// Whether points of the same global number are there twice or more, all at the same place, as where a
+/// program has joined the pieces of a mesh in one file.
+bool repeats_points(const loaded_mesh& mesh);
+
 } // namespace dovetail::io
 
 #ifndef DOVETAIL_COMPILED

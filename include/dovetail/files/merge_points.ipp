@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -98,6 +99,24 @@ inline equal_points find_equal_points(const std::vector<vec3>& points, const std
 
 } // namespace detail
 
+DOVETAIL_INLINE bool repeats_points(const loaded_mesh& mesh) {
+  const auto& ids = mesh.node_ids;
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end())
+    return false;
+  std::vector<local_id> order(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](local_id a, local_id b) { return ids[a] == ids[b] ? a < b : ids[a] < ids[b]; });
+  bool repeated = false;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (ids[order[i]] == ids[order[i - 1]]) {
+      repeated = true;
+      if (mesh.mesh.points[order[i]] != mesh.mesh.points[order[i - 1]])
+        return false;
+    }
+  return repeated;
+}
+
 DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
   const auto equal = detail::find_equal_points(mesh.mesh.points, mesh.node_ids);
   std::vector<local_id> kept;
@@ -121,6 +140,13 @@ DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
     mesh.node_ids = detail::chosen(mesh.node_ids, kept);
   for (auto& array : mesh.point_scalars)
     array.values = detail::chosen(array.values, kept);
+  for (auto& field : mesh.point_fields) {
+    const auto size = static_cast<std::size_t>(field.components);
+    std::vector<double> values;
+    for (const auto v : kept)
+      values.insert(values.end(), &field.values[v * size], &field.values[v * size] + size);
+    field.values = std::move(values);
+  }
 }
 
 } // namespace dovetail::io

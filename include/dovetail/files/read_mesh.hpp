@@ -28,7 +28,8 @@ std::filesystem::path find_mesh_file(const std::filesystem::path& path);
 /// Linear in the files.
 /// \param path a file, or a folder with one
 /// \param expand expands compressed arrays, or none
-loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr);
+/// \param fields whether all fields of VTU, PVTU and VTP files are read, as `vtu_reader` says
+loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr, bool fields = false);
 
 /// The files that `read_mesh` reads: of a PVTU file its pieces too, of an MSH file of one part those of all
 /// parts. Throws `input_error`.

@@ -78,7 +78,7 @@ DOVETAIL_INLINE std::filesystem::path find_mesh_file(const std::filesystem::path
   return found.front();
 }
 
-DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand) {
+DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand, bool fields) {
   const auto file = find_mesh_file(path);
   const auto start = read_file(file, 256);
   if (start.find("$MeshFormat") != std::string::npos) {
@@ -92,7 +92,7 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
   if (start.find("\"UnstructuredGrid\"") != std::string::npos)
     detail::refuse_one_piece(file);
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
-    return vtu_reader{expand}(file);
+    return vtu_reader{expand, fields}(file);
   throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP nor MSH");
 }
 

@@ -20,9 +20,15 @@ std::vector<std::filesystem::path> pvtu_sources(const std::filesystem::path& fil
 
 /// Reads VTU, PVTU and VTP files: tetrahedra, triangles, scalar point arrays, and the cell arrays `region`
 /// (or `material`, `gmsh:physical`, `CellEntityIds`) and `subdomain`. Vertices and lines are passed over, and
-/// so are cells that are ghosts. Points of different pieces are merged.
+/// so are cells that are ghosts. Points of different files are merged, and in one file those of the same
+/// `GlobalNodeIds` at the same place.
+///
+/// With `fields` also point arrays of several components, and all cell arrays but those that say what a cell
+/// is a part of or which number it has (`region`, `subdomain`, `GlobalCellIds` and the like). Then it refuses
+/// an array that is there twice, or in some pieces only.
 struct vtu_reader {
   vtk_expander expand = nullptr; ///< of compressed arrays: `zlib_expand`, or null when there are none
+  bool fields = false;           ///< whether to read `point_fields` and `element_fields`
 
   loaded_mesh operator()(const std::filesystem::path& file) const;
 };

@@ -7,6 +7,7 @@
 #include "dovetail/core/xml_tree.hpp"
 #include "dovetail/files/merge_points.hpp"
 #include "dovetail/files/vtk_arrays.hpp"
+#include "dovetail/files/vtu_fields.hpp"
 #include "dovetail/files/vtu_reader.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
 
@@ -89,8 +90,11 @@ inline const xml_element& required_array(const xml_element& section, std::string
 /// One piece of a VTU or VTP file is appended to a mesh.
 class vtu_piece_reader {
 public:
-  vtu_piece_reader(const xml_element& piece, const vtk_encoding& encoding, loaded_mesh& mesh)
-      : piece_(piece), encoding_(encoding), mesh_(mesh), points_(count_attribute(piece, "NumberOfPoints")),
+  /// Fields are read where there is a reader for them.
+  vtu_piece_reader(const xml_element& piece, const vtk_encoding& encoding, loaded_mesh& mesh,
+                   vtu_field_reader* fields)
+      : piece_(piece), encoding_(encoding), mesh_(mesh), fields_(fields),
+        points_(count_attribute(piece, "NumberOfPoints")),
         is_of_polygons_(!piece.attribute("NumberOfPolys").empty()),
         cells_(count_attribute(piece, is_of_polygons_ ? "NumberOfPolys" : "NumberOfCells")),
         first_point_(static_cast<local_id>(mesh.mesh.points.size())) {
@@ -128,6 +132,8 @@ private:
       const auto values = read_vtk_array<global_id>(*ids, encoding_, points_);
       mesh_.node_ids.insert(mesh_.node_ids.end(), values.begin(), values.end());
     }
+    if (fields_ != nullptr)
+      fields_->read_points(section, encoding_, points_);
     if (section == nullptr)
       return;
     for (const auto& array : section->children) {
@@ -136,7 +142,8 @@ private:
       if (array.name != "DataArray" || name == "GlobalNodeIds")
         continue;
       if ((!components.empty() && components != "1") || array.attribute("type") == "String") {
-        mesh_.pass_over("arrays of points that are not numbers or of several components");
+        if (fields_ == nullptr || array.attribute("type") == "String")
+          mesh_.pass_over("arrays of points that are not numbers or of several components");
         continue;
       }
       const auto values = read_vtk_array<double>(array, encoding_, points_);
@@ -188,8 +195,10 @@ private:
     const auto subdomains = cell_values({"subdomain"});
     const auto ghosts = cell_values({"vtkGhostType"});
     const auto cad_faces = cell_values({"cad_face", "patch", "region", "gmsh:physical", "CellEntityIds"});
-    name_unused_arrays();
-    constexpr local_id duplicate = 1; // vtkGhostType: the cell belongs to another piece
+    if (fields_ == nullptr)
+      name_unused_arrays();
+    std::vector<std::size_t> tetrahedra, triangles; // that are read
+    constexpr local_id duplicate = 1;               // vtkGhostType: the cell belongs to another piece
     std::int64_t begin = 0;
     for (std::size_t c = 0; c < cells_; ++c) {
       const auto end = offsets[c];
@@ -203,11 +212,13 @@ private:
         continue;
       const auto type = is_of_polygons_ ? vtk_cell::triangle : static_cast<vtk_cell>(types[c]);
       if (type == vtk_cell::tetrahedron) {
+        tetrahedra.push_back(c);
         mesh_.mesh.elements.push_back(simplex_of<3>(vertices, c));
         mesh_.mesh.tags.push_back(materials.empty() ? 0 : materials[c]);
         if (!subdomains.empty())
           mesh_.subdomains.push_back(subdomains[c]);
       } else if (type == vtk_cell::triangle) {
+        triangles.push_back(c);
         mesh_.triangles.push_back(simplex_of<2>(vertices, c));
         mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
         if (!subdomains.empty() && subdomains[c] != no_id)
@@ -219,6 +230,8 @@ private:
                           "; only linear tetrahedra and triangles are read");
       }
     }
+    if (fields_ != nullptr)
+      fields_->read_cells(piece_.child("CellData"), encoding_, cells_, tetrahedra, triangles);
   }
   template <int D>
   simplex<D> simplex_of(std::span<const std::int64_t> vertices, std::size_t cell) const {
@@ -238,6 +251,7 @@ private:
   const xml_element& piece_;
   const vtk_encoding& encoding_;
   loaded_mesh& mesh_;
+  vtu_field_reader* fields_;
   std::uint64_t points_;
   bool is_of_polygons_;
   std::uint64_t cells_;
@@ -269,7 +283,7 @@ inline std::vector<std::string> field_strings(const xml_element& grid, std::stri
 
 /// Appends the pieces of one VTU or VTP file to a mesh.
 inline void append_vtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
-                       loaded_mesh& mesh) {
+                       loaded_mesh& mesh, vtu_field_reader* fields) {
   try {
     const auto encoding = read_vtk_encoding(root, expand);
     const auto& grid = required_child(root, root.attribute("type"));
@@ -277,7 +291,7 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
     const char* names_of_triangles = "patch_names";
     for (const auto& piece : grid.children)
       if (piece.name == "Piece") {
-        vtu_piece_reader(piece, encoding, mesh).read();
+        vtu_piece_reader(piece, encoding, mesh, fields).read();
         found = true;
         if (find_array(piece.child("CellData"), "cad_face"))
           names_of_triangles = "face_names";
@@ -313,11 +327,11 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> pvtu_sources(const std::files
 }
 
 inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
-                        loaded_mesh& mesh) {
+                        loaded_mesh& mesh, vtu_field_reader* fields) {
   for (const auto& path : pvtu_sources(file, root)) {
     const auto content = read_file(path);
     const auto piece_root = xml_parser(content, path.string()).parse();
-    append_vtu(path, piece_root, expand, mesh);
+    append_vtu(path, piece_root, expand, mesh, fields);
   }
 }
 
@@ -328,22 +342,25 @@ DOVETAIL_INLINE loaded_mesh vtu_reader::operator()(const std::filesystem::path& 
   const auto root = xml_parser(content, file.string()).parse();
   const auto type = root.attribute("type");
   loaded_mesh mesh;
+  detail::vtu_field_reader reader_of_fields;
+  auto* const of_fields = fields ? &reader_of_fields : nullptr;
   if (root.name != "VTKFile")
     throw input_error(file.string() + ": this is not a VTK XML file");
   if (type == "UnstructuredGrid" || type == "PolyData")
-    detail::append_vtu(file, root, expand, mesh);
+    detail::append_vtu(file, root, expand, mesh, of_fields);
   else if (type == "PUnstructuredGrid")
-    detail::append_pvtu(file, root, expand, mesh);
+    detail::append_pvtu(file, root, expand, mesh, of_fields);
   else
     throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
                       "; an UnstructuredGrid, PUnstructuredGrid or PolyData is needed");
   complete_point_data(mesh);
-  if (type == "PUnstructuredGrid") {
-    try {
+  try {
+    if (fields)
+      reader_of_fields.give_to(mesh);
+    if (type == "PUnstructuredGrid" || repeats_points(mesh))
       merge_points(mesh);
-    } catch (const input_error& problem) {
-      throw input_error(file.string() + ": " + problem.what());
-    }
+  } catch (const input_error& problem) {
+    throw input_error(file.string() + ": " + problem.what());
   }
   return mesh;
 }

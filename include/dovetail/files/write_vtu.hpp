@@ -12,7 +12,8 @@ namespace dovetail::io {
 namespace detail {
 
 void write_vtu_document(const mesh_document& mesh, const std::filesystem::path& path,
-                        const std::vector<point_array>& arrays);
+                        const std::vector<point_array>& arrays, const std::vector<mesh_field>& at_points = {},
+                        const std::vector<mesh_field>& in_elements = {});
 
 } // namespace detail
 
@@ -31,9 +32,10 @@ void write_vtu(const simplicial_mesh<D>& mesh, const std::filesystem::path& path
 }
 /// All that was read: also point data `GlobalNodeIds`, cell data `subdomain`, and triangles with cell data
 /// `patch` (groups) and field data `patch_names` (where there are no tetrahedra: `region`). A cell that an
-/// array says nothing of has -1 there.
+/// array says nothing of has -1 there, and in fields NaN.
 inline void write_vtu(const loaded_mesh& mesh, const std::filesystem::path& path) {
-  detail::write_vtu_document(detail::document_of(mesh), path, mesh.point_scalars);
+  detail::write_vtu_document(detail::document_of(mesh), path, mesh.point_scalars, mesh.point_fields,
+                             mesh.element_fields);
 }
 
 } // namespace dovetail::io

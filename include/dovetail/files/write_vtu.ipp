@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,16 +35,27 @@ inline std::vector<std::string> names_by_tag(const tag_names& names) {
 }
 
 DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::filesystem::path& path,
-                                        const std::vector<point_array>& arrays) {
-  for (const auto& array : arrays)
-    if (array.values.size() != mesh.points.size())
-      throw io_error("the array \"" + array.name + "\" for " + path.string() + " has " +
-                     std::to_string(array.values.size()) + " values for " +
-                     std::to_string(mesh.points.size()) + " points");
+                                        const std::vector<point_array>& arrays,
+                                        const std::vector<mesh_field>& at_points,
+                                        const std::vector<mesh_field>& in_elements) {
   const auto solid = mesh.tetrahedra.size();
   const auto cells = solid + mesh.triangles.size();
   // Where there are no tetrahedra, triangles have regions.
   const bool flat = solid == 0;
+  const auto require = [&](const auto& array, std::size_t count, const std::string& of_what) {
+    if (array.values.size() != count)
+      throw io_error("the array \"" + array.name + "\" for " + path.string() + " has " +
+                     std::to_string(array.values.size()) + " values for " + std::to_string(count) + of_what);
+  };
+  const auto require_all = [&](const std::vector<mesh_field>& fields, std::size_t count, const char* what) {
+    for (const auto& field : fields)
+      require(field, count * static_cast<std::size_t>(field.components),
+              " components of " + std::string(what));
+  };
+  for (const auto& array : arrays)
+    require(array, mesh.points.size(), " points");
+  require_all(at_points, mesh.points.size(), "points");
+  require_all(in_elements, flat ? cells : solid, "elements");
   struct cell_array {
     const char* name;
     std::span<const local_id> of_tetrahedra, of_triangles;
@@ -70,6 +82,8 @@ DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::fi
     layout.array<global_id>("GlobalNodeIds", mesh.ids.size());
   for (const auto& array : arrays)
     layout.array<double>(xml_escaped(array.name), mesh.points.size());
+  for (const auto& field : at_points)
+    layout.array<double>(xml_escaped(field.name), mesh.points.size(), field.components);
   file.text("</PointData>\n<Cells>\n");
   layout.array<local_id>("connectivity", 4 * solid + 3 * mesh.triangles.size());
   layout.array<std::int64_t>("offsets", cells);
@@ -77,6 +91,8 @@ DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::fi
   file.text("</Cells>\n<CellData>\n");
   for (const cell_array& each : tags)
     layout.array<local_id>(each.name, cells);
+  for (const auto& field : in_elements)
+    layout.array<double>(xml_escaped(field.name), cells, field.components);
   file.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
 
   append_values(file, mesh.points);
@@ -84,6 +100,8 @@ DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::fi
     append_values(file, mesh.ids);
   for (const auto& array : arrays)
     append_values(file, std::span(array.values));
+  for (const auto& field : at_points)
+    append_values(file, std::span(field.values));
   file.value<std::uint64_t>(mesh.tetrahedra.size_bytes() + mesh.triangles.size_bytes());
   file.array(mesh.tetrahedra);
   file.array(mesh.triangles);
@@ -96,6 +114,10 @@ DOVETAIL_INLINE void write_vtu_document(const mesh_document& mesh, const std::fi
     append_computed<local_id>(file, cells, [&](std::uint64_t i) {
       const auto values = i < solid ? each.of_tetrahedra : each.of_triangles;
       return values.empty() ? no_id : values[i < solid ? i : i - solid];
+    });
+  for (const auto& field : in_elements)
+    append_computed<double>(file, cells * static_cast<std::uint64_t>(field.components), [&](std::uint64_t i) {
+      return i < field.values.size() ? field.values[i] : std::numeric_limits<double>::quiet_NaN();
     });
   file.text("\n</AppendedData>\n</VTKFile>\n");
   file.commit();

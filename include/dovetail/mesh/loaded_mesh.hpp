@@ -19,6 +19,13 @@ struct point_array {
   std::vector<double> values; ///< by point
 };
 
+/// A named array of numbers, `components` for each point or element, one after the other.
+struct mesh_field {
+  std::string name;           ///< as the file calls it
+  std::vector<double> values; ///< by point or element, then component
+  int components = 1;         ///< 3 for a vector
+};
+
 /// More point arrays than this no reader takes: each is as long as the mesh has points, however little of it
 /// is in the file.
 inline constexpr std::size_t most_point_arrays = 256;
@@ -30,7 +37,9 @@ struct loaded_mesh {
   std::vector<local_id> triangle_tags; ///< per triangle: its CAD face, group or entity
   std::vector<global_id> node_ids;     ///< per point: its global number in the file
   std::vector<local_id> subdomains;    ///< per tetrahedron; empty when the file has no subdomains
-  std::vector<point_array> point_scalars;                       ///< all one-component point arrays
+  std::vector<point_array> point_scalars;   ///< all one-component point arrays
+  std::vector<mesh_field> point_fields{};   ///< point arrays of several components, where asked for
+  std::vector<mesh_field> element_fields{}; ///< of tetrahedra, without these of triangles, where asked for
   std::vector<std::pair<local_id, std::string>> material_names; ///< of the tags of the mesh
   std::vector<std::pair<local_id, std::string>> triangle_names; ///< of the tags of the triangles
   std::vector<std::string> passed_over;       ///< what else is in the file, such as "12 lines"; each once

@@ -141,7 +141,7 @@ struct extent_counts {
 
 /// The part of the report, with a warning where the mesh has another size than chords explain.
 template <int D>
-report change_of_extent(const mesh_extent& before, const mesh_extent& after) {
+report change_of_extent(const mesh_extent& before, const mesh_extent& after, bool on_model) {
   report change;
   change.name = "adaptation";
   const double explained = before.chord_gap - after.chord_gap;
@@ -153,11 +153,11 @@ report change_of_extent(const mesh_extent& before, const mesh_extent& after) {
   const double was = D == 3 ? before.volume : before.area, is = D == 3 ? after.volume : after.area;
   const double rounding = 0.3 * (std::abs(before.chord_gap) + std::abs(after.chord_gap)) + 5e-4 * was;
   if (std::abs(is - was - explained) > rounding)
-    change.warnings.push_back(std::string(D == 3 ? "the volume" : "the area") + " was " + number_text(was) +
-                              " and is " + number_text(is) + ", " + number_text(100 * (is / was - 1), 2) +
-                              " %, where chords of these sizes explain " +
-                              number_text(100 * explained / was, 2) +
-                              " %; adapt on the model, or take smaller sizes where it is curved");
+    change.warnings.push_back(
+        std::string(D == 3 ? "the volume" : "the area") + " was " + number_text(was) + " and is " +
+        number_text(is) + ", " + number_text(100 * (is / was - 1), 2) +
+        " %, where chords of these sizes explain " + number_text(100 * explained / was, 2) + " %; " +
+        (on_model ? "" : "adapt on the model, or ") + "take smaller sizes where it is curved");
   return change;
 }
 
@@ -276,7 +276,8 @@ adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, con
   append(made.summary.warnings, boundary.warnings);
   if (made.failures.empty())
     made.summary.children.push_back(detail::change_of_extent<D>(
-        boundary.before, detail::extent_of(made.mesh, adaptation_options{}.feature_angle_deg)));
+        boundary.before, detail::extent_of(made.mesh, adaptation_options{}.feature_angle_deg),
+        boundary.named_by.has_value()));
   return made;
 }
 
