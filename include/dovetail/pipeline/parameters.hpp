@@ -44,6 +44,11 @@ struct generate_options {
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
   /// is given.
   contraction_bound super_elements = {};
+  /// A background element weighs, for bound and partitioner, the elements that the sizes predict in it;
+  /// false: 1, as in the paper, section 3.4.
+  bool predicted_weights = true;
+  bool match_segments = true; ///< D = 3: other numbers of segments are tried where a face has a small angle
+  bool repartition_locally = true; ///< interfaces are moved from where remeshing makes an angle small
   /// Sizes that predict more elements are enlarged, all by one factor, until they predict so many; 0: never.
   double enlarged_above = 0;
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
