@@ -13,6 +13,7 @@
 #include "policies.hpp"
 #include "rank_partitioner.hpp"
 #include "rank_supervision.hpp"
+#include "run_setup.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/version.hpp"
@@ -111,6 +112,27 @@ void add_run_options(CLI::App& command, mesh_options& options) {
   command.add_option("--background-improver", options.background_improver,
                      "Improver of the coarse mesh: " + joined(improver_names()) +
                          " (default: a sweep of native towards 28 degrees)");
+}
+
+/// What the paper does otherwise, one by one and at once.
+void add_paper_options(CLI::App& command, mesh_options& options) {
+  command
+      .add_option("--weights", options.weights,
+                  "What elements of the coarse mesh weigh: predicted elements (default), or 1 (equal)")
+      ->check(CLI::IsMember({"predicted", "equal"}));
+  const auto add_switch = [&](const char* name, std::string& choice, const char* what) {
+    command.add_option(name, choice, std::string(what) + ": on (default), off")
+        ->check(CLI::IsMember({"on", "off"}));
+  };
+  add_switch("--super-element-bound", options.super_element_bound,
+             "Whether the simplification may contract only so many elements of the coarse mesh to one");
+  add_switch("--segment-matching", options.segment_matching,
+             "Whether lines are divided otherwise where an interface face has a small angle");
+  add_switch("--local-repartition", options.local_repartition,
+             "Whether interfaces are moved where remeshing makes an angle of theirs small");
+  command.add_flag("--paper", options.paper,
+                   "The method as printed: --partitioner metis --simplifier paper --background-improver none "
+                   "--weights equal, the three above off; what is given stays");
 }
 
 void add_order_option(CLI::App& command, mesh_options& options) {
@@ -250,8 +272,10 @@ struct parser {
                        "How subdomains come about, of a coarse mesh, by planes through the fine surface, or "
                        "of a fine mesh: " +
                            joined(decomposition_names()));
+    add_paper_options(command, mesh);
     add_output_options(command, mesh);
     command.callback([this] {
+      choose_as_paper(mesh);
       chosen = [this] { return run_mesh(mesh); };
       inputs = inputs_of_model(mesh.model);
       outputs = {.files = {{"--report", mesh.report}, {"--trace", mesh.trace}},

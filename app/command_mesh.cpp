@@ -408,6 +408,7 @@ private:
                                              {.release = true, .on_progress = parameters_.on_progress});
     figures_.mesh_hash = finished.hash;
     figures_.quality = finished.quality;
+    figures_.at_interfaces = finished.at_interfaces;
     figures_.poor = finished.poor;
     warn_of_thin_walls();
     figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes,

@@ -43,6 +43,10 @@ struct mesh_options {
   std::string executor;
   std::string background_mesher;
   std::string background_improver; ///< empty: the library's own
+  std::string weights;             ///< of background elements: "predicted" (or empty), "equal"
+  // "on" (or empty), "off".
+  std::string super_element_bound, segment_matching, local_repartition;
+  bool paper = false; ///< what is not chosen otherwise is as in the paper: `choose_as_paper`
   std::string surface_mesher;
   std::string out = "out";
   std::vector<std::string> formats;

@@ -8,6 +8,7 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/poor_elements.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/quality_at_interfaces.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -74,7 +75,8 @@ struct run_figures {
   double imbalance = 0; ///< largest subdomain over the average, in elements
   stage_seconds seconds;
   quality_statistics quality;
-  poor_elements poor; ///< of tetrahedra
+  quality_at_interfaces at_interfaces; ///< of the same elements
+  poor_elements poor;                  ///< of tetrahedra
   interface_figures interfaces, coarse_interfaces;
   report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
   std::int64_t merges = 0;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <utility>
 
 namespace dovetail::app {
 namespace {
@@ -71,6 +72,11 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("partitioner", make_partitioner(options.partitioner).name());
   identity.emplace_back(
       "simplifier", make_simplifier(options.simplifier, options.dihedral_angle, options.dimension).name());
+  for (const auto& [what, choice] : {std::pair("weights", &mesh_options::weights),
+                                     {"super-element bound", &mesh_options::super_element_bound},
+                                     {"segment matching", &mesh_options::segment_matching},
+                                     {"local repartition", &mesh_options::local_repartition}})
+    identity.emplace_back(what, (options.*choice).empty() ? "default" : options.*choice);
   identity.emplace_back("improver", make_improver<3>(options.improver).name());
   return identity;
 }

@@ -54,6 +54,22 @@ json quality_json(const quality_statistics& quality, int dimension) {
             {"max_dihedral", quality.max_dihedrals.bins}}}};
 }
 
+json ring_json(const ring_quality& ring, int dimension) {
+  const quality_limits under = limits_of(dimension);
+  const bool is_empty = ring.elements == 0;
+  return {{"elements", ring.elements},
+          {"min_dihedral_deg", is_empty ? json(nullptr) : json(ring.min_dihedral_deg)},
+          {"mean_min_dihedral_deg", is_empty ? json(nullptr) : json(ring.mean_min_dihedral_deg())},
+          {"bad", ring.min_dihedrals.below(under.bad)},
+          {"low", ring.min_dihedrals.below(under.low)}};
+}
+
+json at_interfaces_json(const quality_at_interfaces& found, int dimension) {
+  return {{"touching", ring_json(found.touching, dimension)},
+          {"next_ring", ring_json(found.next_ring, dimension)},
+          {"rest", ring_json(found.rest, dimension)}};
+}
+
 /// By cause; each tetrahedron under the low limit is counted once.
 json poor_elements_json(const poor_elements& poor) {
   json causes = json::array();
@@ -166,6 +182,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
                    {"imbalance", figures.imbalance},
                    {"seconds", seconds_json(figures.seconds)},
                    {"quality", quality_json(figures.quality, figures.dimension)},
+                   {"at_interfaces", at_interfaces_json(figures.at_interfaces, figures.dimension)},
                    {"poor_elements", poor_elements_json(figures.poor)},
                    {"interfaces", interfaces},
                    {"deviation", deviation_json(figures.deviation)},

@@ -8,6 +8,7 @@
 #include "dovetail/core/number_text.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -27,7 +28,11 @@ void check_decomposition(const mesh_options& options, int dimension) {
   if (options.ranks && !options.subdomains && !parts_later)
     throw command_line_error(given + " with --ranks: give --subdomains, or --redistribute " + by_elements);
   for (const auto& [option, is_given] :
-       {std::pair("--coarsening", options.coarsening.has_value()),
+       {std::pair("--paper", options.paper), std::pair("--weights", !options.weights.empty()),
+        std::pair("--super-element-bound", !options.super_element_bound.empty()),
+        std::pair("--segment-matching", !options.segment_matching.empty()),
+        std::pair("--local-repartition", !options.local_repartition.empty()),
+        std::pair("--coarsening", options.coarsening.has_value()),
         std::pair("--background-mesher", !options.background_mesher.empty()),
         std::pair("--background-improver", !options.background_improver.empty()),
         std::pair("--simplifier", !options.simplifier.empty() && !parts_later),
@@ -58,6 +63,8 @@ policies_of<D> make_policies_of(const mesh_options& options) {
   if (D == 2 && background_mesher)
     throw command_line_error(
         "--background-mesher: with --dimension 2 there is no volume to mesh; use native");
+  if (D == 2 && !options.segment_matching.empty())
+    throw command_line_error("--segment-matching: with --dimension 2 there are no faces to match it to");
   if (D == 2 && !options.background_improver.empty())
     throw command_line_error("--background-improver: with --dimension 2 there is no volume to improve");
   auto mesher = make_mesher<D>(options.mesher);
@@ -81,6 +88,24 @@ policies_of<D> make_policies_of(const mesh_options& options) {
 template policies_of<2> make_policies_of<2>(const mesh_options&);
 template policies_of<3> make_policies_of<3>(const mesh_options&);
 
+void choose_as_paper(mesh_options& options) {
+  if (!options.paper)
+    return;
+  const auto choose = [](std::string& choice, const char* name) {
+    if (choice.empty())
+      choice = name;
+  };
+  choose(options.partitioner, "metis");
+  choose(options.simplifier, "paper");
+  choose(options.weights, "equal");
+  choose(options.super_element_bound, "off");
+  choose(options.local_repartition, "off");
+  if (options.dimension == 2)
+    return;
+  choose(options.segment_matching, "off");
+  choose(options.background_improver, "none");
+}
+
 generate_options make_generate_options(const mesh_options& options) {
   constexpr double most_by_default = 2e6; // elements, where nothing says how large they are
   generate_options result;
@@ -103,6 +128,11 @@ generate_options make_generate_options(const mesh_options& options) {
       throw command_line_error("--coarsening: " + number_text(*options.coarsening) + " is not 1 or more");
     result.coarse_scale = *options.coarsening;
   }
+  if (options.super_element_bound == "off")
+    result.super_elements.fraction = std::numeric_limits<double>::infinity();
+  result.predicted_weights = options.weights != "equal";
+  result.match_segments = options.segment_matching != "off";
+  result.repartition_locally = options.local_repartition != "off";
   return result;
 }
 

@@ -157,6 +157,24 @@ void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
 }
 
+/// Elements by their distance from interfaces.
+void add_at_interfaces(table& rows, const run_figures& figures) {
+  rows.heading("Elements at interfaces (degrees)              number  least   bad    low");
+  const quality_limits under = limits_of(figures.dimension);
+  const auto ring = [&](const char* label, const ring_quality& found) {
+    char values[80];
+    std::snprintf(values, sizeof values, "%9s%7.1f%6lld%7lld",
+                  count_text(static_cast<double>(found.elements)).c_str(), found.min_dihedral_deg,
+                  static_cast<long long>(found.min_dihedrals.below(under.bad)),
+                  static_cast<long long>(found.min_dihedrals.below(under.low)));
+    if (found.elements > 0)
+      rows.row(label, values);
+  };
+  ring("Touching one", figures.at_interfaces.touching);
+  ring("Next ring", figures.at_interfaces.next_ring);
+  ring("All others", figures.at_interfaces.rest);
+}
+
 /// By their causes, where there are any.
 void add_poor_elements(table& rows, const poor_elements& poor) {
   const auto all = std::accumulate(poor.low.begin(), poor.low.end(), std::int64_t{0});
@@ -196,6 +214,8 @@ std::string summary_text(const run_figures& figures) {
   if (!figures.deviation.children.empty())
     add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);
+  if (figures.at_interfaces.touching.elements > 0)
+    add_at_interfaces(rows, figures);
   add_poor_elements(rows, figures.poor);
   if (!figures.repeatable)
     rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");

@@ -95,6 +95,31 @@ done
 expect_usage_error "there is no 'hilbert:2'; there are: metis:2, .*greedy:2" mesh "$inputs/cube.off" --size 0.1 --partitioner hilbert:2
 expect_usage_error "after the colon of 'metis:two' there is no seed" mesh "$inputs/cube.off" --size 0.1 --partitioner metis:two
 
+# Each thing that is added to the paper's method can be left out, and --paper leaves out all of them; what is given stays.
+shown=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --mesher native --format none --report report.json)
+expect_success "${shown[@]}"
+hash=$(figure mesh_hash)
+positive "$(figure matched_lines)" || fault "no lines are matched"
+[[ $(figure weight_bound) != null ]] || fault "no bound"
+expect_success "${shown[@]}" --super-element-bound off
+[[ $(figure weight_bound) == null ]] || fault "a bound of $(figure weight_bound)"
+expect_success "${shown[@]}" --weights equal
+[[ $(figure mesh_hash) != "$hash" ]] || fault "the mesh of predicted weights"
+expect_success "${shown[@]}" --segment-matching off
+positive "$(figure matched_lines)" && fault "lines are matched"
+positive "$(figure repartition_rounds)" || fault "nothing is moved in place of it"
+expect_success "${shown[@]}" --segment-matching off --local-repartition off
+positive "$(figure repartition_rounds)" && fault "interfaces are moved"
+expect_success "${shown[@]}" --partitioner metis --simplifier paper --background-improver none --weights equal \
+  --super-element-bound off --segment-matching off --local-repartition off
+hash=$(figure mesh_hash)
+expect_success "${shown[@]}" --paper
+[[ $(figure mesh_hash) == "$hash" ]] || fault "--paper is not its choices"
+expect_success "${shown[@]}" --paper --partitioner metis:2
+[[ $(figure partitioner) == metis:2 ]] || fault "--paper takes back what was given"
+expect_usage_error "--segment-matching: with --dimension 2 there are no faces" \
+  mesh "$inputs/cube.off" --dimension 2 --segment-matching off
+
 # What has no part in it is refused before anything is read.
 bad=(mesh nothing.off --decomposition bisection)
 expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection, fine-partition" \
@@ -102,7 +127,7 @@ expect_usage_error "--decomposition: there is no 'halves'; there are: simplifica
 expect_usage_error "--decomposition bisection divides solids; with --dimension 2" "${bad[@]}" --dimension 2
 expect_usage_error "--decomposition fine-partition has no background mesh: --simplifier does nothing there" \
   mesh nothing.off --decomposition fine-partition --simplifier none
-for option in "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--dihedral-angle 20" "--partitioner metis"; do
+for option in --paper "--weights equal" "--super-element-bound off" "--segment-matching off" "--local-repartition off" "--coarsening 3" "--background-mesher native" "--background-improver none" "--simplifier none" "--dihedral-angle 20" "--partitioner metis"; do
   expect_usage_error "--decomposition bisection has no background mesh: ${option% *} does nothing there" "${bad[@]}" $option
 done
 expect_usage_error "--decomposition bisection with --ranks: give --subdomains, or --redistribute by-elements" "${bad[@]}" --ranks 3

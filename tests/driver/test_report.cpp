@@ -29,6 +29,9 @@ run_figures example() {
   figures.quality.elements = figures.elements;
   figures.quality.min_dihedral_deg = 11.5;
   figures.quality.min_dihedrals.bins[11] = 6000;
+  for (const double degrees : {11.5, 20.5, 40.0})
+    figures.at_interfaces.touching.add(degrees);
+  figures.at_interfaces.rest.add(50);
   figures.interfaces.min_face_angle_deg = 30.5;
   figures.interfaces.forced = 1;
   figures.interfaces.refused = 3;
@@ -94,6 +97,15 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   CHECK(document["quality"]["min_dihedral_deg"] == 11.5);
   CHECK(document["quality"]["bad_per_million"].get<double>() == doctest::Approx(2.0));
   CHECK(document["quality"]["histogram"]["min_dihedral"][11] == 6000);
+  const auto& at_interfaces = document["at_interfaces"];
+  CHECK(at_interfaces["touching"]["elements"] == 3);
+  CHECK(at_interfaces["touching"]["min_dihedral_deg"] == 11.5);
+  CHECK(at_interfaces["touching"]["mean_min_dihedral_deg"] == 24.0);
+  CHECK(at_interfaces["touching"]["bad"] == 1);
+  CHECK(at_interfaces["touching"]["low"] == 2);
+  CHECK(at_interfaces["next_ring"]["elements"] == 0);
+  CHECK(at_interfaces["next_ring"]["min_dihedral_deg"].is_null()); // none to measure
+  CHECK(at_interfaces["rest"]["low"] == 0);
   CHECK(document["interfaces"]["forced"] == 1);
   CHECK(document["interfaces"]["refused"] == 3);
   CHECK(document["interfaces"]["remeshing"] == 2);
@@ -128,8 +140,9 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
   for (const char* expected :
        {"General data", "No. of tetrahedra", "3,000,000,000", "Timing (seconds)", "Domain decomposition",
         "Mesh generation", "Relative speed", "150 M", "Minimum dihedral angle", "11.50", "6,000",
-        "Interfaces", "distance from the CAD", "0.25"})
+        "Interfaces", "distance from the CAD", "0.25", "Elements at interfaces", "Touching one"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+  CHECK(text.find("Next ring") == std::string::npos); // without elements
 }
 
 TEST_CASE("the summary has the steps that not every run has only where they are") {

@@ -219,7 +219,9 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
   CHECK(testing::content_of(folder / "out") == testing::content_of(folder / "expected"));
 }
 
-TEST_CASE("elements of low quality are counted by every executor, and where pieces are taken over") {
+TEST_CASE(
+    "elements of low quality and at interfaces are counted by every executor, and where pieces are taken "
+    "over") {
   const testing::scratch_folder folder("finish_poor");
   const auto flattened = [](distributed_mesh mesh) {
     for (vec3& p : mesh.skeleton.points.own())
@@ -239,8 +241,15 @@ TEST_CASE("elements of low quality are counted by every executor, and where piec
   const auto expected = counted(flattened(cubes.distributed()), parallel::serial{});
   CHECK(all_low(expected.poor) == expected.quality.min_dihedrals.below(low_dihedral_deg));
   REQUIRE(all_low(expected.poor) > 0);
+  const auto& [touching, next_ring, rest] = expected.at_interfaces;
+  CHECK(touching.elements > 0);
+  CHECK(touching.elements + next_ring.elements + rest.elements == expected.quality.elements);
+  CHECK(touching.min_dihedrals.below(low_dihedral_deg) + next_ring.min_dihedrals.below(low_dihedral_deg) +
+            rest.min_dihedrals.below(low_dihedral_deg) ==
+        all_low(expected.poor));
   const auto by_processes = counted(flattened(cubes.distributed()), parallel::processes{.worker_count = 2});
   CHECK(encoded(by_processes.poor) == encoded(expected.poor));
+  CHECK(encoded(by_processes.at_interfaces) == encoded(expected.at_interfaces));
 
   store pieces;
   auto interrupted = flattened(pieces.mesh());
@@ -253,6 +262,7 @@ TEST_CASE("elements of low quality are counted by every executor, and where piec
   const auto resumed = counted(flattened(pieces.mesh()), parallel::serial{}, true);
   CHECK(resumed.summary.get("taken_over") > 0);
   CHECK(encoded(resumed.poor) == encoded(expected.poor));
+  CHECK(encoded(resumed.at_interfaces) == encoded(expected.at_interfaces));
 }
 
 TEST_CASE("an MSH file is put together from the parts of pieces, also by workers and after an interruption") {

@@ -9,6 +9,7 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/poor_elements.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/quality_at_interfaces.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 
 #include <cstdint>
@@ -38,10 +39,11 @@ struct finishing_counts {
 
 /// What the pass found.
 struct finished_mesh {
-  std::uint64_t hash = 0;     ///< as `mesh_hash`
-  quality_statistics quality; ///< `worst_element` is a global number
-  poor_elements poor;         ///< in D = 3, by their causes
-  report summary;             ///< `finishing_counts`; a child per writer
+  std::uint64_t hash = 0;              ///< as `mesh_hash`
+  quality_statistics quality;          ///< `worst_element` is a global number
+  quality_at_interfaces at_interfaces; ///< the same elements by their distance from interfaces
+  poor_elements poor;                  ///< in D = 3, by their causes
+  report summary;                      ///< `finishing_counts`; a child per writer
 };
 
 /// One task per file, or per piece without writers: loads its pieces one after the other, checks each as

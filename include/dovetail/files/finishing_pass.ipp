@@ -31,9 +31,11 @@ namespace detail {
 struct finished_pieces {
   mesh_hasher hash;
   quality_statistics quality;
+  quality_at_interfaces at_interfaces;
   poor_elements poor;
 
-  using fields = field_list<&finished_pieces::hash, &finished_pieces::quality, &finished_pieces::poor>;
+  using fields = field_list<&finished_pieces::hash, &finished_pieces::quality,
+                            &finished_pieces::at_interfaces, &finished_pieces::poor>;
 };
 
 /// What a task gives back; that the mesh is none is an error of its own, which the parent throws.
@@ -121,6 +123,7 @@ public:
     for (const auto& pieces : found) {
       hash.merge(pieces.hash);
       result.quality.merge(pieces.quality, 0);
+      result.at_interfaces.merge(pieces.at_interfaces);
       result.poor.merge(pieces.poor);
     }
     result.hash = hash.value();
@@ -288,6 +291,7 @@ private:
       const auto at = static_cast<std::size_t>(p);
       const auto quality = at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh);
       done.quality.merge(quality, numbers_.first_element[at]);
+      done.at_interfaces.merge(measure_at_interfaces(piece, mesh_.skeleton, sides_[p]));
       if constexpr (D == 3)
         if (quality.min_dihedrals.below(low_dihedral_deg) > 0)
           done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));

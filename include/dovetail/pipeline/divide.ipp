@@ -66,7 +66,9 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
-  auto simplified = simplify_background(coarse, sides, result.weights, bound, given.simplify_by,
+  const std::span<const double> weights =
+      options.predicted_weights ? span_of(result.weights) : std::span<const double>(); // else 1 each
+  auto simplified = simplify_background(coarse, sides, weights, bound, given.simplify_by,
                                         result.simplification, options.on_progress);
   result.simplification.seconds = simplification_clock.seconds();
 

@@ -64,8 +64,8 @@ realized<2> realize_boundaries(const any_geometry& model, const simplicial_backg
   return result;
 }
 
-/// The patches of a skeleton, on lines with numbers of segments that suit each other. Better small angles
-/// than patches that fail: then on the lines as they were.
+/// The patches of a skeleton, where wanted on lines with numbers of segments that suit each other. Better
+/// small angles than patches that fail: then on the lines as they were.
 template <bound_parameters<3> Parameters>
 skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
                                           skeleton_store& made, const Parameters& given) {
@@ -81,7 +81,7 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
   const stopwatch clock;
   const double wanted = wanted_angles_of<3>(given.simplify_by).face_deg;
   std::size_t matched = 0;
-  if (patches.failures.empty())
+  if (given.options.match_segments && patches.failures.empty())
     matched = match_segments(of.model, of.coarse_points, result.coarse, result.lines.lines,
                              faces_with_small_angles(patches, result.coarse, made.patches, wanted), of.size,
                              wanted, given.mesh_surface, given.run_tasks, made.segments, on_progress);

@@ -17,9 +17,11 @@ namespace dovetail {
 template <int D>
 class repartition_rounds {
 public:
-  repartition_rounds(const simplicial_background<D>& mesh, const divided_background<D>& divided)
+  /// `are_wanted`: false does nothing but measure.
+  repartition_rounds(const simplicial_background<D>& mesh, const divided_background<D>& divided,
+                     bool are_wanted)
       : repartition_(mesh.elements(), divided.sides, divided.pieces),
-        are_wanted_(divided.angles.count(violation_cause::remeshing) == 0) {}
+        are_wanted_(are_wanted && divided.angles.count(violation_cause::remeshing) == 0) {}
 
   /// Changes `subdomain_of_element`, of which `made` is realized, round by round; the best is taken, and
   /// what is realized of it returned. Where something crosses then, a round is taken back. Where the coarse

@@ -38,7 +38,8 @@ public:
         given_(given), state_{.subdomain_of_element = divided.pieces.part_of_element,
                               .merges = {divided.pieces.parts, given.options.largest_merged_fraction},
                               .size = size},
-        repartition_(mesh, divided), made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
+        repartition_(mesh, divided, given.options.repartition_locally),
+        made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
         pieces_(std::make_shared<entity_store>(given.options.store)), account_(std::move(account)),
         counts_(account_.as<intersection_counts>()) {
     account_.name = "intersection";
