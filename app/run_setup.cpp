@@ -50,7 +50,9 @@ bool leaves_decomposition_open(const mesh_options& options) {
   return options.dimension == 3 && !options.subdomains && !options.ranks && options.files == 0 &&
          !options.coarsening && !options.dihedral_angle && options.partitioner.empty() &&
          options.simplifier.empty() && options.background_mesher.empty() &&
-         options.background_improver.empty() && options.decomposition.empty() &&
+         options.background_improver.empty() && options.decomposition.empty() && options.weights.empty() &&
+         options.super_element_bound.empty() && options.segment_matching.empty() &&
+         options.local_repartition.empty() && !options.paper &&
          (options.mesher.empty() || options.mesher == "native");
 }
 
