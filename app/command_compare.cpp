@@ -64,6 +64,7 @@ public:
     for (const auto& each : combinations_)
       policies_.push_back(make_policies_of<D>(options_of_run(options, each)));
     parameters_ = make_generate_options(options_of_run(options, combinations_.front()));
+    parameters_.undivided_elements = 0;
   }
 
   int run() {

@@ -89,6 +89,7 @@ std::vector<std::string> run_maker::words_for_sizes(const experiment_run& run, d
     const model_source source = load_model(options.model);
     generate_options parameters = make_generate_options(options);
     parameters.enlarged_above = 0;
+    parameters.undivided_elements = 0;
     parameters.on_progress.stop_requested = stop_was_requested;
     const double factor =
         scale_for_elements<3>(source, elements, make_policies_of<3>(options), parameters).factor;
