@@ -29,6 +29,7 @@ struct experiment_run {
   std::string column;
   std::vector<std::string> options = {}; ///< more of `dovetail mesh`
   double elements = 0;                   ///< of a run that is not for a column of the paper
+  double elements_per_subdomain = 0;     ///< likewise; 0: as many subdomains as the driver chooses
   bool has_background = true;            ///< a coarse mesh is decomposed, of the column's elements
   /// Other runs that are shown in the same column. In the documents of this one, the paper's as the report,
   /// theirs have the names of their labels.
@@ -47,6 +48,8 @@ struct experiment_row {
   bool over_first = false;
   /// Labels of the runs that have such a step; of the others nothing is shown. Empty: all have it.
   std::vector<std::string> only_of = {};
+  /// Measured is the mean over the run and those beside it, which differ in their seeds.
+  bool is_mean = false;
 };
 
 /// Rows over another row, one point for each run.

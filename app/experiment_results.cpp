@@ -12,8 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -66,6 +68,25 @@ std::string cell(double value, const experiment_row& row) {
   return text;
 }
 
+/// The mean of those that are numbers, and half the length of its 95 % interval by Student's distribution;
+/// NaN where they are too few.
+std::pair<double, double> mean_and_margin(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  constexpr double quantiles[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262};
+  const std::size_t count = values.size();
+  if (count == 0)
+    return {nothing, nothing};
+  const auto n = static_cast<double>(count);
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  if (count == 1)
+    return {mean, nothing};
+  double squares = 0;
+  for (const double value : values)
+    squares += (value - mean) * (value - mean);
+  const double quantile = quantiles[std::min(count - 2, std::size(quantiles) - 1)];
+  return {mean, quantile * std::sqrt(squares / (n - 1) / n)};
+}
+
 /// A column of the table: one run by one source.
 struct result_column {
   std::size_t run;
@@ -110,8 +131,11 @@ std::string markdown_table(const experiment_result& result) {
   for (const experiment_row& row : result.what->rows) {
     const row_values values = values_of(row, result);
     text_row& line = lines.emplace_back(text_row{label_of(row)});
-    for (const result_column& column : columns)
+    for (const result_column& column : columns) {
       line.push_back(cell((values.*column.source)[column.run], row));
+      if (column.source == &row_values::measured && row.is_mean && std::isfinite(values.margin[column.run]))
+        line.back() += " ± " + cell(values.margin[column.run], row);
+    }
   }
   if (result.what->run_per_line)
     lines = transposed(lines);
@@ -256,7 +280,13 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
   for (const run_result& run : result.runs) {
     values.paper.push_back(value_of(row.paper, column_of_paper(*run.run)));
     const figure ours = is_of(row, *run.run) ? row.ours : figure();
-    values.measured.push_back(value_of(ours, run.measured));
+    std::vector<double> of_seeds{value_of(ours, run.measured)};
+    if (row.is_mean)
+      for (const run_result& other : run.beside)
+        of_seeds.push_back(value_of(ours, other.measured));
+    const auto [mean, margin] = mean_and_margin(of_seeds);
+    values.measured.push_back(row.is_mean ? mean : of_seeds.front());
+    values.margin.push_back(margin);
     values.simulated.push_back(value_of(ours, run.simulated));
   }
   if (!row.over_first)
@@ -264,7 +294,7 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
   if (have_same_workers(result.runs))
     std::fill(values.measured.begin(), values.measured.end(), nothing);
   return {over_first(std::move(values.paper)), over_first(std::move(values.measured)),
-          over_first(std::move(values.simulated))};
+          over_first(std::move(values.simulated)), std::move(values.margin)};
 }
 
 std::string markdown_text(const experiment_result& result) {
@@ -294,7 +324,8 @@ std::string csv_text(const experiment_result& result) {
   };
   constexpr source_of_values sources[] = {{"paper", &row_values::paper, false},
                                           {"measured", &row_values::measured, true},
-                                          {"simulated", &row_values::simulated, true}};
+                                          {"simulated", &row_values::simulated, true},
+                                          {"margin", &row_values::margin, false}};
   std::string text = csv_line({"experiment", "row", "unit", "run", "source", "value"});
   for (const experiment_row& row : result.what->rows) {
     const row_values values = values_of(row, result);
@@ -328,6 +359,7 @@ std::string json_text(const experiment_result& result) {
                                 {"unit", row.unit},
                                 {"paper", json_of(values.paper)},
                                 {"measured", json_of(values.measured)},
+                                {"margin", json_of(values.margin)},
                                 {"simulated", json_of(values.simulated)}});
   }
   document["plots"] = json::array();

@@ -49,14 +49,15 @@ double value_of(const figure& wanted, const nlohmann::ordered_json& document);
 /// none.
 struct row_values {
   std::vector<double> paper, measured, simulated;
+  std::vector<double> margin = {}; ///< of a row of means: half the length of their 95 % intervals
 };
 row_values values_of(const experiment_row& row, const experiment_result& result);
 
 /// Heading, table, notes, and the command lines of the runs.
 std::string markdown_text(const experiment_result& result);
-/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated"), value,
-/// which is empty where the run's method has no such step; and one for each run that failed, with "failure"
-/// as the row and its message as the value.
+/// A line for each number: experiment, row, unit, run, source ("paper", "measured", "simulated", "margin"),
+/// value, which is empty where the run's method has no such step; and one for each run that failed, with
+/// "failure" as the row and its message as the value.
 std::string csv_text(const experiment_result& result);
 /// All of it, with what the plots are of.
 std::string json_text(const experiment_result& result);

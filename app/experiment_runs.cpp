@@ -59,6 +59,13 @@ bool is_same_text(const json& a, const json& b) {
   return text_of_json(a) == text_of_json(b);
 }
 
+/// Of a run that is not for a column of the paper; 0: as many as the driver chooses.
+int subdomains_of(const experiment_run& run, double elements) {
+  if (run.elements_per_subdomain == 0)
+    return 0;
+  return std::max(1, static_cast<int>(std::round(elements / run.elements_per_subdomain)));
+}
+
 } // namespace
 
 run_maker::run_maker(const experiment_options& options, driver_call driver)
@@ -182,9 +189,10 @@ void run_maker::carry_out(const place_of_run& place, const wanted_run& wanted, r
 
 run_result run_maker::make(const experiment_run& run) {
   const wanted_run wanted =
-      run.table.empty()
-          ? wanted_run{.elements = run.elements / options_.scale, .workers = workers_, .subdomains = 0}
-          : run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
+      run.table.empty() ? wanted_run{.elements = run.elements / options_.scale,
+                                     .workers = workers_,
+                                     .subdomains = subdomains_of(run, run.elements / options_.scale)}
+                        : run_for(paper_table(run.table).at("columns").at(run.column), options_.scale);
   if (constexpr double fewest = 100; wanted.elements < fewest)
     throw command_line_error("--scale: " + number_text(options_.scale) + " leaves " +
                              number_text(wanted.elements) + " elements of a mesh; give a smaller one");

@@ -64,12 +64,12 @@ done
 ! grep -q failed "$sandbox/stderr" || fault "runs fail"
 
 # The seconds of each are told and kept, and those of all; they add up.
-for name in table{2..10} fig10 fig{13..16} thresholds rules; do
+for name in table{2..10} fig10 fig{13..16} thresholds rules interfaces; do
   seconds=$(sed -n "s/^$name: \([0-9.]*\) s$/\1/p" "$sandbox/stderr")
   kept_seconds=$(sed -n 's/^  "seconds": \([0-9.e-]*\),$/\1/p' "$kept/$name.json")
   echo "$name ${seconds:-none} ${kept_seconds:-none}"
 done >"$inputs/seconds"
-all=$(sed -n 's/^all 16 experiments: \([0-9.]*\) s$/\1/p' "$sandbox/stderr")
+all=$(sed -n 's/^all 17 experiments: \([0-9.]*\) s$/\1/p' "$sandbox/stderr")
 awk -v all="${all:--1}" '$2 == "none" || $3 == "none" || ($2 - $3)^2 > 0.01 { bad = 1 } { sum += $2 }
   END { exit bad || sum == 0 || sum > all + 1 }' "$inputs/seconds" || fault "no seconds, or of another time than all took"
 

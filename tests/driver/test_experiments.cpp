@@ -50,6 +50,8 @@ json example_report() {
                      .writing_back = 0.125,
                      .output = 7,
                      .total = 68};
+  figures.at_interfaces.touching.add(11.5);
+  figures.at_interfaces.rest.add(40);
   figures.interfaces.min_face_angle_deg = figures.interfaces.min_dihedral_deg = 31;
   figures.coarse_interfaces = figures.interfaces;
   figures.quality.min_dihedrals.bins[5] = 1;
@@ -404,6 +406,29 @@ TEST_CASE("failures are counted and named, and one of our own method is an error
   CHECK(failures_of({variants}).is_error); // nothing is left to show
   variants.runs[0].record.erase("failure");
   CHECK_FALSE(failures_of({variants}).is_error);
+}
+
+TEST_CASE("a row of means is over the seeds that a run was made with, and those that failed are none") {
+  experiment_result result = result_of(named("interfaces"));
+  constexpr std::size_t in_pieces = 1; // before it, the model in one piece
+  const auto set = [&](run_result& run, double degrees) {
+    run.measured["at_interfaces"]["touching"]["min_dihedral_deg"] = degrees;
+  };
+  run_result& run = result.runs[in_pieces];
+  REQUIRE(run.beside.size() == 2);
+  set(run, 1);
+  set(run.beside[0], 2);
+  set(run.beside[1], 6);
+  const std::string row = "Smallest angle there";
+  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(3));
+  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(6.573).epsilon(1e-3));
+  CHECK(std::isnan(value_in(result, row, 0, &row_values::margin))); // of one run
+  CHECK(markdown_text(result).find("| 3.0 ± 6.6 |") != std::string::npos);
+  CHECK(csv_text(result).find(",\"aircraft, raw, no repair, no rule\",margin,6.57") != std::string::npos);
+  CHECK(json::parse(json_text(result)).at("rows").at(3).at("margin").at(in_pieces).is_number());
+  run.beside.back().measured = json();
+  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(1.5));
+  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(6.353).epsilon(1e-3));
 }
 
 std::vector<std::string> lines_of_table(const std::string& markdown) {
