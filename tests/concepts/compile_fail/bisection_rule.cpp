@@ -1,7 +1,7 @@
 // near miss 1: it splits in equal halves only
 // error 1: b\(g, left, right\).*invalid|no matching function for call to object of type 'const my_rule
 // near miss 2: it returns a truth value per node
-// error 2: b\(g, left, right\).*return-type|constraint 'std::same_as<std::vector<(bool|_Bool)>
+// error 2: b\(g, left, right\).*return-type|(constraint|because) 'std::same_as<std::vector<(bool|_Bool)>
 // near miss 3: its call changes it
 // error 3: b\(g, left, right\).*invalid|no matching function for call to object of type 'const my_rule
 #include "dovetail/partition/recursive_bisection.hpp"

@@ -5,7 +5,7 @@
 // near miss 3: it has bounds and no sizes
 // error 3: h\(p\).*invalid|does not provide a call operator
 // near miss 4: it returns a pair of bounds
-// error 4: h\.smallest_size_in\(box\).*return-type|constraint 'std::convertible_to<dovetail::vec2
+// error 4: h\.smallest_size_in\(box\).*return-type|(constraint|because) 'std::convertible_to<dovetail::vec2
 #include "dovetail/sizing/bounds.hpp"
 
 struct my_sizing {

@@ -1,7 +1,7 @@
 // near miss 1: it does not say how many ranks there are
 // error 1: c\.size\(\).*invalid|no member named 'size'
 // near miss 2: it waits for a message where it should say that there is none
-// error 2: c\.receive\(\).*return-type|constraint 'std::same_as<dovetail::rank_message
+// error 2: c\.receive\(\).*return-type|(constraint|because) 'std::same_as<dovetail::rank_message
 // near miss 3: a message has no tag
 // error 3: c\.send\(to, tag, .*invalid|too many arguments|no matching member function
 // near miss 4: it cannot tell the others that it goes no further

@@ -1,7 +1,7 @@
 // near miss 1: it does not say how many workers it has
 // error 1: e\.workers\(\).*invalid|no member named 'workers'
 // near miss 2: it keeps the outcomes to itself
-// error 2: e\.run\(count, task, options\).*return-type|constraint 'std::same_as<void
+// error 2: e\.run\(count, task, options\).*return-type|(constraint|because) 'std::same_as<void
 // near miss 3: it takes no options
 // error 3: e\.run\(count, task, options\).*invalid|too many arguments|no matching member function
 // near miss 4: it does not say whether tasks share the process

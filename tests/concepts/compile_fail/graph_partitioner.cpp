@@ -1,5 +1,5 @@
 // near miss 1: the parts are not local_id
-// error 1: p\(g, parts\).*return-type|constraint 'std::same_as<std::vector<short>
+// error 1: p\(g, parts\).*return-type|(constraint|because) 'std::same_as<std::vector<short>
 // near miss 2: the call operator is not const
 // error 2: p\(g, parts\).*(is invalid|invalid:)|no matching function for call to .*const my_partitioner
 // near miss 3: it cannot be copied

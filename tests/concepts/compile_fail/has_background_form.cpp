@@ -1,7 +1,7 @@
 // near miss 1: it says only whether it has one
-// error 1: m\.for_background\(\).*return-type|constraint 'std::same_as<(bool|_Bool)
+// error 1: m\.for_background\(\).*return-type|(constraint|because) 'std::same_as<(bool|_Bool)
 // near miss 2: it is a mesher of another type
-// error 2: m\.for_background\(\).*return-type|constraint 'std::same_as<other_mesher
+// error 2: m\.for_background\(\).*return-type|(constraint|because) 'std::same_as<other_mesher
 // near miss 3: asking for it changes the mesher
 // error 3: m\.for_background\(\).*invalid|not marked const
 #include "dovetail/mesher/preferences.hpp"

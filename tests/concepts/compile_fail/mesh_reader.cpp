@@ -1,5 +1,5 @@
 // near miss 1: it returns a bare mesh, without arrays and names
-// error 1: r\(file\).*return-type|constraint 'std::same_as<dovetail::simplicial_mesh<3>
+// error 1: r\(file\).*return-type|(constraint|because) 'std::same_as<dovetail::simplicial_mesh<3>
 // near miss 2: it fills an argument
 // error 2: r\(file\).*invalid|no matching function for call to object of type 'const my_reader
 // near miss 3: it reads a stream, so that its errors cannot name the file

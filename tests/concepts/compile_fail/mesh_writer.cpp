@@ -1,7 +1,7 @@
 // near miss 1: it writes whole meshes, which would have to be in memory at once
 // error 1: w\(mesh, folder\).*invalid|no matching function for call to object of type 'const my_writer
 // near miss 2: it gives no report
-// error 2: w\(mesh, folder\).*return-type|constraint 'std::same_as<void
+// error 2: w\(mesh, folder\).*return-type|(constraint|because) 'std::same_as<void
 // near miss 3: the call operator is not const
 // error 3: w\(mesh, folder\).*invalid|no matching function for call to object of type 'const my_writer
 #include "dovetail/files/concepts.hpp"

@@ -1,7 +1,7 @@
 // near miss 1: it declares no traits
 // error 1: M::traits.*invalid|no member named 'traits'
 // near miss 2: it returns a bare mesh without a report
-// error 2: m\(in, h\).*return-type|constraint 'std::same_as<dovetail::simplicial_mesh<3>
+// error 2: m\(in, h\).*return-type|(constraint|because) 'std::same_as<dovetail::simplicial_mesh<3>
 // near miss 3: it takes no sizing field
 // error 3: m\(in, h\).*invalid|no matching function for call to object of type 'const my_mesher
 // near miss 4: it makes triangles where tetrahedra are asked for

@@ -1,7 +1,7 @@
 // near miss 1: it begins files, but does not write a mesh by itself
 // error 1: w\(mesh, folder\).*invalid|no matching function for call to object of type 'const my_writer|'const my_writer' does not provide a call operator
 // near miss 2: it writes its files at once
-// error 2: w\.begin\(mesh, unfinished\).*return-type|constraint 'std::same_as<void|type constraint.*void
+// error 2: w\.begin\(mesh, unfinished\).*return-type|(constraint|because) 'std::same_as<void|type constraint.*void
 // near miss 3: begin is not const
 // error 3: w\.begin\(mesh, unfinished\).*invalid|'this' argument to member function 'begin' has type 'const my_writer
 #include "dovetail/files/concepts.hpp"

@@ -3,7 +3,7 @@
 // near miss 2: it does not say which value an angle has
 // error 2: M::from_angle\(angle\).*invalid|no member named 'from_angle'
 // near miss 3: it always answers in double precision
-// error 3: M::of_apex\(f, f, f\).*return-type|constraint 'std::same_as<double, float>
+// error 3: M::of_apex\(f, f, f\).*return-type|(constraint|because) 'std::same_as<double, float>
 #include "dovetail/improver/shape_measure.hpp"
 
 using dovetail::improvement::triple;

@@ -1,7 +1,7 @@
 // near miss 1: it judges meshes of triangles only
 // error 1: r\(mesh, sides\).*invalid|no matching function for call to object of type 'const my_rule
 // near miss 2: it returns the sides' qualities without what is wanted
-// error 2: r\(mesh, sides\).*return-type|constraint 'std::same_as<std::vector<double>
+// error 2: r\(mesh, sides\).*return-type|(constraint|because) 'std::same_as<std::vector<double>
 // near miss 3: it does not say what is coupled from the surface
 // error 3: r\.propagate\(below\)
 // near miss 4: it has no penalty of a refused side

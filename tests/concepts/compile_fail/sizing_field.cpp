@@ -1,7 +1,7 @@
 // near miss 1: it takes coordinates, not a point
 // error 1: h\(p\).*invalid|no matching function for call to object of type 'const my_sizing
 // near miss 2: it returns a vector (a size per direction)
-// error 2: h\(p\).*return-type|constraint 'std::convertible_to<dovetail::vec3
+// error 2: h\(p\).*return-type|(constraint|because) 'std::convertible_to<dovetail::vec3
 // near miss 3: evaluation is not const
 // error 3: h\(p\).*invalid|no matching function for call to object of type 'const my_sizing
 #include "dovetail/sizing/concepts.hpp"
