@@ -44,6 +44,14 @@ void refuse_empty_values(CLI::App& command) {
       option->check(not_empty);
 }
 
+/// Newer versions of CLI11 wrap what stands at the end of a help, and take its indents away, unless told not
+/// to.
+template <class Formatter>
+void keep_lines_of_footers(Formatter& formatter) {
+  if constexpr (requires { formatter.enable_footer_formatting(false); })
+    formatter.enable_footer_formatting(false);
+}
+
 /// Command lines at the end of a command's help.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines) {
   std::string footer = "Examples:";
@@ -236,6 +244,7 @@ struct parser {
 
   parser() {
     app.name("dovetail");
+    keep_lines_of_footers(*app.get_formatter());
     app.set_version_flag("--version", std::string("dovetail ") + version);
     app.require_subcommand(1);
     app.footer("Exit codes:\n"

@@ -426,7 +426,7 @@ expect_error "cannot read" check --report nowhere.json
 expect_usage_error "give a mesh file" check
 
 # Triangles by every mesher that is offered.
-of_triangles=$("$driver" mesh --help | sed -n 's/.*; of triangles: //p' | tr -d ,)
+of_triangles=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n 's/.*; of triangles: \([a-z, ]*\) -.*/\1/p' | tr -d ,)
 [[ $of_triangles == *native* ]] || fault "no mesher of triangles is listed"
 for name in $of_triangles; do
   mesh --dimension 2 --size 0.1 --subdomains 3 --mesher "$name"
