@@ -93,9 +93,18 @@ public:
 
   explicit hdf5_file(const std::filesystem::path& path, access how = access::create) : path_(path) {
     const hdf5_use use;
-    file_ = how == access::create ? created(path) : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file_ < 0)
-      fail(how == access::create ? "create" : "open");
+    if (how == access::read) {
+      file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      if (file_ < 0)
+        fail("open");
+    } else {
+      // The oldest form of groups, which HDF5 2 makes only when told to: newer ones say when they were made.
+      const handle oldest(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, *this);
+      require(H5Pset_libver_bounds(oldest.id, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST));
+      file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, oldest.id);
+      if (file_ < 0)
+        fail("create");
+    }
   }
   hdf5_file(const hdf5_file&) = delete;
   hdf5_file& operator=(const hdf5_file&) = delete;
@@ -261,17 +270,6 @@ private:
     hid_t id;
     herr_t (*close)(hid_t);
   };
-  /// The oldest form of groups, which HDF5 2 makes only where it is asked to: newer ones say when they were
-  /// made.
-  static hid_t created(const std::filesystem::path& path) {
-    const hid_t oldest = H5Pcreate(H5P_FILE_ACCESS);
-    if (oldest < 0)
-      return oldest;
-    H5Pset_libver_bounds(oldest, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
-    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, oldest);
-    H5Pclose(oldest);
-    return file;
-  }
   /// How a dataset lies in the file, which does not say when it was made.
   struct layout : handle {
     explicit layout(const hdf5_file& of) : handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, of) {
