@@ -109,6 +109,13 @@ for options in "--partitioner greedy" "--simplifier none" "--coarsening 2" "--di
   planned "[1-9][0-9]" 0.026 $options
 done
 planned 3 0.026 --subdomains 3
+# Workers without a piece take no time away.
+seconds() { grep -o '"predicted_seconds": [0-9.e+-]*' "$sandbox/work/plan.json"; }
+planned 1 0.026 --workers 1 && alone=$(seconds)
+planned 1 0.026 --workers 8
+[[ -n $alone && $(seconds) == "$alone" ]] || fault "8 workers take another time for one piece than one does"
+planned 3 0.026 --subdomains 3 --workers 8
+[[ $(seconds) != "$alone" ]] || fault "3 workers are as slow as one"
 
 # Without sizes the model's curvature and walls decide, for at most 2 million elements.
 predicted() {

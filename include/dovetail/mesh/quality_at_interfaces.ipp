@@ -44,10 +44,10 @@ std::vector<std::uint8_t> points_on_interfaces(const simplicial_piece<D>& piece,
                                                std::span<const local_id> listed) {
   std::vector<local_id> on_interfaces; // by their numbers in the skeleton
   for (const local_id s : listed) {
-    const auto [behind, front] = skeleton.subdomains[static_cast<std::size_t>(s)];
+    const auto [behind, front] = skeleton.subdomains[s];
     if (front == no_id || front == behind)
       continue;
-    const auto& side = skeleton.sides[static_cast<std::size_t>(s)];
+    const auto& side = skeleton.sides[s];
     on_interfaces.insert(on_interfaces.end(), side.begin(), side.end());
   }
   sort_all(on_interfaces);
