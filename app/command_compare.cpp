@@ -10,6 +10,7 @@
 #include "run_setup.hpp"
 #include "sizes_for_elements.hpp"
 #include "stop_request.hpp"
+#include "suppression.hpp"
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/number_text.hpp"
@@ -88,6 +89,7 @@ private:
     show("geometry");
     model_source source = load_model(options_.model, D);
     scale_to_elements(source, options_.model, policies_.front(), parameters_);
+    suppress_details(source, options_.model);
     return source;
   }
 

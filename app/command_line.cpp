@@ -92,6 +92,11 @@ void add_model_options(CLI::App& command, model_options& options) {
       .add_option("--growth", options.growth,
                   "Most that sizes by curvature and walls grow per length (default: 0.25)")
       ->excludes(sizing);
+  auto* suppress = command.add_option("--suppress", options.suppress,
+                                      "Length of edges that become vertices, and width of faces that become "
+                                      "edges (default: a fifth of the size)");
+  command.add_flag("--keep-all", options.keep_all, "Mesh all edges and faces, however short and narrow")
+      ->excludes(suppress);
 }
 
 void add_policy_options(CLI::App& command, mesh_options& options) {

@@ -12,6 +12,7 @@
 #include "sizes_for_elements.hpp"
 #include "stage_figures.hpp"
 #include "stop_request.hpp"
+#include "suppression.hpp"
 #include "terminal_progress.hpp"
 
 #include "dovetail/core/bytes.hpp"
@@ -170,6 +171,7 @@ public:
       scale_to_elements(source, options_.model, policies_, parameters_);
       figures_.seconds.scaling = clock_.seconds() - figures_.seconds.geometry;
     }
+    suppress_details(source, options_.model);
     const run_identity identity = identity_of_run(options_, source);
     for (const auto& [what, value] : identity)
       require_same(what + " " + value);

@@ -5,6 +5,7 @@
 #include "run_figures.hpp"
 #include "run_setup.hpp"
 #include "sizes_for_elements.hpp"
+#include "suppression.hpp"
 #include "terminal_progress.hpp"
 
 #include <algorithm>
@@ -42,6 +43,7 @@ int plan_run(const plan_options& options) {
   model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
   scale_to_elements(source, options.mesh.model, policies, parameters);
+  suppress_details(source, options.mesh.model);
   const mesh_plan plan = plan_generation<D>(source.geometry, source.size, policies, parameters);
   lines.finish();
 

@@ -49,6 +49,9 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
     identity.emplace_back("file", source.file);
     identity.emplace_back("unit", options.model.unit);
   }
+  identity.emplace_back("suppressed", options.model.keep_all   ? "nothing"
+                                      : options.model.suppress ? all_digits(*options.model.suppress)
+                                                               : "default");
   if (!source.sizing.empty())
     identity.emplace_back("sizing", source.sizing);
   if (!source.sizing_meshes.empty())

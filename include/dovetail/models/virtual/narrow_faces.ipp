@@ -1,0 +1,274 @@
+/// @file
+/// What `narrow_faces.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/models/virtual/narrow_faces.hpp"
+#include "dovetail/models/virtual/strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace dovetail::virtual_topology {
+
+namespace detail {
+
+/// Whether a face is all that is left of a group that has a name: boundary conditions may be set on it.
+inline bool is_last_of_group(const editable_topology& topology, local_id f) {
+  const auto& faces = topology.model().topology().faces;
+  const std::string& group = faces[f].group;
+  if (group.empty())
+    return false;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (const auto other = static_cast<local_id>(k);
+        other != f && faces[k].group == group && !topology.loops(other).empty())
+      return false;
+  return true;
+}
+
+/// One attempt to make a curve of a face, on a copy of the topology.
+class narrow_face_collapse {
+public:
+  narrow_face_collapse(const editable_topology& given, const limits& allowed, local_id f, strip narrow,
+                       double width)
+      : topology_(given), allowed_(allowed), face_(f), narrow_(std::move(narrow)), width_(width) {}
+
+  /// Nothing where it must not be.
+  std::optional<editable_topology> run() {
+    if ((narrow_.is_tip && !face_goes_on()) || !ends_can_be_dropped() ||
+        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !stays_near() || !faces_can_meet())
+      return std::nullopt;
+    const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
+                              vertices_of(topology_, narrow_.sides[1])};
+    if (narrow_.is_tip)
+      cut_tip(vertices);
+    else
+      topology_.remove_face(face_);
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      drop_end(narrow_.ends[end], end == 0 ? vertices[0].front() : vertices[0].back());
+    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k) {
+      const auto [kept, gone] = std::pair(narrow_.sides[0][k], narrow_.sides[1][k]);
+      topology_.replace_curve(gone.curve, kept.curve, gone.forward == kept.forward, width_);
+    }
+    for (std::size_t k = 0; k < vertices[0].size(); ++k)
+      topology_.merge_vertices(vertices[1][k], vertices[0][k]);
+    return std::move(topology_);
+  }
+
+private:
+  vec3 point_of(local_id v) const { return topology_.vertex(v).point; }
+  double limit_at(local_id v) const { return allowed_.length(point_of(v)); }
+
+  /// The edges between the sides leave the other faces at them in order; a strip that goes on there, and is
+  /// narrow itself, may get a tip.
+  bool ends_can_be_dropped() const {
+    for (const auto& end : narrow_.ends)
+      for (const local_id c : end)
+        for (const passage& p : topology_.passages_of(c))
+          if (p.face != face_ && !can_be_dropped(topology_, allowed_, p) && !goes_on(p.face, c))
+            return false;
+    return true;
+  }
+
+  bool goes_on(local_id f, local_id c) const {
+    const auto has = [c](const std::vector<local_id>& end) {
+      return std::find(end.begin(), end.end(), c) != end.end();
+    };
+    if (const auto next = strip_of_face(topology_, allowed_, f);
+        next && std::any_of(next->ends.begin(), next->ends.end(), has) &&
+        width_of(topology_, allowed_, *next))
+      return true;
+    for (const turn_back& turn : turns_of_face(topology_, allowed_, f)) {
+      editable_topology trial = topology_;
+      if (const auto next = narrow_end(trial, allowed_, f, turn); next && has(next->ends[0]))
+        return true;
+    }
+    return false;
+  }
+
+  /// The second side of a ring starts beside the first one, at a vertex that it gets there if need be.
+  bool start_beside() {
+    const local_id start = vertices_of(topology_, narrow_.sides[0]).front();
+    side& second = narrow_.sides[1];
+    const auto vertices = vertices_of(topology_, second);
+    for (std::size_t k = 0; k < second.size(); ++k)
+      if (distance(point_of(vertices[k]), point_of(start)) <= limit_at(start)) {
+        std::rotate(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(k), second.end());
+        return true;
+      }
+    const place_on_side where = nearest_on(topology_, second, point_of(start));
+    if (!is_inside(topology_, allowed_, second, where))
+      return false;
+    split(topology_, second, where);
+    std::rotate(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(where.curve) + 1, second.end());
+    return true;
+  }
+
+  /// Both sides have vertices beside each other afterwards; false where they do not come in one order.
+  bool pair_vertices() {
+    for (const std::size_t from : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t to = 1 - from;
+      const auto given = vertices_of(topology_, narrow_.sides[from]);
+      for (std::size_t k = 1; k + 1 < given.size(); ++k) {
+        const auto there = vertices_of(topology_, narrow_.sides[to]);
+        if (std::any_of(there.begin() + 1, there.end() - 1, [&](local_id v) {
+              return distance(point_of(v), point_of(given[k])) <= limit_at(given[k]);
+            }))
+          continue;
+        const place_on_side where = nearest_on(topology_, narrow_.sides[to], point_of(given[k]));
+        if (!is_inside(topology_, allowed_, narrow_.sides[to], where))
+          return false;
+        split(topology_, narrow_.sides[to], where);
+      }
+    }
+    const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
+                              vertices_of(topology_, narrow_.sides[1])};
+    if (vertices[0].size() != vertices[1].size())
+      return false;
+    constexpr double furthest = 1.5; // limits: no vertex is moved further, in how many steps ever
+    for (std::size_t k = 0; k < vertices[0].size(); ++k) {
+      const local_id a = vertices[0][k], b = vertices[1][k];
+      const double before = std::max(topology_.deviation_of_vertex(a), topology_.deviation_of_vertex(b));
+      if (distance(point_of(a), point_of(b)) + before > furthest * limit_at(a))
+        return false;
+    }
+    return true;
+  }
+
+  /// No face is moved by more than the limit, in how many steps ever.
+  bool stays_near() const {
+    for (std::size_t k = 0; k < narrow_.sides[1].size(); ++k) {
+      const local_id kept = narrow_.sides[0][k].curve, gone = narrow_.sides[1][k].curve;
+      if (width_ + std::max(topology_.deviation_of_curve(kept), topology_.deviation_of_curve(gone)) >
+          allowed_.length(topology_.middle(kept)))
+        return false;
+    }
+    return true;
+  }
+
+  /// The faces behind the two sides do not fold onto each other.
+  bool faces_can_meet() const {
+    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k)
+      for (const passage& p : topology_.passages_of(narrow_.sides[0][k].curve))
+        for (const passage& q : topology_.passages_of(narrow_.sides[1][k].curve))
+          if (p.face != face_ && q.face != face_ && (p.face == q.face || !can_meet(p, q)))
+            return false;
+    return true;
+  }
+
+  bool can_meet(const passage& p, const passage& q) const {
+    const virtual_coedge &first = topology_.at(p), &second = topology_.at(q);
+    const auto& t = topology_.curve(first.curve).t;
+    const auto& range = topology_.curve(second.curve).t;
+    for (const double share : {0.1, 0.5, 0.9}) {
+      const double along = first.reversed ? 1 - share : share;
+      const vec3 on_first = topology_.point(first.curve, t[0] + along * (t[1] - t[0]));
+      const place_on_side beside = nearest_on(topology_, {{second.curve, true}}, on_first);
+      const double there = (beside.t - range[0]) / (range[1] - range[0]);
+      const double angle =
+          angle_between(topology_.inward(p.face, first, share),
+                        topology_.inward(q.face, second, second.reversed ? 1 - there : there));
+      if (angle < allowed_.least_angle_deg / degrees_per_radian)
+        return false;
+    }
+    return true;
+  }
+
+  /// Whether what is left of the loop, once its tip is cut, bounds something.
+  bool face_goes_on() const {
+    const auto of_side = [](const side& one, local_id c) {
+      return std::any_of(one.begin(), one.end(), [c](const side_curve& passed) { return passed.curve == c; });
+    };
+    for (const auto& loop : topology_.loops(face_)) {
+      std::size_t left = 0;
+      for (const virtual_coedge& coedge : loop)
+        if (!of_side(narrow_.sides[0], coedge.curve) && !of_side(narrow_.sides[1], coedge.curve) &&
+            !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve))
+          ++left;
+      if (left < 2)
+        return false;
+    }
+    return true;
+  }
+
+  /// The face ends where the sides do: its second side starts at the vertex of the first one that stays.
+  void cut_tip(const std::array<std::vector<local_id>, 2>& vertices) {
+    std::vector<local_id> gone = narrow_.ends[0];
+    for (const side& one : narrow_.sides)
+      for (const side_curve& passed : one)
+        gone.push_back(passed.curve);
+    topology_.cut_out(face_, gone, vertices[0].back());
+  }
+
+  /// Edges from the first side to the second become the vertex that is kept.
+  void drop_end(const std::vector<local_id>& curves, local_id kept) {
+    for (const local_id c : curves) {
+      for (auto passages = topology_.passages_of(c); !passages.empty(); passages = topology_.passages_of(c))
+        topology_.drop(passages.front(), kept);
+      for (const local_id v : topology_.curve(c).vertices)
+        topology_.merge_vertices(v, kept);
+    }
+  }
+
+  editable_topology topology_;
+  const limits& allowed_;
+  local_id face_;
+  strip narrow_;
+  double width_;
+};
+
+} // namespace detail
+
+DOVETAIL_INLINE std::size_t collapse_narrow_ends(editable_topology& topology, const limits& allowed,
+                                                 std::vector<suppressed_detail>& found) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < topology.face_count(); ++k) {
+    const auto f = static_cast<local_id>(k);
+    for (std::size_t i = 0; i < turns_of_face(topology, allowed, f).size(); ++i) {
+      const turn_back turn = turns_of_face(topology, allowed, f)[i];
+      editable_topology trial = topology;
+      const auto narrow = narrow_end(trial, allowed, f, turn);
+      if (!narrow)
+        continue;
+      const auto width = width_of(trial, allowed, *narrow);
+      if (!width)
+        continue;
+      auto collapsed = detail::narrow_face_collapse(trial, allowed, f, *narrow, *width).run();
+      if (!collapsed)
+        continue;
+      found.push_back(
+          {suppressed_detail::kind::narrow_end, f, trial.middle(narrow->sides[0].front().curve), *width});
+      topology = std::move(*collapsed);
+      ++count;
+    }
+  }
+  return count;
+}
+
+DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, const limits& allowed,
+                                                  std::vector<suppressed_detail>& found) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < topology.face_count(); ++k) {
+    const auto f = static_cast<local_id>(k);
+    const auto narrow = strip_of_face(topology, allowed, f);
+    if (!narrow)
+      continue;
+    const auto width = width_of(topology, allowed, *narrow);
+    if (!width || detail::is_last_of_group(topology, f))
+      continue;
+    auto collapsed = detail::narrow_face_collapse(topology, allowed, f, *narrow, *width).run();
+    if (!collapsed)
+      continue;
+    found.push_back(
+        {suppressed_detail::kind::narrow_face, f, topology.middle(narrow->sides[0].front().curve), *width});
+    topology = std::move(*collapsed);
+    ++count;
+  }
+  return count;
+}
+
+} // namespace dovetail::virtual_topology

@@ -1,0 +1,93 @@
+/// @file
+/// What `short_edges.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/models/virtual/short_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace dovetail::virtual_topology {
+
+namespace detail {
+
+inline constexpr double furthest = 1.5; ///< limits: no vertex is moved further, in how many steps ever
+inline constexpr double least_loop = 6; ///< limits: what is left of a smaller one would be no face's outline
+
+/// Where an edge of that length between two vertices may be given up, as far as these are concerned.
+inline bool ends_can_meet(const editable_topology& topology, const limits& allowed, local_id c) {
+  const auto& ends = topology.curve(c).vertices;
+  if (ends[0] == ends[1])
+    return false;
+  const auto& first = topology.vertex(ends[0]);
+  const auto& second = topology.vertex(ends[1]);
+  if (std::max(topology.deviation_of_vertex(ends[0]), topology.deviation_of_vertex(ends[1])) +
+          distance(first.point, second.point) >
+      furthest * allowed.length(first.point))
+    return false; // vertices that have taken in others already
+  for (std::size_t other = 0; other < topology.curve_count(); ++other) {
+    const auto id = static_cast<local_id>(other);
+    if (id == c || !topology.is_used(id) || topology.curve(id).degenerate)
+      continue;
+    const auto& theirs = topology.curve(id).vertices;
+    if (std::minmax(theirs[0], theirs[1]) == std::minmax(ends[0], ends[1]))
+      return false; // it would close
+  }
+  return true;
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE bool is_short(const editable_topology& topology, const limits& allowed, local_id c) {
+  return topology.length(c) <= allowed.length(topology.middle(c));
+}
+
+DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const limits& allowed,
+                                    const passage& p) {
+  const auto& loop = topology.loops(p.face)[p.loop];
+  const std::size_t count = loop.size();
+  const virtual_coedge& gone = loop[p.place];
+  if (count < 3 ||
+      topology.length_of_loop(p) < detail::least_loop * allowed.length(topology.middle(gone.curve)))
+    return false;
+  const virtual_coedge& before = loop[(p.place + count - 1) % count];
+  const virtual_coedge& after = loop[(p.place + 1) % count];
+  if (topology.curve(before.curve).degenerate || topology.curve(after.curve).degenerate)
+    return false;
+  const double turn = angle_between(topology.direction(before, 1), topology.direction(after, 0));
+  return turn <= std::numbers::pi - allowed.least_angle_deg / degrees_per_radian;
+}
+
+DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, const limits& allowed,
+                                                 std::vector<suppressed_detail>& found) {
+  std::vector<std::pair<double, local_id>> waiting;
+  for (std::size_t k = 0; k < topology.curve_count(); ++k)
+    if (const auto c = static_cast<local_id>(k);
+        topology.is_used(c) && !topology.curve(c).degenerate && is_short(topology, allowed, c))
+      waiting.emplace_back(topology.length(c), c);
+  std::sort(waiting.begin(), waiting.end());
+  std::size_t count = 0;
+  for (const auto& [length, c] : waiting) {
+    auto passages = topology.passages_of(c);
+    if (!detail::ends_can_meet(topology, allowed, c) ||
+        !std::all_of(passages.begin(), passages.end(),
+                     [&](const passage& p) { return can_be_dropped(topology, allowed, p); }))
+      continue;
+    auto [kept, gone] = topology.curve(c).vertices;
+    if (topology.curves_at(gone) > topology.curves_at(kept))
+      std::swap(kept, gone);
+    found.push_back(
+        {suppressed_detail::kind::short_edge, topology.inner_curve(c), topology.middle(c), length});
+    for (; !passages.empty(); passages = topology.passages_of(c))
+      topology.drop(passages.front(), kept);
+    topology.merge_vertices(gone, kept);
+    ++count;
+  }
+  return count;
+}
+
+} // namespace dovetail::virtual_topology

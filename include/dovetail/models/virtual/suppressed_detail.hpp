@@ -1,0 +1,26 @@
+/// @file
+/// What of a model was taken away before it is meshed.
+#pragma once
+
+#include "dovetail/core/vector.hpp"
+#include "dovetail/mesh/simplex.hpp"
+
+#include <cstdint>
+
+namespace dovetail {
+
+/// A detail of a model that a `virtual_model` does not have.
+struct suppressed_detail {
+  /// What it is, and what it became.
+  enum class kind : std::uint8_t {
+    narrow_face, ///< a face that became a curve
+    narrow_end,  ///< the end of a face, which became a curve
+    short_edge   ///< an edge that became a vertex
+  };
+  kind what = kind::narrow_face;
+  local_id entity = no_id; ///< its number in the model that was given
+  vec3 place{};            ///< a point of it
+  double length = 0;       ///< the face's largest width, the edge's length
+};
+
+} // namespace dovetail

@@ -1,0 +1,84 @@
+/// @file
+/// A model without the details that are far smaller than the size.
+#pragma once
+
+#include "dovetail/core/report.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/models/virtual/suppressed_detail.hpp"
+#include "dovetail/sizing/concepts.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace dovetail {
+
+/// What of a model is a detail.
+struct virtual_options {
+  double share_of_size = 0.25; ///< edges up to this share of the size there, and faces so narrow, are details
+  double least_angle_deg = 40; ///< what would leave a sharper corner or edge behind stays
+};
+
+/// How much of a model was suppressed.
+struct suppression_counts {
+  std::size_t narrow_faces = 0;
+  std::size_t narrow_ends = 0; ///< of faces that stay
+  std::size_t short_edges = 0;
+  double largest_deviation = 0; ///< the furthest that a vertex, or a face's end, was moved by it
+
+  using fields = field_list<&suppression_counts::narrow_faces, &suppression_counts::narrow_ends,
+                            &suppression_counts::short_edges, &suppression_counts::largest_deviation>;
+};
+
+/// Any `geometry_model` as it is meant at the sizes given: faces far narrower than the size are the curves
+/// along which their neighbours meet, edges far shorter than it are vertices. Numbers of faces and curves are
+/// those of the model that is wrapped: what is suppressed has a number and no boundary, and curves that were
+/// split come after the others; vertices are renumbered. Points inside of faces are on the model's surfaces,
+/// and points on curves on the model's curves, which the faces that end there instead may be as far away from
+/// as the curve's `tolerance`. After the virtual operations of CAD-based meshing (A. Sheffer, T. Blacker, M.
+/// Bercovier, "Virtual topology operators for meshing", 2000).
+///
+/// Copies are cheap. Queries take what the model's take, and a projection to a curve where a face ends at
+/// another's. Thread-safe as the model.
+class virtual_model {
+public:
+  /// Throws what queries of the model throw, and `sizing_error` for options out of range.
+  /// \param model the model
+  /// \param size lengths in the model's unit, by point
+  /// \param options what is a detail
+  virtual_model(any_geometry model, const any_sizing& size, const virtual_options& options = {});
+
+  const geometry_topology& topology() const;
+  box3 bounds() const { return model_.bounds(); }
+  bool thread_safe() const { return model_.thread_safe(); }
+
+  vec3 curve_point(local_id c, double t) const;
+  dovetail::curve_frame curve_frame(local_id c, double t) const;
+  vec2 curve_uv(local_id f, int k, double t) const;
+  vec3 face_point(local_id f, vec2 uv) const { return model_.face_point(f, uv); }
+  surface_frame face_frame(local_id f, vec2 uv) const { return model_.face_frame(f, uv); }
+  double face_curvature(local_id f, vec2 uv) const { return model_.face_curvature(f, uv); }
+  vec2 project_to_face(local_id f, vec3 p, vec2 seed) const { return model_.project_to_face(f, p, seed); }
+  double project_to_curve(local_id c, vec3 p, double seed) const;
+  std::optional<surface_frame> plane_of_face(local_id f) const { return model_.plane_of_face(f); }
+
+  /// What it does not have, in the order in which it was given up.
+  const std::vector<suppressed_detail>& suppressed() const;
+  /// `suppression_counts`.
+  report summary() const;
+
+private:
+  struct data;
+
+  any_geometry model_;
+  std::shared_ptr<const data> data_;
+};
+
+static_assert(geometry_model_with_planes<virtual_model>);
+
+} // namespace dovetail
+
+#ifndef DOVETAIL_COMPILED
+#include "dovetail/models/virtual_model.ipp"
+#endif
