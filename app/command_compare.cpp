@@ -89,7 +89,7 @@ private:
     show("geometry");
     model_source source = load_model(options_.model, D);
     scale_to_elements(source, options_.model, policies_.front(), parameters_);
-    suppress_details(source, options_.model);
+    suppression(options_.model).apply(source);
     return source;
   }
 

@@ -152,7 +152,8 @@ public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
-        parameters_(make_generate_options(options)), formats_(make_formats<D>(options)) {
+        parameters_(make_generate_options(options)), suppression_(options_.model),
+        formats_(make_formats<D>(options)) {
     if (!options_.trace.empty()) {
       trace_.emplace(policies_.executor);
       policies_.executor = any_executor(*trace_, policies_.executor.name());
@@ -171,7 +172,7 @@ public:
       scale_to_elements(source, options_.model, policies_, parameters_);
       figures_.seconds.scaling = clock_.seconds() - figures_.seconds.geometry;
     }
-    suppress_details(source, options_.model);
+    suppression_.apply(source);
     const run_identity identity = identity_of_run(options_, source);
     for (const auto& [what, value] : identity)
       require_same(what + " " + value);
@@ -250,8 +251,8 @@ private:
       run_spool(folder, place, identity, true, true).finish();
   }
 
-  void make(const model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
-    generated<D> result = generate(source, folder);
+  void make(model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
+    generated<D> result = suppression_.retried(source, [&] { return generate(source, folder); });
     if constexpr (D == 3)
       if (source.volume && result.failures.empty())
         compare_volume(result.mesh.skeleton, source.volume(), result.summary);
@@ -494,6 +495,7 @@ private:
   std::optional<parallel::traced> trace_;
   const bool leads_ = policies_.executor.leads();
   generate_options parameters_;
+  suppression suppression_;
   std::vector<output_format<D>> formats_;
   std::optional<terminal_progress> lines_;
   run_figures figures_;

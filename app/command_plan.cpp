@@ -43,8 +43,10 @@ int plan_run(const plan_options& options) {
   model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
   scale_to_elements(source, options.mesh.model, policies, parameters);
-  suppress_details(source, options.mesh.model);
-  const mesh_plan plan = plan_generation<D>(source.geometry, source.size, policies, parameters);
+  suppression details(options.mesh.model);
+  details.apply(source);
+  const mesh_plan plan = details.retried(
+      source, [&] { return plan_generation<D>(source.geometry, source.size, policies, parameters); });
   lines.finish();
 
   plan_figures figures;

@@ -6,24 +6,62 @@
 #include "dovetail/models/virtual_model.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace dovetail::app {
 
-void suppress_details(model_source& source, const model_options& options) {
+namespace {
+
+constexpr const char* part_name = "virtual topology";
+
+} // namespace
+
+suppression::suppression(const model_options& options) : options_(options) {
   if (options.suppress && (!(*options.suppress > 0) || !std::isfinite(*options.suppress)))
     throw command_line_error("--suppress: " + number_text(*options.suppress) +
                              " is not a length; give a positive number, or --keep-all");
-  if (options.keep_all)
+}
+
+void suppression::apply(model_source& source) {
+  if (options_.keep_all)
     return;
-  const virtual_model model =
-      options.suppress ? virtual_model(source.geometry, uniform_size(*options.suppress), {.share_of_size = 1})
-                       : virtual_model(source.geometry, source.size);
-  if (model.suppressed().empty())
+  as_drawn_ = source.geometry;
+  simplify(source);
+}
+
+void suppression::simplify(model_source& source) {
+  virtual_options options{.kept_faces = kept_};
+  if (options_.suppress)
+    options.share_of_size = 1;
+  const any_sizing size = options_.suppress ? any_sizing(uniform_size(*options_.suppress)) : source.size;
+  auto& parts = source.summary.children;
+  std::erase_if(parts, [](const report& part) { return part.name == part_name; });
+  const virtual_model model(*as_drawn_, size, options);
+  if (model.suppressed().empty()) {
+    source.geometry = *std::exchange(as_drawn_, std::nullopt);
     return;
-  source.summary.children.push_back(model.summary());
+  }
+  parts.push_back(model.summary());
   source.geometry = any_geometry(model);
+}
+
+bool suppression::keep(model_source& source, const std::vector<local_id>& faces) {
+  if (!as_drawn_)
+    return false;
+  const auto is_new = [&](local_id f) { return std::find(kept_.begin(), kept_.end(), f) == kept_.end(); };
+  if (kept_.size() < most_kept && std::any_of(faces.begin(), faces.end(), is_new)) {
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(kept_), is_new);
+    simplify(source);
+    return true;
+  }
+  source.geometry = *std::exchange(as_drawn_, std::nullopt);
+  std::erase_if(source.summary.children, [](const report& part) { return part.name == part_name; });
+  source.summary.warnings.push_back(
+      "the model is meshed with all its details: without some of them it could not be");
+  return true;
 }
 
 } // namespace dovetail::app

@@ -5,10 +5,45 @@
 #include "model_source.hpp"
 #include "options.hpp"
 
+#include "dovetail/geometry/error_of_faces.hpp"
+
+#include <functional>
+#include <vector>
+
 namespace dovetail::app {
 
-/// Takes the details away that the options and the final sizes of the source say, and notes that in its
-/// summary. Throws `command_line_error` for a length that is none.
-void suppress_details(model_source& source, const model_options& options);
+/// Takes details of a model away, and gives them back where it cannot be meshed without them.
+class suppression {
+public:
+  /// What the options say is a detail. Throws `command_line_error` for a length that is none.
+  explicit suppression(const model_options& options);
+
+  /// Takes the details away that are such at the final sizes of the source, and notes that in its summary.
+  void apply(model_source& source);
+
+  /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so
+  /// on. What is thrown without a face to blame, or when all details are back, is thrown.
+  template <class F>
+  auto retried(model_source& source, const F& mesh_it) {
+    while (true)
+      try {
+        return mesh_it();
+      } catch (const blames_faces& problem) {
+        if (!keep(source, problem.faces()))
+          throw;
+      }
+  }
+
+private:
+  static constexpr std::size_t most_kept = 40; ///< faces; beyond, everything stays as it was drawn
+
+  /// Makes the geometry again; false when nothing of it was simplified.
+  bool keep(model_source& source, const std::vector<local_id>& faces);
+  void simplify(model_source& source);
+
+  const model_options& options_;
+  std::optional<any_geometry> as_drawn_; ///< when something was taken away
+  std::vector<local_id> kept_;
+};
 
 } // namespace dovetail::app

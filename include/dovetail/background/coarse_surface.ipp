@@ -9,6 +9,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
@@ -194,21 +195,26 @@ private:
 
   [[noreturn]] void fail(std::size_t f) const {
     const patch_mesh& mesh = meshes_[f];
+    const std::vector<local_id> faces{static_cast<local_id>(f)};
     const std::string start = "the coarse surface mesh fails on " + name_of(f) + ": ";
     if (const auto failure = meshed_.failures.find(f); failure != meshed_.failures.end())
-      throw mesher_error(start + failure->second);
+      throw error_of_faces<mesher_error>(start + failure->second, faces);
     if (!mesh.crossings.empty() || !mesh.misplaced.empty()) {
       const local_id s = mesh.crossings.empty() ? mesh.misplaced[0] : mesh.crossings[0][0];
       const local_id r = mesh.crossings.empty() ? s : mesh.crossings[0][1];
-      throw geometry_error(start + "its boundary crosses itself in the parameter plane at curves " +
-                           std::to_string(origins_[f][s][0]) + " and " + std::to_string(origins_[f][r][0]) +
-                           ", also when refined; repair the face in the CAD system");
+      throw error_of_faces<geometry_error>(
+          start + "its boundary crosses itself in the parameter plane at curves " +
+              std::to_string(origins_[f][s][0]) + " and " + std::to_string(origins_[f][r][0]) +
+              ", also when refined; repair the face in the CAD system",
+          faces);
     }
     if (!mesh.folded.empty())
-      throw mesher_error(start + std::to_string(mesh.folded.size()) +
-                         " triangles stay folded over; the face is nearly singular there, repair it or give "
-                         "a smaller size");
-    throw mesher_error(start + "it cannot be kept apart from its neighbours; give a smaller size");
+      throw error_of_faces<mesher_error>(start + std::to_string(mesh.folded.size()) +
+                                             " triangles stay folded over; the face is nearly singular "
+                                             "there, repair it or give a smaller size",
+                                         faces);
+    throw error_of_faces<mesher_error>(
+        start + "it cannot be kept apart from its neighbours; give a smaller size", faces);
   }
 
   surface_mesh assemble() const {

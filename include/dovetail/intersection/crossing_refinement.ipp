@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/intersection/crossing_refinement.hpp"
 
 #include <algorithm>
@@ -22,10 +23,11 @@ DOVETAIL_INLINE void throw_crossing_faces(const geometry_topology& topology, std
     const std::string& given = topology.faces[f].name;
     return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
   };
-  throw intersection_error((faces[0] == faces[1]
-                                ? "the surface of " + name(faces[0]) + " crosses itself or stays folded over"
-                                : "the surfaces of " + name(faces[0]) + " and " + name(faces[1]) + " cross") +
-                           ", also when refined; repair the model there or give a smaller size");
+  throw error_of_faces<intersection_error>(
+      (faces[0] == faces[1] ? "the surface of " + name(faces[0]) + " crosses itself or stays folded over"
+                            : "the surfaces of " + name(faces[0]) + " and " + name(faces[1]) + " cross") +
+          ", also when refined; repair the model there or give a smaller size",
+      {faces[0], faces[1]});
 }
 
 DOVETAIL_INLINE std::vector<surface_crossing> one_of_each_place(std::span<const surface_crossing> crossings) {

@@ -18,6 +18,7 @@ namespace dovetail {
 struct virtual_options {
   double share_of_size = 0.25; ///< edges up to this share of the size there, and faces so narrow, are details
   double least_angle_deg = 40; ///< what would leave a sharper corner or edge behind stays
+  std::vector<local_id> kept_faces = {}; ///< whose boundaries stay as they are
 };
 
 /// How much of a model was suppressed.

@@ -15,11 +15,47 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// How the end of a curve bends to where its vertex is now.
+struct bent_end {
+  vec3 from{};      ///< where the model's curve ends
+  vec3 by{};        ///< from there to the vertex
+  double reach = 0; ///< how far from there the curve is bent; 0: not at all
+
+  /// The part of `by` that a point of the model's curve is moved by, and how that changes with its distance.
+  std::array<double, 2> share_at(vec3 p) const {
+    const double left = reach > 0 ? 1 - distance(p, from) / reach : 0;
+    return left > 0 ? std::array{left * left, -2 * left / reach} : std::array{0.0, 0.0};
+  }
+};
+
+} // namespace detail
+
 struct virtual_model::data {
   geometry_topology topology;
   std::vector<local_id> inner_curve;                                  ///< by curve
+  std::vector<std::array<detail::bent_end, 2>> bent;                  ///< by curve
   std::vector<std::vector<virtual_topology::virtual_coedge>> coedges; ///< by face
   std::vector<suppressed_detail> suppressed;
+
+  void bend_curves(const any_geometry& model, const virtual_topology::editable_topology& edited) {
+    constexpr double reach = 6; // displacements: the curve turns by no more than about 20 degrees
+    bent.resize(topology.curves.size());
+    for (std::size_t c = 0; c < topology.curves.size(); ++c)
+      for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+        const auto& curve = topology.curves[c];
+        if (curve.degenerate || !edited.is_used(static_cast<local_id>(c)))
+          continue;
+        const vec3 vertex = topology.vertices[curve.vertices[end]].point;
+        if (edited.deviation_of_vertex(edited.curve(static_cast<local_id>(c)).vertices[end]) == 0)
+          continue; // what the model itself has apart stays so
+        const vec3 from = model.curve_point(inner_curve[c], curve.t[end]);
+        const double moved = distance(vertex, from);
+        bent[c][end] = {from, vertex - from,
+                        std::min(reach * moved, 0.5 * edited.length(static_cast<local_id>(c)))};
+      }
+  }
 };
 
 DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizing& size,
@@ -27,7 +63,8 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     : model_(std::move(model)) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
   const virtual_topology::limits allowed{
-      [&size, share = options.share_of_size](vec3 p) { return share * size(p); }, options.least_angle_deg};
+      [&size, share = options.share_of_size](vec3 p) { return share * size(p); }, options.least_angle_deg,
+      options.kept_faces};
   auto made = std::make_shared<data>();
   virtual_topology::editable_topology topology(&model_);
   std::size_t found = 1;
@@ -44,6 +81,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     for (const auto& loop : topology.loops(static_cast<local_id>(f)))
       coedges.insert(coedges.end(), loop.begin(), loop.end());
   }
+  made->bend_curves(model_, topology);
   data_ = std::move(made);
 }
 
@@ -56,21 +94,43 @@ DOVETAIL_INLINE const std::vector<suppressed_detail>& virtual_model::suppressed(
 }
 
 DOVETAIL_INLINE vec3 virtual_model::curve_point(local_id c, double t) const {
-  return model_.curve_point(data_->inner_curve[c], t);
+  const vec3 p = model_.curve_point(data_->inner_curve[c], t);
+  vec3 moved = p;
+  for (const auto& end : data_->bent[c])
+    moved += end.share_at(p)[0] * end.by;
+  return moved;
 }
 
 DOVETAIL_INLINE curve_frame virtual_model::curve_frame(local_id c, double t) const {
-  return model_.curve_frame(data_->inner_curve[c], t);
+  const dovetail::curve_frame given = model_.curve_frame(data_->inner_curve[c], t);
+  dovetail::curve_frame moved = given;
+  for (const auto& end : data_->bent[c]) {
+    const auto [share, slope] = end.share_at(given.point);
+    const double away = distance(given.point, end.from);
+    moved.point += share * end.by;
+    if (away > 0)
+      moved.derivative += (slope * dot(given.point - end.from, given.derivative) / away) * end.by;
+  }
+  return moved;
 }
 
 DOVETAIL_INLINE vec2 virtual_model::curve_uv(local_id f, int k, double t) const {
   const auto& coedge = data_->coedges[f][k];
-  const auto& range = data_->topology.curves[coedge.curve].t;
+  const local_id inner = data_->inner_curve[coedge.curve];
+  const auto uv_at = [&](double at) {
+    return model_.curve_uv(f, coedge.own, virtual_topology::own_parameter(model_, inner, coedge, at));
+  };
+  const vec2 uv = uv_at(t);
+  vec2 moved = uv;
   for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-    if (t == range[end] && coedge.corners[end])
-      return *coedge.corners[end];
-  return model_.curve_uv(
-      f, coedge.own, virtual_topology::own_parameter(model_, data_->inner_curve[coedge.curve], coedge, t));
+    if (coedge.corners[end]) {
+      const double at_end = data_->topology.curves[coedge.curve].t[end];
+      const auto& bent = data_->bent[coedge.curve][end];
+      const double share = t == at_end ? 1 : bent.share_at(model_.curve_point(inner, t))[0];
+      if (share > 0)
+        moved = moved + share * (*coedge.corners[end] - uv_at(at_end));
+    }
+  return moved;
 }
 
 DOVETAIL_INLINE double virtual_model::project_to_curve(local_id c, vec3 p, double seed) const {

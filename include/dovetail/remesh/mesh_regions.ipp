@@ -214,6 +214,8 @@ private:
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
     const surface_region region = set_.region(r);
+    if (region.boundary.segments.empty())
+      return {}; // a face that a model has by number only
     const any_surface surface = set_.surface_of(model, r);
     const any_sizing size = size_.near(place(model, r, region.boundary));
     patch_mesh made = mesh_it_(surface, region, size);

@@ -14,6 +14,8 @@
 namespace dovetail {
 
 DOVETAIL_INLINE box3 place_of(const patch_boundary& boundary, const any_surface& surface) {
+  if (boundary.segments.empty())
+    return {};
   constexpr int steps = 6;
   std::vector<vec3> points = boundary.points;
   vec2 lower = boundary.uv.front(), upper = lower;

@@ -52,6 +52,8 @@ public:
 
   bool is_used(local_id c) const { return passages_[c] > 0; }
   std::vector<passage> passages_of(local_id c) const;
+  /// Whether each coedge ends at the vertex where the next one of its loop starts.
+  bool has_closed_loops() const;
   /// How many curves end at a vertex; a closed curve counts twice.
   int curves_at(local_id v) const;
 

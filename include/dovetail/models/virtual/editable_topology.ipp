@@ -81,6 +81,15 @@ DOVETAIL_INLINE std::vector<passage> editable_topology::passages_of(local_id c) 
   return found;
 }
 
+DOVETAIL_INLINE bool editable_topology::has_closed_loops() const {
+  for (const auto& loops : loops_)
+    for (const auto& loop : loops)
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        if (ends(loop[k])[1] != ends(loop[(k + 1) % loop.size()])[0])
+          return false;
+  return true;
+}
+
 DOVETAIL_INLINE int editable_topology::curves_at(local_id v) const {
   int count = 0;
   for (std::size_t c = 0; c < curves_.size(); ++c)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,7 +41,8 @@ public:
   /// Nothing where it must not be.
   std::optional<editable_topology> run() {
     if ((narrow_.is_tip && !face_goes_on()) || !ends_can_be_dropped() ||
-        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !stays_near() || !faces_can_meet())
+        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !stays_near() || !faces_can_meet() ||
+        !second_side_can_move())
       return std::nullopt;
     const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
                               vertices_of(topology_, narrow_.sides[1])};
@@ -56,6 +58,8 @@ public:
     }
     for (std::size_t k = 0; k < vertices[0].size(); ++k)
       topology_.merge_vertices(vertices[1][k], vertices[0][k]);
+    if (!topology_.has_closed_loops())
+      return std::nullopt;
     return std::move(topology_);
   }
 
@@ -150,6 +154,47 @@ private:
     return true;
   }
 
+  /// Whether faces behind the second side are wide enough to end at the first one instead.
+  bool second_side_can_move() const {
+    for (std::size_t k = 0; k < narrow_.sides[1].size(); ++k)
+      for (const passage& p : topology_.passages_of(narrow_.sides[1][k].curve))
+        if (p.face != face_ && !is_wide(p, narrow_.sides[0][k].curve))
+          return false;
+    return true;
+  }
+
+  /// Whether the rest of a face's boundary is far from the curve that a passage of it is moved to, but where
+  /// it goes on from that passage without turning back.
+  bool is_wide(const passage& p, local_id moved_to) const {
+    constexpr int samples = 9;
+    constexpr double least = 1.1; // widths
+    const auto points = topology_.samples(moved_to, samples);
+    const auto& loops = topology_.loops(p.face);
+    for (std::size_t l = 0; l < loops.size(); ++l)
+      for (std::size_t k = 0; k < loops[l].size(); ++k) {
+        const virtual_coedge& other = loops[l][k];
+        if ((l == p.loop && (k == p.place || goes_on_to(p, k))) || topology_.curve(other.curve).degenerate)
+          continue;
+        for (const vec3& point : points)
+          if (nearest_on(topology_, {{other.curve, true}}, point).distance < least * width_)
+            return false;
+      }
+    return true;
+  }
+
+  /// Whether another coedge of its loop is a neighbour of a passage, at no sharp corner.
+  bool goes_on_to(const passage& p, std::size_t other) const {
+    const auto& loop = topology_.loops(p.face)[p.loop];
+    const std::size_t next = (p.place + 1) % loop.size();
+    const std::size_t before = (p.place + loop.size() - 1) % loop.size();
+    const double sharp = std::numbers::pi - allowed_.least_angle_deg / degrees_per_radian;
+    const auto turn = [&](const virtual_coedge& a, const virtual_coedge& b) {
+      return angle_between(topology_.direction(a, 1), topology_.direction(b, 0));
+    };
+    return (other == next && turn(loop[p.place], loop[next]) < sharp) ||
+           (other == before && turn(loop[before], loop[p.place]) < sharp);
+  }
+
   /// The faces behind the two sides do not fold onto each other.
   bool faces_can_meet() const {
     for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k)
@@ -223,6 +268,23 @@ private:
 
 } // namespace detail
 
+namespace detail {
+
+/// The topology without the strip: one of its sides stays, the first one if it may.
+inline std::optional<editable_topology> collapsed(const editable_topology& topology, const limits& allowed,
+                                                  local_id f, strip narrow, double width) {
+  if (auto made = narrow_face_collapse(topology, allowed, f, narrow, width).run();
+      made && keeps_faces(topology, *made, allowed))
+    return made;
+  std::swap(narrow.sides[0], narrow.sides[1]);
+  for (auto& end : narrow.ends)
+    std::reverse(end.begin(), end.end());
+  auto made = narrow_face_collapse(topology, allowed, f, std::move(narrow), width).run();
+  return made && keeps_faces(topology, *made, allowed) ? std::move(made) : std::nullopt;
+}
+
+} // namespace detail
+
 DOVETAIL_INLINE std::size_t collapse_narrow_ends(editable_topology& topology, const limits& allowed,
                                                  std::vector<suppressed_detail>& found) {
   std::size_t count = 0;
@@ -237,7 +299,7 @@ DOVETAIL_INLINE std::size_t collapse_narrow_ends(editable_topology& topology, co
       const auto width = width_of(trial, allowed, *narrow);
       if (!width)
         continue;
-      auto collapsed = detail::narrow_face_collapse(trial, allowed, f, *narrow, *width).run();
+      auto collapsed = detail::collapsed(trial, allowed, f, *narrow, *width);
       if (!collapsed)
         continue;
       found.push_back(
@@ -260,7 +322,7 @@ DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, c
     const auto width = width_of(topology, allowed, *narrow);
     if (!width || detail::is_last_of_group(topology, f))
       continue;
-    auto collapsed = detail::narrow_face_collapse(topology, allowed, f, *narrow, *width).run();
+    auto collapsed = detail::collapsed(topology, allowed, f, *narrow, *width);
     if (!collapsed)
       continue;
     found.push_back(

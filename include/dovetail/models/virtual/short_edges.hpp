@@ -14,6 +14,7 @@ namespace dovetail::virtual_topology {
 struct limits {
   any_sizing length;           ///< what is at most so long or wide, there, is a detail
   double least_angle_deg = 40; ///< no corner and no edge becomes sharper
+  std::vector<local_id> kept_faces = {}; ///< whose boundaries stay
 };
 
 /// Whether a curve is that short.
@@ -22,6 +23,9 @@ bool is_short(const editable_topology& topology, const limits& allowed, local_id
 /// Whether a passage may be taken out of its loop: the loop stays one, far longer than the limit, without a
 /// corner sharper than allowed.
 bool can_be_dropped(const editable_topology& topology, const limits& allowed, const passage& p);
+
+/// Whether the boundaries of all faces that must be kept are the same in both.
+bool keeps_faces(const editable_topology& before, const editable_topology& after, const limits& allowed);
 
 /// Makes vertices of short edges, the shortest first, where no face gets a sharp corner by it. Returns how
 /// many there were, and appends them to `found`. Quadratic in the short edges at worst.

@@ -62,6 +62,19 @@ DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const lim
   return turn <= std::numbers::pi - allowed.least_angle_deg / degrees_per_radian;
 }
 
+DOVETAIL_INLINE bool keeps_faces(const editable_topology& before, const editable_topology& after,
+                                 const limits& allowed) {
+  return std::all_of(allowed.kept_faces.begin(), allowed.kept_faces.end(), [&](local_id f) {
+    return std::equal(before.loops(f).begin(), before.loops(f).end(), after.loops(f).begin(),
+                      after.loops(f).end(), [&](const auto& a, const auto& b) {
+                        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                                          [&](const virtual_coedge& x, const virtual_coedge& y) {
+                                            return x.curve == y.curve && before.ends(x) == after.ends(y);
+                                          });
+                      });
+  });
+}
+
 DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, const limits& allowed,
                                                  std::vector<suppressed_detail>& found) {
   std::vector<std::pair<double, local_id>> waiting;
@@ -80,11 +93,15 @@ DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, co
     auto [kept, gone] = topology.curve(c).vertices;
     if (topology.curves_at(gone) > topology.curves_at(kept))
       std::swap(kept, gone);
+    editable_topology trial = topology;
+    for (; !passages.empty(); passages = trial.passages_of(c))
+      trial.drop(passages.front(), kept);
+    trial.merge_vertices(gone, kept);
+    if (!keeps_faces(topology, trial, allowed))
+      continue;
     found.push_back(
         {suppressed_detail::kind::short_edge, topology.inner_curve(c), topology.middle(c), length});
-    for (; !passages.empty(); passages = topology.passages_of(c))
-      topology.drop(passages.front(), kept);
-    topology.merge_vertices(gone, kept);
+    topology = std::move(trial);
     ++count;
   }
   return count;

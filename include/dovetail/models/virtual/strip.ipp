@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace dovetail::virtual_topology {
@@ -44,13 +43,17 @@ inline side turned_round(side given) {
   return given;
 }
 
-/// Whether the sides are curves, each of them once: no seam, and no pole but at an end.
-inline bool are_plain(const editable_topology& topology, const std::array<side, 2>& sides) {
-  std::set<local_id> seen;
+/// Whether the sides are curves, each of which the face passes once: no seam, and no pole but at an end.
+inline bool are_plain(const editable_topology& topology, local_id f, const std::array<side, 2>& sides) {
   for (const side& one : sides)
-    for (const side_curve& passed : one)
-      if (topology.curve(passed.curve).degenerate || !seen.insert(passed.curve).second)
+    for (const side_curve& passed : one) {
+      int count = 0;
+      for (const auto& loop : topology.loops(f))
+        for (const virtual_coedge& coedge : loop)
+          count += coedge.curve == passed.curve ? 1 : 0;
+      if (topology.curve(passed.curve).degenerate || count != 1)
         return false;
+    }
   return true;
 }
 
@@ -186,7 +189,7 @@ DOVETAIL_INLINE std::optional<strip> strip_of_face(const editable_topology& topo
     made = detail::strip_of_loop(topology, allowed, loops[0]);
   else if (loops.size() == 2)
     made = detail::ring_of_loops(topology, loops[0], loops[1]);
-  return made && detail::are_plain(topology, made->sides) ? made : std::nullopt;
+  return made && detail::are_plain(topology, f, made->sides) ? made : std::nullopt;
 }
 
 DOVETAIL_INLINE std::optional<strip> narrow_end(editable_topology& topology, const limits& allowed,
@@ -197,7 +200,7 @@ DOVETAIL_INLINE std::optional<strip> narrow_end(editable_topology& topology, con
   made.ends[0] = detail::curves_at(loop, turn);
   made.sides = {detail::turned_round(detail::along(loop, turn.before, 1)),
                 detail::along(loop, turn.after, 1)};
-  if (!detail::are_plain(topology, made.sides))
+  if (!detail::are_plain(topology, f, made.sides))
     return std::nullopt;
   if (detail::cut_where_apart(topology, allowed, made))
     return made;
