@@ -87,9 +87,10 @@ public:
 private:
   model_source load() {
     show("geometry");
+    suppression details(options_.model);
     model_source source = load_model(options_.model, D);
     scale_to_elements(source, options_.model, policies_.front(), parameters_);
-    suppression(options_.model).apply(source);
+    details.apply(source);
     return source;
   }
 

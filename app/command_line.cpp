@@ -94,7 +94,7 @@ void add_model_options(CLI::App& command, model_options& options) {
       ->excludes(sizing);
   auto* suppress = command.add_option("--suppress", options.suppress,
                                       "Length of edges that become vertices, and width of faces that become "
-                                      "edges (default: a fifth of the size)");
+                                      "edges (default: a quarter of the size)");
   command.add_flag("--keep-all", options.keep_all, "Mesh all edges and faces, however short and narrow")
       ->excludes(suppress);
 }

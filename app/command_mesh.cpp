@@ -336,6 +336,7 @@ private:
     add_mesh_figures(result.mesh, figures_);
     if constexpr (D == 3) // the only one whose memory was measured
       note_sizes(result.mesh);
+    figures_.suppressed = source.suppressed;
     figures_.details.name = "mesh";
     figures_.details.children = {source.summary, result.summary};
     figures_.repeatable = stops_by_clock(result.summary) == 0;

@@ -38,12 +38,12 @@ template <int D>
 int plan_run(const plan_options& options) {
   const policies_of<D> policies = make_policies_of<D>(options.mesh);
   generate_options parameters = make_generate_options(options.mesh);
+  suppression details(options.mesh.model);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
   model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
   scale_to_elements(source, options.mesh.model, policies, parameters);
-  suppression details(options.mesh.model);
   details.apply(source);
   const mesh_plan plan = details.retried(
       source, [&] { return plan_generation<D>(source.geometry, source.size, policies, parameters); });

@@ -6,12 +6,14 @@
 #include "options.hpp"
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/models/virtual/suppressed_detail.hpp"
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/erased.hpp"
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace dovetail::app {
 
@@ -50,6 +52,7 @@ struct model_source {
   std::string sizing{};        ///< of the text of the sizing file; empty without one
   std::string sizing_meshes{}; ///< of the meshes that it names; empty when it names none
   std::function<std::optional<double>()> volume{}; ///< of the model; empty where it does not know it
+  std::vector<suppressed_detail> suppressed{};     ///< what of the model is left out
   std::optional<double> own_size{}; ///< the ambient size of a built-in model, which a given size scales
 };
 

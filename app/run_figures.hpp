@@ -9,6 +9,7 @@
 #include "dovetail/mesh/poor_elements.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/quality_at_interfaces.hpp"
+#include "dovetail/models/virtual/suppressed_detail.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -75,8 +76,9 @@ struct run_figures {
   double imbalance = 0; ///< largest subdomain over the average, in elements
   stage_seconds seconds;
   quality_statistics quality;
-  quality_at_interfaces at_interfaces; ///< of the same elements
-  poor_elements poor;                  ///< of tetrahedra
+  quality_at_interfaces at_interfaces;            ///< of the same elements
+  poor_elements poor;                             ///< of tetrahedra
+  std::vector<suppressed_detail> suppressed = {}; ///< details of the model that the mesh does not have
   interface_figures interfaces, coarse_interfaces;
   report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
   std::int64_t merges = 0;

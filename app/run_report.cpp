@@ -85,6 +85,16 @@ json poor_elements_json(const poor_elements& poor) {
   return {{"causes", causes}, {"thinnest_wall", thinnest}};
 }
 
+json suppressed_json(const std::vector<suppressed_detail>& details) {
+  json listed = json::array();
+  for (const suppressed_detail& each : details)
+    listed.push_back({{"what", name_of(each.what)},
+                      {"entity", each.entity},
+                      {"length", each.length},
+                      {"at", {each.place.x, each.place.y, each.place.z}}});
+  return listed;
+}
+
 json small_angles_json(const std::vector<small_angle>& angles) {
   json listed = json::array();
   for (const small_angle& each : angles)
@@ -184,6 +194,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
                    {"quality", quality_json(figures.quality, figures.dimension)},
                    {"at_interfaces", at_interfaces_json(figures.at_interfaces, figures.dimension)},
                    {"poor_elements", poor_elements_json(figures.poor)},
+                   {"suppressed", suppressed_json(figures.suppressed)},
                    {"interfaces", interfaces},
                    {"deviation", deviation_json(figures.deviation)},
                    {"merges", figures.merges},

@@ -11,6 +11,8 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dovetail::app {
 namespace {
@@ -189,6 +191,24 @@ void add_poor_elements(table& rows, const poor_elements& poor) {
     }
 }
 
+/// What the mesh does not have of the model, where there is something.
+void add_suppressed(table& rows, const std::vector<suppressed_detail>& details) {
+  using kind = suppressed_detail::kind;
+  if (details.empty())
+    return;
+  rows.heading("Details of the model left out");
+  for (const auto& [what, label] : {std::pair(kind::narrow_face, "Narrow faces"),
+                                    {kind::narrow_end, "Narrow ends of faces"},
+                                    {kind::short_edge, "Short edges"}})
+    if (const auto count = std::count_if(details.begin(), details.end(),
+                                         [what = what](const auto& each) { return each.what == what; });
+        count > 0)
+      rows.whole(label, count);
+  const auto widest = std::max_element(details.begin(), details.end(),
+                                       [](const auto& a, const auto& b) { return a.length < b.length; });
+  rows.row("Largest width or length", "%.3g", widest->length);
+}
+
 void add_deviation(table& rows, const report& deviation) {
   rows.heading("Largest distance from the CAD (in units of the local size)");
   const surface_deviation largest = deviation_in(deviation);
@@ -211,6 +231,7 @@ std::string summary_text(const run_figures& figures) {
   add_timing(rows, figures);
   if (figures.subdomains > 1)
     add_interfaces(rows, figures);
+  add_suppressed(rows, figures.suppressed);
   if (!figures.deviation.children.empty())
     add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);

@@ -15,7 +15,11 @@ namespace dovetail::app {
 
 namespace {
 
-constexpr const char* part_name = "virtual topology";
+/// What is said of details of the source.
+void forget(model_source& source) {
+  std::erase_if(source.summary.children, [](const report& part) { return part.name == "virtual topology"; });
+  source.suppressed.clear();
+}
 
 } // namespace
 
@@ -37,14 +41,14 @@ void suppression::simplify(model_source& source) {
   if (options_.suppress)
     options.share_of_size = 1;
   const any_sizing size = options_.suppress ? any_sizing(uniform_size(*options_.suppress)) : source.size;
-  auto& parts = source.summary.children;
-  std::erase_if(parts, [](const report& part) { return part.name == part_name; });
+  forget(source);
   const virtual_model model(*as_drawn_, size, options);
   if (model.suppressed().empty()) {
     source.geometry = *std::exchange(as_drawn_, std::nullopt);
     return;
   }
-  parts.push_back(model.summary());
+  source.summary.children.push_back(model.summary());
+  source.suppressed = model.suppressed();
   source.geometry = any_geometry(model);
 }
 
@@ -58,7 +62,7 @@ bool suppression::keep(model_source& source, const std::vector<local_id>& faces)
     return true;
   }
   source.geometry = *std::exchange(as_drawn_, std::nullopt);
-  std::erase_if(source.summary.children, [](const report& part) { return part.name == part_name; });
+  forget(source);
   source.summary.warnings.push_back(
       "the model is meshed with all its details: without some of them it could not be");
   return true;

@@ -26,7 +26,8 @@ struct named_colour {
 constexpr named_colour colours[] = {{"forced", "red", {220, 40, 40}},
                                     {"refused", "orange", {245, 150, 20}},
                                     {"remeshing", "blue", {30, 100, 225}},
-                                    {"thinnest wall", "violet", {150, 50, 200}}};
+                                    {"thinnest wall", "violet", {150, 50, 200}},
+                                    {"left out", "green", {20, 150, 70}}};
 constexpr named_colour other_colour{"", "grey", {120, 120, 120}};
 constexpr const char* remedy = "; give the JSON file that 'dovetail mesh --report' has written";
 constexpr std::string_view of_coarse = ", coarse"; ///< ends the labels of what is no interface of the mesh
@@ -58,6 +59,7 @@ public:
       if (const json* coarse = object_at(*interfaces, "interfaces", "coarse"))
         add_angles(*coarse, "interfaces/coarse", true);
     }
+    add_suppressed(document);
     return {file_, std::move(marks_)};
   }
 
@@ -101,6 +103,25 @@ private:
     const double thickness = number(member(wall, path, "thickness"), path + "/thickness");
     marks_.push_back({place(wall, path), std::string(label), colour,
                       "thinnest wall, thickness " + number_text(thickness, 4)});
+  }
+  void add_suppressed(const json& document) {
+    const auto listed = document.find("suppressed");
+    if (listed == document.end())
+      return;
+    if (!listed->is_array())
+      fail("suppressed is no list");
+    const auto& [label, name, colour] = colour_of("left out");
+    for (std::size_t k = 0; k < listed->size(); ++k) {
+      const json& each = (*listed)[k];
+      const std::string path = "suppressed/" + std::to_string(k);
+      if (!each.is_object())
+        fail(path + " is no object");
+      const double length = number(member(each, path, "length"), path + "/length");
+      const double entity = number(member(each, path, "entity"), path + "/entity");
+      marks_.push_back({place(each, path), std::string(label), colour,
+                        text(member(each, path, "what"), path + "/what") + " " + number_text(entity, 12) +
+                            ", left out; " + number_text(length, 4)});
+    }
   }
   void add_angles(const json& interfaces, const std::string& path, bool coarse) {
     const auto listed = interfaces.find("below_threshold");

@@ -13,7 +13,7 @@
 
 namespace dovetail::app {
 
-/// A small interface angle, or the thinnest wall.
+/// A small interface angle, the thinnest wall, or a detail of the model that the mesh does not have.
 struct view_mark {
   vec3 place;
   std::string label; ///< what marks of one colour have in common
@@ -27,9 +27,9 @@ struct view_marks {
   std::vector<view_mark> all; ///< what matters most first
 };
 
-/// The thinnest wall, then angles of the fine interfaces, then those of the coarse ones. None of a JSON
-/// object that lists no places. Throws `input_error` for a file that is not readable, is no such object, or
-/// has something else where a report has these lists.
+/// The thinnest wall, then angles of the fine interfaces, then those of the coarse ones, then details left
+/// out. None of a JSON object that lists no places. Throws `input_error` for a file that is not readable, is
+/// no such object, or has something else where a report has these lists.
 view_marks marks_of_report(const std::filesystem::path& report);
 
 /// A label with its colour, and how many marks have it.

@@ -36,6 +36,7 @@ std::string with_angles(const std::string& list) {
 
 const std::string whole = R"({
   "model": "wing",
+  "suppressed": [{"what": "narrow face", "entity": 31, "length": 0.25, "at": [1, 1, 2]}],
   "poor_elements": {"causes": [{"cause": "thin wall", "bad": 3, "low": 9}], "thinnest_wall": {"thickness": 0.0125, "at": [7, 8, 9]}},
   "interfaces": {
     "min_face_angle_deg": null,
@@ -49,7 +50,7 @@ const std::string whole = R"({
 
 TEST_CASE("all places of a report become marks, the thinnest wall first") {
   const view_marks marks = read(whole);
-  REQUIRE(marks.all.size() == 6);
+  REQUIRE(marks.all.size() == 7);
   CHECK(marks.report.ends_with("run.json"));
   CHECK(marks.all[0].label == "thinnest wall");
   CHECK(marks.all[0].text == "thinnest wall, thickness 0.0125");
@@ -60,18 +61,22 @@ TEST_CASE("all places of a report become marks, the thinnest wall first") {
   CHECK(marks.all[2].text == "12° of a face, remeshing");
   CHECK(marks.all[4].label == "refused, coarse");
   CHECK(marks.all[4].text == "9° of a face, refused, coarse; CAD: face 2");
+  CHECK(marks.all[6].label == "left out");
+  CHECK(marks.all[6].text == "narrow face 31, left out; 0.25");
+  CHECK(marks.all[6].place == vec3{1, 1, 2});
 }
 
 TEST_CASE("marks of one label have one colour, and other labels another one") {
   const view_marks marks = read(whole);
   CHECK(marks.all[1].colour == marks.all[3].colour);
   const auto labels = labels_of(marks);
-  REQUIRE(labels.size() == 5);
+  REQUIRE(labels.size() == 6);
   for (std::size_t a = 0; a < labels.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       CHECK(labels[a].colour != labels[b].colour);
-  CHECK(text_of(marks) == "6 marks: 1 thinnest wall (violet); 2 forced (red); 1 remeshing (blue); "
-                          "1 refused, coarse (pale orange); 1 unheard of, coarse (pale grey)");
+  CHECK(text_of(marks) ==
+        "7 marks: 1 thinnest wall (violet); 2 forced (red); 1 remeshing (blue); "
+        "1 refused, coarse (pale orange); 1 unheard of, coarse (pale grey); 1 left out (green)");
 }
 
 TEST_CASE("a report that lists no places has no marks") {
@@ -98,6 +103,10 @@ TEST_CASE("what is no report is refused, by the file's name and what is wrong") 
       {R"({"interfaces": {"coarse": []}})", "interfaces/coarse is no object"},
       {R"({"interfaces": {"coarse": {"below_threshold": {}}}})",
        "interfaces/coarse/below_threshold is no list"},
+      {R"({"suppressed": {}})", "suppressed is no list"},
+      {R"({"suppressed": [7]})", "suppressed/0 is no object"},
+      {R"({"suppressed": [{"what": 1, "entity": 1, "length": 1, "at": [1, 2, 3]}]})", "what is no text"},
+      {R"({"suppressed": [{"what": "", "length": 1, "at": [1, 2, 3]}]})", "suppressed/0 has no \"entity\""},
       {R"({"poor_elements": "many"})", "poor_elements is no object"},
       {R"({"poor_elements": {"thinnest_wall": 0.1}})", "poor_elements/thinnest_wall is no object"},
       {R"({"poor_elements": {"thinnest_wall": {"at": [1, 2, 3]}}})", "thinnest_wall has no \"thickness\""},

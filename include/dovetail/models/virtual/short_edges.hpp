@@ -12,8 +12,8 @@ namespace dovetail::virtual_topology {
 
 /// Up to what an entity is a detail, and what may not come of it.
 struct limits {
-  any_sizing length;           ///< what is at most so long or wide, there, is a detail
-  double least_angle_deg = 40; ///< no corner and no edge becomes sharper
+  any_sizing length;                     ///< what is at most so long or wide, there, is a detail
+  double least_angle_deg = 40;           ///< no corner and no edge becomes sharper
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay
 };
 

@@ -6,6 +6,7 @@
 #include "dovetail/mesh/simplex.hpp"
 
 #include <cstdint>
+#include <string_view>
 
 namespace dovetail {
 
@@ -22,5 +23,18 @@ struct suppressed_detail {
   vec3 place{};            ///< a point of it
   double length = 0;       ///< the face's largest width, the edge's length
 };
+
+/// A few words, such as "narrow face".
+inline std::string_view name_of(suppressed_detail::kind what) {
+  switch (what) {
+  case suppressed_detail::kind::narrow_face:
+    return "narrow face";
+  case suppressed_detail::kind::narrow_end:
+    return "narrow end of a face";
+  case suppressed_detail::kind::short_edge:
+    return "short edge";
+  }
+  return "";
+}
 
 } // namespace dovetail
