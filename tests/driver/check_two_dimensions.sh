@@ -117,6 +117,9 @@ mv "$sandbox/work/out" "$inputs/pieces"
 for file in "$inputs"/pieces/{mesh.pvtu,mesh.xdmf,ranks.pvtu,ranks.xdmf,ranks.vtkhdf}; do
   [[ ! -e $file ]] || expect_at_interfaces "$of_run" "$rows_of_run" "$file"
 done
+mesh domain.svg --size 0.3 --subdomains 1
+mv "$sandbox/work/out" "$inputs/one_piece"
+expect_no_interfaces "$inputs/one_piece/mesh.pvtu"
 mesh domain.svg --size 0.3 --subdomains 4 --executor serial --format none
 [[ $hash == "$drawing_hash" ]] || fault "another mesh without workers"
 mesh domain.svg --size 0.3 --subdomains 4 --executor threads --workers 2 --format msh

@@ -224,7 +224,11 @@ TEST_CASE("subdomains of triangles: partitions of MSH files, of VTK files an arr
                          "3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n3\n1 2 4 7 7 1 2 1 2 3\n"
                          "2 2 4 7 7 1 1 2 4 3\n3 2 2 7 7 1 3 2\n$EndElements\n");
   CHECK(io::read_mesh(folder / "a.msh").triangle_subdomains == std::vector<local_id>{1, 0, -1});
-  testing::write_content(folder / "b.msh", two_tetrahedra_msh2); // the triangles are sides of elements
+  auto with_tetrahedra = two_tetrahedra_msh2; // a triangle in a partition, but a side of an element
+  const std::string triangle = "\n2 2 2 7 1 10";
+  with_tetrahedra.replace(with_tetrahedra.find(triangle), triangle.size(), "\n2 2 4 7 1 1 1 10");
+  testing::write_content(folder / "b.msh", with_tetrahedra);
+  CHECK(io::read_mesh(folder / "b.msh").triangles.size() == 1);
   CHECK(io::read_mesh(folder / "b.msh").triangle_subdomains.empty());
 
   const auto vtk = [&](const std::string& type, const std::string& cells) {
