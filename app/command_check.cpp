@@ -6,6 +6,7 @@
 #include "run_figures.hpp"
 
 #include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/streamed_interfaces.hpp"
 #include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/validity.hpp"
@@ -51,14 +52,71 @@ int print_validity(const std::string& faults, const std::string& file, int dimen
   return exit_ok;
 }
 
-int print_quality(const quality_statistics& quality, std::uint64_t points, int dimension,
-                  const std::string& file, const stats_options& options) {
+/// Of a mesh of several subdomains.
+void print_at_interfaces(const std::optional<quality_at_interfaces>& found, int dimension) {
+  if (found)
+    std::printf("%s", at_interfaces_text(*found, dimension).c_str());
+}
+
+int print_quality(const quality_statistics& quality,
+                  const std::optional<quality_at_interfaces>& at_interfaces, std::uint64_t points,
+                  int dimension, const std::string& file, const stats_options& options) {
   std::printf("%s: %llu vertices\n%s", file.c_str(), static_cast<unsigned long long>(points),
               quality_text(quality, dimension).c_str());
+  print_at_interfaces(at_interfaces, dimension);
   if (!options.report.empty())
-    write_quality_report(quality, dimension, static_cast<std::int64_t>(points), {}, options.report);
+    write_quality_report(quality, dimension, static_cast<std::int64_t>(points), {}, options.report,
+                         at_interfaces);
   return exit_ok;
 }
+
+/// Of a mesh that is held whole: nothing where it has not several subdomains.
+template <int D>
+std::optional<quality_at_interfaces> found_at_interfaces(const simplicial_mesh<D>& mesh,
+                                                         const std::vector<local_id>& subdomains) {
+  if (subdomains.size() != mesh.elements.size())
+    return std::nullopt;
+  const io::read_piece<D> whole{mesh, {}, subdomains};
+  io::streamed_interfaces<D> interfaces;
+  interfaces.add(whole);
+  if (!interfaces.has_several_subdomains())
+    return std::nullopt;
+  return io::measure_at_interfaces(whole, interfaces.points());
+}
+
+/// Of tetrahedra in several files. These are read twice: no element can be measured before all interfaces
+/// are known, and nobody holds them all.
+class interfaces_of_files {
+public:
+  /// One more piece, read for the first time.
+  void add(const io::loaded_mesh& piece) { interfaces_.add(numbered(piece, pieces_++, subdomains_)); }
+  /// Nothing where there are not several subdomains.
+  std::optional<quality_at_interfaces> read_again(const std::filesystem::path& file) {
+    if (!interfaces_.has_several_subdomains())
+      return std::nullopt;
+    const io::interface_points points = interfaces_.points();
+    quality_at_interfaces found;
+    local_id pieces = 0;
+    for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
+      found.merge(io::measure_at_interfaces(numbered(piece, pieces++, subdomains_), points));
+    });
+    return found;
+  }
+
+private:
+  /// Where the files do not name subdomains, each piece is one.
+  static io::read_piece<3> numbered(const io::loaded_mesh& piece, local_id number,
+                                    std::vector<local_id>& subdomains) {
+    if (piece.subdomains.size() == piece.mesh.elements.size())
+      return {piece.mesh, piece.node_ids, piece.subdomains};
+    subdomains.assign(piece.mesh.elements.size(), number);
+    return {piece.mesh, piece.node_ids, subdomains};
+  }
+
+  io::streamed_interfaces<3> interfaces_;
+  local_id pieces_ = 0;
+  std::vector<local_id> subdomains_; ///< of a piece of a file that has none
+};
 
 /// How a mesh in these files is called: by the one that was given, or by the first and last where none stands
 /// for all.
@@ -74,9 +132,11 @@ std::string name_of(const std::filesystem::path& given, const std::vector<std::f
 std::optional<int> check_streamed(const std::filesystem::path& file,
                                   std::vector<std::filesystem::path>& files) {
   io::streamed_validity found;
+  interfaces_of_files interfaces;
   numbers_of_pieces all;
   if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
         found.add(piece, path.filename().string());
+        interfaces.add(piece);
         all.add(piece);
         files.push_back(path);
       }))
@@ -86,7 +146,10 @@ std::optional<int> check_streamed(const std::filesystem::path& file,
     std::string faults = found.faults();
     if (faults.empty())
       faults = all.elsewhere(found.points());
-    return print_validity(faults, name, 3, found.elements(), found.points());
+    const int result = print_validity(faults, name, 3, found.elements(), found.points());
+    if (result == exit_ok)
+      print_at_interfaces(interfaces.read_again(file), 3);
+    return result;
   } catch (const input_error& problem) {
     throw input_error(name + ": " + problem.what());
   }
@@ -100,11 +163,13 @@ void warn_of_part(const std::string& file, const std::string& elsewhere) {
 
 std::optional<int> measure_streamed(const std::filesystem::path& file, const stats_options& options) {
   quality_statistics quality;
+  interfaces_of_files interfaces;
   io::number_ranges points;
   numbers_of_pieces all;
   std::vector<std::filesystem::path> files;
   if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
         quality.merge(measure_quality(piece.mesh), quality.elements);
+        interfaces.add(piece);
         for (const global_id id : piece.node_ids)
           points.add(id);
         all.add(piece);
@@ -113,17 +178,29 @@ std::optional<int> measure_streamed(const std::filesystem::path& file, const sta
     return std::nullopt;
   const std::string name = name_of(file, files);
   warn_of_part(name, all.elsewhere(points.count()));
-  return print_quality(quality, points.count(), 3, name, options);
+  return print_quality(quality, interfaces.read_again(file), points.count(), 3, name, options);
 }
 
-/// Calls `f(mesh, name, elsewhere)` with the mesh that was read: tetrahedra, or triangles where it has none.
-/// `elsewhere`: what says that it is a part of another one.
+/// A mesh that was read at once.
+template <int D>
+struct whole_mesh {
+  simplicial_mesh<D> mesh;
+  std::vector<local_id> subdomains; ///< per element; empty where the file has none
+  std::string name;
+  std::string elsewhere; ///< what says that it is a part of another one
+};
+
+/// Calls `f` with that: tetrahedra, or triangles where there are none.
 template <class F>
 int with_mesh_of(const std::filesystem::path& file, io::loaded_mesh loaded, const F& f) {
-  const std::string name = name_of(file, loaded.files);
-  const std::string elsewhere = part_of_larger(loaded, file);
-  return is_of_triangles(loaded) ? f(take_triangles(std::move(loaded)), name, elsewhere)
-                                 : f(loaded.mesh, name, elsewhere);
+  std::string name = name_of(file, loaded.files);
+  std::string elsewhere = part_of_larger(loaded, file);
+  if (!is_of_triangles(loaded))
+    return f(whole_mesh<3>{std::move(loaded.mesh), std::move(loaded.subdomains), std::move(name),
+                           std::move(elsewhere)});
+  auto subdomains = std::move(loaded.triangle_subdomains);
+  return f(whole_mesh<2>{take_triangles(std::move(loaded)), std::move(subdomains), std::move(name),
+                         std::move(elsewhere)});
 }
 
 /// Whether the files of a run are as it wrote them.
@@ -143,13 +220,15 @@ int check_file(const std::filesystem::path& file, std::vector<std::filesystem::p
     return *result;
   io::loaded_mesh loaded = read_any_mesh(file);
   files = loaded.files;
-  return with_mesh_of(
-      file, std::move(loaded),
-      [&]<int D>(const simplicial_mesh<D>& mesh, const std::string& name, const std::string& elsewhere) {
-        const std::string faults = faults_of(mesh);
-        return print_validity(faults.empty() ? elsewhere : faults, name, D, mesh.elements.size(),
-                              mesh.points.size());
-      });
+  return with_mesh_of(file, std::move(loaded), []<int D>(const whole_mesh<D>& read) {
+    const simplicial_mesh<D>& mesh = read.mesh;
+    const std::string faults = faults_of(mesh);
+    const int result = print_validity(faults.empty() ? read.elsewhere : faults, read.name, D,
+                                      mesh.elements.size(), mesh.points.size());
+    if (result == exit_ok)
+      print_at_interfaces(found_at_interfaces(mesh, read.subdomains), D);
+    return result;
+  });
 }
 
 /// Of a folder, each mesh in it.
@@ -188,12 +267,11 @@ int run_stats(const stats_options& options) {
   const std::filesystem::path file = find_any_mesh(options.mesh);
   if (const auto result = measure_streamed(file, options))
     return *result;
-  return with_mesh_of(
-      file, read_any_mesh(file),
-      [&]<int D>(const simplicial_mesh<D>& mesh, const std::string& name, const std::string& elsewhere) {
-        warn_of_part(name, elsewhere);
-        return print_quality(measure_quality(mesh), mesh.points.size(), D, name, options);
-      });
+  return with_mesh_of(file, read_any_mesh(file), [&]<int D>(const whole_mesh<D>& read) {
+    warn_of_part(read.name, read.elsewhere);
+    return print_quality(measure_quality(read.mesh), found_at_interfaces(read.mesh, read.subdomains),
+                         read.mesh.points.size(), D, read.name, options);
+  });
 }
 
 } // namespace dovetail::app

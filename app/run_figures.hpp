@@ -128,13 +128,17 @@ constexpr quality_limits limits_of(int dimension) {
 /// The number of tetrahedra with a smallest dihedral angle in the ranges of the paper's table of quality; the
 /// angles of triangles.
 std::string quality_text(const quality_statistics& quality, int dimension);
+/// Elements by their distance from interfaces; empty where none touches one.
+std::string at_interfaces_text(const quality_at_interfaces& found, int dimension);
 
 /// Writes the report; throws `io_error` when the file cannot be written. Nothing is left behind then.
 void write_report(const run_figures& figures, const std::filesystem::path& file);
 
-/// Writes the statistics of one mesh, and what was done to it (or an empty report).
+/// Writes the statistics of one mesh, those at its interfaces where it has several subdomains, and what was
+/// done to it (or an empty report).
 void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,
-                          const report& details, const std::filesystem::path& file);
+                          const report& details, const std::filesystem::path& file,
+                          const std::optional<quality_at_interfaces>& at_interfaces = {});
 
 /// The largest resident set of this process and of any child it waited for.
 std::uint64_t peak_rss_bytes();

@@ -215,14 +215,17 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
 }
 
 void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,
-                          const report& details, const std::filesystem::path& file) {
-  write_json({{"dovetail", version},
-              {"dimension", dimension},
-              {"elements", quality.elements},
-              {"vertices", vertices},
-              {"quality", quality_json(quality, dimension)},
-              {"details", details_json(details)}},
-             file);
+                          const report& details, const std::filesystem::path& file,
+                          const std::optional<quality_at_interfaces>& at_interfaces) {
+  json document = {{"dovetail", version},
+                   {"dimension", dimension},
+                   {"elements", quality.elements},
+                   {"vertices", vertices},
+                   {"quality", quality_json(quality, dimension)}};
+  if (at_interfaces)
+    document["at_interfaces"] = at_interfaces_json(*at_interfaces, dimension);
+  document["details"] = details_json(details);
+  write_json(document, file);
 }
 
 void write_plan(const plan_figures& figures, const std::filesystem::path& file) {

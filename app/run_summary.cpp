@@ -159,10 +159,12 @@ void add_tetrahedron_quality(table& rows, const quality_statistics& quality) {
   rows.whole("No. of tets with  0 < a < 24 (low quality)", under[3]);
 }
 
-/// Elements by their distance from interfaces.
-void add_at_interfaces(table& rows, const run_figures& figures) {
+/// Elements by their distance from interfaces, where there are any.
+void add_at_interfaces(table& rows, const quality_at_interfaces& at_interfaces, int dimension) {
+  if (at_interfaces.touching.elements == 0)
+    return;
   rows.heading("Elements at interfaces (degrees)              number  least   bad    low");
-  const quality_limits under = limits_of(figures.dimension);
+  const quality_limits under = limits_of(dimension);
   const auto ring = [&](const char* label, const ring_quality& found) {
     char values[80];
     std::snprintf(values, sizeof values, "%9s%7.1f%6lld%7lld",
@@ -172,9 +174,9 @@ void add_at_interfaces(table& rows, const run_figures& figures) {
     if (found.elements > 0)
       rows.row(label, values);
   };
-  ring("Touching one", figures.at_interfaces.touching);
-  ring("Next ring", figures.at_interfaces.next_ring);
-  ring("All others", figures.at_interfaces.rest);
+  ring("Touching one", at_interfaces.touching);
+  ring("Next ring", at_interfaces.next_ring);
+  ring("All others", at_interfaces.rest);
 }
 
 /// By their causes, where there are any.
@@ -235,8 +237,7 @@ std::string summary_text(const run_figures& figures) {
   if (!figures.deviation.children.empty())
     add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);
-  if (figures.at_interfaces.touching.elements > 0)
-    add_at_interfaces(rows, figures);
+  add_at_interfaces(rows, figures.at_interfaces, figures.dimension);
   add_poor_elements(rows, figures.poor);
   if (!figures.repeatable)
     rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");
@@ -267,6 +268,12 @@ std::string plan_text(const plan_figures& figures) {
 std::string quality_text(const quality_statistics& quality, int dimension) {
   table rows;
   add_quality(rows, quality, dimension);
+  return rows.text();
+}
+
+std::string at_interfaces_text(const quality_at_interfaces& found, int dimension) {
+  table rows;
+  add_at_interfaces(rows, found, dimension);
   return rows.text();
 }
 

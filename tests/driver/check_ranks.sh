@@ -48,6 +48,7 @@ formats=pvtu,vtu,msh-ranks,mfem,openfoam
 "$driver" mesh --help | grep -q "xdmf" && formats+=,xdmf,vtkhdf,hdf5
 expect_success "${small[@]}" --subdomains 8 --ranks 4 --ghosts --format "$formats" --report report.json
 elements=$(counter elements)
+of_run=$(at_interfaces | without_angles)
 set=$inputs/set
 mv "$sandbox/work/out" "$set"
 for file in ranks_1.msh ranks_4.msh; do
@@ -62,7 +63,20 @@ judged=(mesh.pvtu ranks.pvtu "ranks_1.msh to ranks_4.msh" "mesh.000000 to mesh.0
 for file in "${judged[@]}"; do
   grep -q "/$file: a valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "not judged: $file"
 done
-(($(wc -l <"$sandbox/stdout") == ${#judged[@]})) || fault "not ${#judged[@]} meshes"
+(($(grep -c ": a valid mesh" "$sandbox/stdout") == ${#judged[@]})) || fault "not ${#judged[@]} meshes"
+
+# Elements at interfaces: between the subdomains where files name them, otherwise between the ranks.
+of_ranks=
+for file in "${judged[@]}"; do
+  [[ $file != set ]] || file=processor0
+  expect_success stats "$set/${file%% *}" --report report.json
+  found=$(at_interfaces | without_angles)
+  case $file in
+    *.msh | mesh.000000* | processor0)
+      [[ -n $found && $found != "$of_run" && ${of_ranks:=$found} == "$found" ]] || fault "other interfaces of ranks" ;;
+    *) [[ $found == "$of_run" ]] || fault "other figures at interfaces than the run's: $found" ;;
+  esac
+done
 
 # So it is with those that no other command reads, by any of their files; a damaged one is named.
 others=(mesh.000001 processor1 processor2/constant/polyMesh/faces)

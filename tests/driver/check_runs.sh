@@ -42,6 +42,8 @@ elements=$(figure elements)
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
 diff "$sandbox/listing" - <<<$'finished_run.txt\ninterfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||
   fault "other files than expected"
+of_run=$(at_interfaces)
+rows_of_run=$(rows_at_interfaces)
 cp -r "$sandbox/work/out" "$inputs/mesh"
 
 # The mesh is one, by our own checker, and the statistics of the file are those of the report.
@@ -53,6 +55,8 @@ expect_success stats "$inputs/mesh/surface.vtp"
 grep -q "No. of triangles" "$sandbox/stdout" || fault "no quality of triangles"
 expect_success stats "$inputs/mesh/mesh.pvtu" --report report.json
 [[ $(figure elements) == "$elements" ]] || fault "stats counts $(figure elements) elements, not $elements"
+expect_at_interfaces "$of_run" "$rows_of_run" "$inputs/mesh/mesh.pvtu"
+expect_no_interfaces "$inputs/mesh/surface.vtp"
 
 # The same mesh by one worker, without workers, and in other files.
 mesh --size 0.08 --subdomains 4 --workers 1 --format none
@@ -67,6 +71,18 @@ for file in mesh mesh_partitioned; do
   expect_success check "$inputs/$file.msh"
   grep -q "valid mesh of $elements tetrahedra" "$sandbox/stdout" || fault "$file.msh has other counts"
 done
+expect_at_interfaces "$of_run" "$rows_of_run" "$inputs/mesh_partitioned.msh"
+expect_no_interfaces "$inputs/mesh.msh" # which does not say what the pieces were
+formats=vtu
+"$driver" mesh --help | grep -q "hdf5" && formats+=,hdf5
+mesh --size 0.08 --subdomains 4 --files 1 --format $formats
+rm -rf "$inputs/mesh" && mv "$sandbox/work/out" "$inputs/mesh"
+for file in "$inputs"/mesh/mesh.{pvtu,xdmf}; do
+  [[ ! -e $file ]] || expect_at_interfaces "$of_run" "$rows_of_run" "$file"
+done
+mesh --size 0.3 --subdomains 1
+mv "$sandbox/work/out" "$inputs/one_piece"
+expect_no_interfaces "$inputs/one_piece/mesh.pvtu"
 
 # In second-order elements, which do not change the mesh.
 mesh --size 0.08 --subdomains 4 --format vtu,msh --order 2 --files 1

@@ -107,6 +107,19 @@ about "$boundary" 160
 diff "$sandbox/listing" - <<<$'finished_run.txt\nlines.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu' ||
   fault "other files than expected"
 drawing_hash=$hash
+formats=vtu,pvtu
+"$driver" mesh --help | grep -q "hdf5" && formats+=,hdf5,xdmf,vtkhdf
+mesh domain.svg --size 0.3 --subdomains 4 --ranks 2 --format $formats
+[[ $hash == "$drawing_hash" ]] || fault "another mesh for ranks"
+of_run=$(at_interfaces)
+rows_of_run=$(rows_at_interfaces)
+mv "$sandbox/work/out" "$inputs/pieces"
+for file in "$inputs"/pieces/{mesh.pvtu,mesh.xdmf,ranks.pvtu,ranks.xdmf,ranks.vtkhdf}; do
+  [[ ! -e $file ]] || expect_at_interfaces "$of_run" "$rows_of_run" "$file"
+done
+mesh domain.svg --size 0.3 --subdomains 1
+mv "$sandbox/work/out" "$inputs/one_piece"
+expect_no_interfaces "$inputs/one_piece/mesh.pvtu"
 mesh domain.svg --size 0.3 --subdomains 4 --executor serial --format none
 [[ $hash == "$drawing_hash" ]] || fault "another mesh without workers"
 mesh domain.svg --size 0.3 --subdomains 4 --executor threads --workers 2 --format msh
@@ -114,6 +127,7 @@ mesh domain.svg --size 0.3 --subdomains 4 --executor threads --workers 2 --forma
 cp "$sandbox/work/out/mesh.msh" "$inputs"
 expect_success check "$inputs/mesh.msh"
 grep -q "a valid mesh of $drawn triangles" "$sandbox/stdout" || fault "mesh.msh has other counts"
+expect_no_interfaces "$inputs/mesh.msh"
 mesh domain.txt --size 0.3 --subdomains 4
 [[ $hash == "$drawing_hash" ]] || fault "another mesh from the list of polygons than from the drawing"
 mesh plate.step --size 0.3 --subdomains 4

@@ -57,6 +57,37 @@ expect_success() {
   ((status == 0)) || fault "exit code is $status"
 }
 
+# at_interfaces: what the report has of the elements at interfaces, on one line; nothing where it has nothing.
+at_interfaces() {
+  tr -d ' \n' <"$sandbox/work/report.json" |
+    grep -o '"at_interfaces":{"touching":{[^}]*},"next_ring":{[^}]*},"rest":{[^}]*}}'
+}
+# without_angles: of such figures, those that do not depend on the order of elements and of their vertices.
+without_angles() {
+  sed -E 's/"(mean_)?min_dihedral_deg":[^,]*,//g'
+}
+# rows_at_interfaces: what the driver has printed of them.
+rows_at_interfaces() {
+  sed -n '/^Elements at interfaces/,/^  All others/p' "$sandbox/stdout"
+}
+# expect_at_interfaces <figures> <rows> <mesh>: check and stats say of a mesh what the run that wrote it said.
+expect_at_interfaces() {
+  [[ $1 == *'"touching":{"elements":'[1-9]* && $2 == *"Touching one"*"All others"* ]] || fault "the run has no figures at interfaces"
+  expect_success check "$3"
+  [[ $(rows_at_interfaces) == "$2" ]] || fault "other rows at interfaces than the run's"
+  expect_success stats "$3" --report report.json
+  [[ $(rows_at_interfaces) == "$2" ]] || fault "other rows at interfaces than the run's"
+  [[ $(at_interfaces) == "$1" ]] || fault "other figures at interfaces than the run's: $(at_interfaces)"
+}
+# expect_no_interfaces <mesh>: so it is with a mesh of one piece.
+expect_no_interfaces() {
+  expect_success check "$1"
+  grep -q "at interfaces" "$sandbox/stdout" && fault "interfaces in a mesh of one piece"
+  expect_success stats "$1" --report report.json
+  grep -q "at interfaces" "$sandbox/stdout" && fault "interfaces in a mesh of one piece"
+  [[ -z $(at_interfaces) ]] || fault "interfaces in the report of a mesh of one piece"
+}
+
 # now: in milliseconds.
 now() {
   local microseconds=${EPOCHREALTIME/./}

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -144,6 +145,24 @@ TEST_CASE("the summary shows the figures under the paper's headings") {
         "Interfaces", "distance from the CAD", "0.25", "Elements at interfaces", "Touching one"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
   CHECK(text.find("Next ring") == std::string::npos); // without elements
+}
+
+TEST_CASE("figures of a mesh of several subdomains have those at its interfaces, others have not") {
+  const testing::scratch_folder folder("quality_report");
+  const run_figures figures = example();
+  const auto written = [&](const std::optional<quality_at_interfaces>& at_interfaces) {
+    write_quality_report(figures.quality, 3, 8, {}, folder / "stats.json", at_interfaces);
+    return nlohmann::json::parse(std::ifstream(folder / "stats.json"));
+  };
+  const auto document = written(figures.at_interfaces);
+  CHECK(document["at_interfaces"]["touching"]["elements"] == 3);
+  CHECK(document["at_interfaces"]["rest"]["min_dihedral_deg"] == 50.0);
+  CHECK_FALSE(written({}).contains("at_interfaces"));
+
+  const std::string rows = at_interfaces_text(figures.at_interfaces, 3);
+  CHECK(rows.starts_with("Elements at interfaces"));
+  CHECK(summary_text(figures).find(rows) != std::string::npos);
+  CHECK(at_interfaces_text({}, 3).empty());
 }
 
 TEST_CASE("the summary has the steps that not every run has only where they are") {

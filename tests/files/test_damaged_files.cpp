@@ -63,10 +63,12 @@ void read_or_refuse(const std::filesystem::path& path, std::size_t& read, std::s
     ++read;
     const auto points = static_cast<local_id>(mesh.mesh.points.size());
     const auto in_range = [&](local_id v) { return v >= 0 && v < points; };
-    bool consistent = mesh.mesh.tags.size() == mesh.mesh.elements.size() &&
-                      mesh.triangle_tags.size() == mesh.triangles.size() &&
-                      (mesh.subdomains.empty() || mesh.subdomains.size() == mesh.mesh.elements.size()) &&
-                      (mesh.node_ids.empty() || mesh.node_ids.size() == mesh.mesh.points.size());
+    bool consistent =
+        mesh.mesh.tags.size() == mesh.mesh.elements.size() &&
+        mesh.triangle_tags.size() == mesh.triangles.size() &&
+        (mesh.subdomains.empty() || mesh.subdomains.size() == mesh.mesh.elements.size()) &&
+        (mesh.triangle_subdomains.empty() || mesh.triangle_subdomains.size() == mesh.triangles.size()) &&
+        (mesh.node_ids.empty() || mesh.node_ids.size() == mesh.mesh.points.size());
     for (const auto& element : mesh.mesh.elements)
       consistent = consistent && std::all_of(element.begin(), element.end(), in_range);
     for (const auto& triangle : mesh.triangles)

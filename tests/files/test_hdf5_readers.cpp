@@ -4,12 +4,16 @@
 #include "files/scratch_folder.hpp"
 #include "files/stacked_cubes.hpp"
 
+#include "dovetail/core/encoding.hpp"
+#include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/hdf5_pieces.hpp"
 #include "dovetail/files/hdf5_reader.hpp"
+#include "dovetail/files/streamed_interfaces.hpp"
 #include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/models/plane/svg_path.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "dovetail/solver/hdf5_format.hpp"
@@ -113,6 +117,38 @@ TEST_CASE("pieces: what is read is what was written, by any of the files") {
     CHECK(faults_of(folder / "mesh.xdmf") == "");
     CHECK(io::read_hdf5(folder / "skeleton.vtkhdf").triangles.size() == 432 + 6 * 72);
   }
+}
+
+TEST_CASE("elements at interfaces are those of the mesh that was written") {
+  const auto mesh = cubes.distributed();
+  const testing::scratch_folder folder("hdf5_interfaces");
+  io::hdf5_writer{}(mesh, folder);
+  io::streamed_interfaces<3> interfaces;
+  const auto for_each = [&](const auto& f) {
+    io::for_each_hdf5_piece(folder / "mesh.xdmf", [&](const io::loaded_mesh& piece, const auto&) {
+      f(io::read_piece<3>{piece.mesh, piece.node_ids, piece.subdomains});
+    });
+  };
+  for_each([&](const io::read_piece<3>& piece) { interfaces.add(piece); });
+  const auto points = interfaces.points();
+  quality_at_interfaces found;
+  for_each([&](const io::read_piece<3>& piece) { found.merge(io::measure_at_interfaces(piece, points)); });
+  CHECK(encoded(found) == encoded(io::finish_mesh<3>(mesh, {}, folder, parallel::serial{}).at_interfaces));
+  CHECK(found.touching.elements > 0);
+
+  // Of triangles all at once; what the skeleton calls a subdomain is the one behind a side.
+  const auto plane = plane_mesh();
+  io::hdf5_writer{}(plane, folder);
+  const auto read = io::read_hdf5(folder / "mesh.xdmf");
+  REQUIRE(read.triangle_subdomains.size() == read.triangles.size());
+  const simplicial_mesh<2> triangles{read.mesh.points, read.triangles, read.triangle_tags};
+  const io::read_piece<2> whole{triangles, {}, read.triangle_subdomains};
+  io::streamed_interfaces<2> lines;
+  lines.add(whole);
+  CHECK(encoded(io::measure_at_interfaces(whole, lines.points())) ==
+        encoded(io::finish_mesh<2>(plane, {}, folder, parallel::serial{}).at_interfaces));
+  io::hdf5_writer{}(mesh, folder);
+  CHECK(io::read_hdf5(folder / "skeleton.vtkhdf").triangle_subdomains.empty());
 }
 
 TEST_CASE("ranks: what is read is what was written, ghosts left out") {

@@ -216,6 +216,45 @@ TEST_CASE("MSH 2.2: sparse node numbers, names, tags, partitions and node data")
   CHECK(read.passed_over == std::vector<std::string>{"points and lines as elements"});
 }
 
+TEST_CASE("subdomains of triangles: partitions of MSH files, of VTK files an array of elements") {
+  const testing::scratch_folder folder("triangle_subdomains");
+  // Two triangles in a partition each, and one in none.
+  testing::write_content(folder / "a.msh",
+                         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n"
+                         "3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n3\n1 2 4 7 7 1 2 1 2 3\n"
+                         "2 2 4 7 7 1 1 2 4 3\n3 2 2 7 7 1 3 2\n$EndElements\n");
+  CHECK(io::read_mesh(folder / "a.msh").triangle_subdomains == std::vector<local_id>{1, 0, -1});
+  auto with_tetrahedra = two_tetrahedra_msh2; // a triangle in a partition, but a side of an element
+  const std::string triangle = "\n2 2 2 7 1 10";
+  with_tetrahedra.replace(with_tetrahedra.find(triangle), triangle.size(), "\n2 2 4 7 1 1 1 10");
+  testing::write_content(folder / "b.msh", with_tetrahedra);
+  CHECK(io::read_mesh(folder / "b.msh").triangles.size() == 1);
+  CHECK(io::read_mesh(folder / "b.msh").triangle_subdomains.empty());
+
+  const auto vtk = [&](const std::string& type, const std::string& cells) {
+    testing::write_content(
+        folder / "a.vtk",
+        "<VTKFile type=\"" + type + "\"><" + type + "><Piece NumberOfPoints=\"4\" " + cells +
+            "<CellData><DataArray type=\"Int32\" Name=\"subdomain\" format=\"ascii\">3 5</DataArray>"
+            "</CellData><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">"
+            "0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points></Piece></" +
+            type + "></VTKFile>");
+    return io::read_mesh(folder / "a.vtk");
+  };
+  const std::string arrays =
+      "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 1 3 2</DataArray>"
+      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 6</DataArray>";
+  const auto grid =
+      vtk("UnstructuredGrid", "NumberOfCells=\"2\"><Cells>" + arrays +
+                                  "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5"
+                                  "</DataArray></Cells>");
+  CHECK(grid.triangles.size() == 2);
+  CHECK(grid.triangle_subdomains == std::vector<local_id>{3, 5});
+  const auto sides = vtk("PolyData", "NumberOfPolys=\"2\"><Polys>" + arrays + "</Polys>"); // of a skeleton
+  CHECK(sides.triangles.size() == 2);
+  CHECK(sides.triangle_subdomains.empty());
+}
+
 TEST_CASE("VTU in text and in base64, with small types and without optional arrays") {
   const testing::scratch_folder folder("vtu_forms");
   testing::write_content(folder / "a.vtu", vtu_head + ascii_points + vtu_cells + vtu_tail);

@@ -71,6 +71,7 @@ public:
     const auto ghost = has_ghosts_ ? file_.read<std::uint8_t>(root("CellData/vtkGhostType"), cells_[p], cells)
                                    : std::vector<std::uint8_t>();
     const auto region = of_cells("region", p), subdomain = of_cells("subdomain", p);
+    const bool is_skeleton = file_.has(root("CellData/front_subdomain")); // subdomains are those behind
     for (std::size_t c = 0; c < cells; ++c) {
       if (has_ghosts_ && ghost[c] != 0)
         continue;
@@ -83,6 +84,8 @@ public:
       } else {
         mesh.triangles.push_back(simplex_of<2>(vertices));
         mesh.triangle_tags.push_back(region.empty() ? 0 : region[c]);
+        if (!subdomain.empty() && !is_skeleton)
+          mesh.triangle_subdomains.push_back(subdomain[c]);
       }
     }
     if (has_ghosts_)

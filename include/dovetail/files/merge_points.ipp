@@ -24,6 +24,8 @@ DOVETAIL_INLINE void complete_point_data(loaded_mesh& mesh) {
     mesh.node_ids.clear();
   if (mesh.subdomains.size() != mesh.mesh.elements.size())
     mesh.subdomains.clear();
+  if (mesh.triangle_subdomains.size() != mesh.triangles.size())
+    mesh.triangle_subdomains.clear();
   for (auto& array : mesh.point_scalars)
     array.values.resize(mesh.mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
 }
@@ -45,6 +47,7 @@ DOVETAIL_INLINE void append_part(loaded_mesh& mesh, loaded_mesh part) {
   append(mesh.mesh.tags, part.mesh.tags);
   append(mesh.triangle_tags, part.triangle_tags);
   append(mesh.subdomains, part.subdomains);
+  append(mesh.triangle_subdomains, part.triangle_subdomains);
   append(mesh.node_ids, part.node_ids);
   for (const point_array& theirs : part.point_scalars) {
     if (mesh.scalars(theirs.name) == nullptr)

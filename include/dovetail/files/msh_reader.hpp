@@ -277,6 +277,7 @@ private:
     if (type == static_cast<int>(msh_type::triangle)) {
       triangles_.push_back({vertices[0], vertices[1], vertices[2]});
       mesh_.triangle_tags.push_back(tag_of(tag));
+      partitions_of_triangles_.push_back(partition);
     } else if (type == static_cast<int>(msh_type::tetrahedron)) {
       tetrahedra_.push_back(vertices);
       mesh_.mesh.tags.push_back(tag_of(tag));
@@ -327,6 +328,14 @@ private:
       mesh_.pass_over("node data of several components");
   }
 
+  /// Partitions count from 1; nothing where no element is in any.
+  static std::vector<local_id> subdomains_of(const std::vector<local_id>& partitions) {
+    std::vector<local_id> subdomains;
+    if (std::any_of(partitions.begin(), partitions.end(), [](local_id p) { return p != 0; }))
+      for (const auto p : partitions)
+        subdomains.push_back(p - 1);
+    return subdomains;
+  }
   void translate_nodes() {
     const node_lookup nodes(numbers_, at_);
     const auto index = [&](std::uint64_t number) { return nodes.index(number); };
@@ -337,9 +346,9 @@ private:
       mesh_.triangles.push_back({index(vertices[0]), index(vertices[1]), index(vertices[2])});
     for (const auto number : numbers_) // global numbers count from 0, those of MSH from 1
       mesh_.node_ids.push_back(static_cast<global_id>(number) - 1);
-    if (std::any_of(partitions_.begin(), partitions_.end(), [](local_id p) { return p != 0; }))
-      for (const auto p : partitions_)
-        mesh_.subdomains.push_back(p - 1);
+    mesh_.subdomains = subdomains_of(partitions_);
+    if (tetrahedra_.empty()) // else they are sides of elements
+      mesh_.triangle_subdomains = subdomains_of(partitions_of_triangles_);
     for (const auto& [name, values] : node_data_) {
       point_array array{name, std::vector<double>(numbers_.size(), std::numeric_limits<double>::quiet_NaN())};
       for (const auto& [number, value] : values)
@@ -373,7 +382,8 @@ private:
   std::vector<std::uint64_t> numbers_;                    ///< of the nodes, in the order of the points
   std::vector<std::array<std::uint64_t, 4>> tetrahedra_;
   std::vector<std::array<std::uint64_t, 3>> triangles_;
-  std::vector<local_id> partitions_; ///< per tetrahedron
+  std::vector<local_id> partitions_;              ///< per tetrahedron
+  std::vector<local_id> partitions_of_triangles_; ///< per triangle
   std::vector<node_data> node_data_;
   loaded_mesh mesh_;
 };

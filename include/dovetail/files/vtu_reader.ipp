@@ -221,6 +221,8 @@ private:
         triangles.push_back(c);
         mesh_.triangles.push_back(simplex_of<2>(vertices, c));
         mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
+        if (!subdomains.empty() && !is_of_polygons_) // of a skeleton it is the one behind
+          mesh_.triangle_subdomains.push_back(subdomains[c]);
         if (!subdomains.empty() && subdomains[c] != no_id)
           mesh_.pass_over("the subdomains of triangles");
       } else if (type == vtk_cell::line || type == vtk_cell::vertex) {

@@ -37,9 +37,10 @@ struct loaded_mesh {
   std::vector<local_id> triangle_tags; ///< per triangle: its CAD face, group or entity
   std::vector<global_id> node_ids;     ///< per point: its global number in the file
   std::vector<local_id> subdomains;    ///< per tetrahedron; empty when the file has no subdomains
-  std::vector<point_array> point_scalars;   ///< all one-component point arrays
-  std::vector<mesh_field> point_fields{};   ///< point arrays of several components, where asked for
-  std::vector<mesh_field> element_fields{}; ///< of tetrahedra, without these of triangles, where asked for
+  std::vector<local_id> triangle_subdomains{}; ///< whose elements the triangles are; empty as these
+  std::vector<point_array> point_scalars;      ///< all one-component point arrays
+  std::vector<mesh_field> point_fields{};      ///< point arrays of several components, where asked for
+  std::vector<mesh_field> element_fields{};    ///< of tetrahedra, without these of triangles, where asked for
   std::vector<std::pair<local_id, std::string>> material_names; ///< of the tags of the mesh
   std::vector<std::pair<local_id, std::string>> triangle_names; ///< of the tags of the triangles
   std::vector<std::string> passed_over;       ///< what else is in the file, such as "12 lines"; each once

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace dovetail {
 
@@ -47,6 +48,14 @@ struct quality_at_interfaces {
                             &quality_at_interfaces::rest>;
 };
 
+/// Measures the elements of a piece whose points on interfaces are known. Linear.
+/// Throws nothing but for a lack of memory.
+/// \param mesh the elements of one subdomain
+/// \param on_interface not 0 for points of an interface; one per point of the mesh
+template <int D>
+quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
+                                            const std::vector<std::uint8_t>& on_interface);
+
 /// Measures the elements of a piece. Linear, and n log n in its skeleton points.
 /// Throws nothing but for a lack of memory.
 /// \param piece as `check_piece` finds it right
@@ -58,6 +67,10 @@ quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
                                             std::span<const local_id> listed);
 
 #ifdef DOVETAIL_COMPILED
+extern template quality_at_interfaces measure_at_interfaces<2>(const simplicial_mesh<2>& mesh,
+                                                               const std::vector<std::uint8_t>& on_interface);
+extern template quality_at_interfaces measure_at_interfaces<3>(const simplicial_mesh<3>& mesh,
+                                                               const std::vector<std::uint8_t>& on_interface);
 extern template quality_at_interfaces measure_at_interfaces<2>(const simplicial_piece<2>& piece,
                                                                const simplicial_skeleton<2>& skeleton,
                                                                std::span<const local_id> listed);

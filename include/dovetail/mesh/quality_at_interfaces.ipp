@@ -61,14 +61,12 @@ std::vector<std::uint8_t> points_on_interfaces(const simplicial_piece<D>& piece,
 } // namespace detail
 
 template <int D>
-quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
-                                            const simplicial_skeleton<D>& skeleton,
-                                            std::span<const local_id> listed) {
-  const auto& elements = piece.mesh.elements;
+quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
+                                            const std::vector<std::uint8_t>& on_interface) {
+  const auto& elements = mesh.elements;
   const auto has_one_in = [](const simplex<D>& element, const std::vector<std::uint8_t>& marked) {
     return std::any_of(element.begin(), element.end(), [&](local_id v) { return marked[v] != 0; });
   };
-  const auto on_interface = detail::points_on_interfaces(piece, skeleton, listed);
   auto reached = on_interface; // the points of the elements that touch
   for (const simplex<D>& element : elements)
     if (has_one_in(element, on_interface))
@@ -79,12 +77,23 @@ quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
     ring_quality& ring = has_one_in(element, on_interface) ? found.touching
                          : has_one_in(element, reached)    ? found.next_ring
                                                            : found.rest;
-    ring.add(extreme_dihedral_angles(corners(span_of(piece.mesh.points), element))[0]);
+    ring.add(extreme_dihedral_angles(corners(span_of(mesh.points), element))[0]);
   }
   return found;
 }
 
+template <int D>
+quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
+                                            const simplicial_skeleton<D>& skeleton,
+                                            std::span<const local_id> listed) {
+  return measure_at_interfaces<D>(piece.mesh, detail::points_on_interfaces(piece, skeleton, listed));
+}
+
 #ifdef DOVETAIL_COMPILED
+template quality_at_interfaces measure_at_interfaces<2>(const simplicial_mesh<2>& mesh,
+                                                        const std::vector<std::uint8_t>& on_interface);
+template quality_at_interfaces measure_at_interfaces<3>(const simplicial_mesh<3>& mesh,
+                                                        const std::vector<std::uint8_t>& on_interface);
 template quality_at_interfaces measure_at_interfaces<2>(const simplicial_piece<2>& piece,
                                                         const simplicial_skeleton<2>& skeleton,
                                                         std::span<const local_id> listed);

@@ -71,6 +71,7 @@ public:
     } else {
       mesh_.triangles = simplices<2>(cells_name, elements_);
       mesh_.triangle_tags = std::move(tags);
+      mesh_.triangle_subdomains = std::move(subdomains);
       check_owners(mesh_.triangles);
       simplices<1>("sides/vertices", sides_);
     }
