@@ -191,7 +191,7 @@ private:
         return mesh_boundary_again(std::move(boundary), old, at_points);
       } catch (const mesh_error& problem) {
         if (model.was_asked_for)
-          throw mesh_error(std::string(problem.what()) + " (--model none)");
+          throw mesh_error(std::string(problem.what()) + " (--model none, or a mesh made with --keep-all)");
         model.warnings.push_back(model.file_or_name + " is not used: " + problem.what());
         model.take_boundary();
       }

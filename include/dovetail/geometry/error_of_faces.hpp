@@ -11,8 +11,8 @@
 
 namespace dovetail {
 
-/// What an error of the library also is when faces of the model are to blame: who has simplified the model may
-/// catch it, and keep these as they were drawn.
+/// What an error of the library also is when faces of the model are to blame: who has simplified the model
+/// may catch it, and keep these as they were drawn.
 class blames_faces {
 public:
   explicit blames_faces(std::vector<local_id> faces) : faces_(std::move(faces)) {}
