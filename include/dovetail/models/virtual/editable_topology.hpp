@@ -79,8 +79,8 @@ public:
   /// Takes curves that follow each other out of a face's loop; what is before and behind them meets where
   /// `kept` is, which one of the two ends at.
   void cut_out(local_id f, const std::vector<local_id>& curves, local_id kept);
-  /// Lets all that passes along a curve pass along another one between the same vertices, at most `width`
-  /// away.
+  /// Lets all that passes along a curve pass along another one between the same vertices, `width` away; near
+  /// its ends it may be as far away as these are.
   void replace_curve(local_id gone, local_id kept, bool same_direction, double width);
   void remove_face(local_id f);
 

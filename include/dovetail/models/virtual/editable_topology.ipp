@@ -243,6 +243,7 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
 DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id kept, bool same_direction,
                                                       double width) {
   const auto& t = curves_[kept].t;
+  double furthest = curve_deviations_[gone] + width;
   for (const passage& p : passages_of(gone)) {
     virtual_coedge& coedge = loops_[p.face][p.loop][p.place];
     const auto& range = curves_[gone].t;
@@ -264,11 +265,14 @@ DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id ke
       pairs.push_back({at, std::clamp(found, least, most)});
     }
     pairs.push_back({t[1], own[1]});
+    for (const auto& [at, beside] :
+         pairs) // at its ends, whose vertices are not quite beside each other, more
+      furthest = std::max(furthest, distance(point(kept, at), model_->curve_point(coedge.own_curve, beside)));
     coedge.beside = std::move(pairs);
     coedge.curve = kept;
   }
   curves_[kept].tolerance = std::max(curves_[kept].tolerance, curves_[gone].tolerance);
-  curve_deviations_[kept] = std::max(curve_deviations_[kept], curve_deviations_[gone] + width);
+  curve_deviations_[kept] = std::max(curve_deviations_[kept], furthest);
   count_passages();
 }
 

@@ -40,7 +40,7 @@ public:
   /// Nothing where it must not be.
   std::optional<editable_topology> run() {
     if ((narrow_.is_tip && !face_goes_on()) || !ends_can_be_dropped() ||
-        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !stays_near() || !faces_can_meet())
+        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !faces_can_meet())
       return std::nullopt;
     const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
                               vertices_of(topology_, narrow_.sides[1])};
@@ -56,7 +56,7 @@ public:
     }
     for (std::size_t k = 0; k < vertices[0].size(); ++k)
       topology_.merge_vertices(vertices[1][k], vertices[0][k]);
-    return std::move(topology_);
+    return stays_near() ? std::optional(std::move(topology_)) : std::nullopt;
   }
 
 private:
@@ -125,39 +125,39 @@ private:
         split(topology_, narrow_.sides[to], where);
       }
     }
-    const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
-                              vertices_of(topology_, narrow_.sides[1])};
-    if (vertices[0].size() != vertices[1].size())
-      return false;
-    constexpr double furthest = 1.5; // limits: no vertex is moved further, in how many steps ever
-    for (std::size_t k = 0; k < vertices[0].size(); ++k) {
-      const local_id a = vertices[0][k], b = vertices[1][k];
-      const double before = std::max(topology_.deviation_of_vertex(a), topology_.deviation_of_vertex(b));
-      if (distance(point_of(a), point_of(b)) + before > furthest * limit_at(a))
-        return false;
-    }
-    return true;
+    return vertices_of(topology_, narrow_.sides[0]).size() == vertices_of(topology_, narrow_.sides[1]).size();
   }
 
-  /// No face is moved by more than the limit, in how many steps ever.
+  /// No face was moved by more than the limit, and no vertex by much more, in how many steps ever.
   bool stays_near() const {
-    for (std::size_t k = 0; k < narrow_.sides[1].size(); ++k) {
-      const local_id kept = narrow_.sides[0][k].curve, gone = narrow_.sides[1][k].curve;
-      if (width_ + std::max(topology_.deviation_of_curve(kept), topology_.deviation_of_curve(gone)) >
-          allowed_.length(topology_.middle(kept)))
-        return false;
-    }
-    return true;
+    const auto vertices = vertices_of(topology_, narrow_.sides[0]);
+    return std::all_of(narrow_.sides[0].begin(), narrow_.sides[0].end(),
+                       [&](const side_curve& kept) {
+                         return topology_.deviation_of_curve(kept.curve) <=
+                                allowed_.length(topology_.middle(kept.curve));
+                       }) &&
+           std::all_of(vertices.begin(), vertices.end(), [&](local_id v) {
+             return topology_.deviation_of_vertex(v) <= furthest_vertex * limit_at(v);
+           });
   }
 
-  /// The faces behind the two sides do not fold onto each other.
+  /// The faces behind the two sides do not fold onto each other, and there is one: a sheet of its own stays.
   bool faces_can_meet() const {
-    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k)
-      for (const passage& p : topology_.passages_of(narrow_.sides[0][k].curve))
-        for (const passage& q : topology_.passages_of(narrow_.sides[1][k].curve))
-          if (p.face != face_ && q.face != face_ && (p.face == q.face || !can_meet(p, q)))
+    bool has_neighbour = false;
+    const auto passages_behind = [&](const side_curve& passed) {
+      auto found = topology_.passages_of(passed.curve);
+      std::erase_if(found, [&](const passage& p) { return p.face == face_; });
+      has_neighbour = has_neighbour || !found.empty();
+      return found;
+    };
+    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k) {
+      const auto behind_second = passages_behind(narrow_.sides[1][k]);
+      for (const passage& p : passages_behind(narrow_.sides[0][k]))
+        for (const passage& q : behind_second)
+          if (p.face == q.face || !can_meet(p, q))
             return false;
-    return true;
+    }
+    return has_neighbour;
   }
 
   bool can_meet(const passage& p, const passage& q) const {
@@ -189,7 +189,7 @@ private:
         if (!of_side(narrow_.sides[0], coedge.curve) && !of_side(narrow_.sides[1], coedge.curve) &&
             !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve))
           ++left;
-      if (left < 2)
+      if (left < 2 && left < loop.size())
         return false;
     }
     return true;

@@ -16,6 +16,8 @@ struct limits {
   double least_angle_deg = 40; ///< no corner and no edge becomes sharper
 };
 
+inline constexpr double furthest_vertex = 1.5; ///< limits: none is moved further, in how many steps ever
+
 /// Whether a curve is that short.
 bool is_short(const editable_topology& topology, const limits& allowed, local_id c);
 

@@ -15,7 +15,6 @@ namespace dovetail::virtual_topology {
 
 namespace detail {
 
-inline constexpr double furthest = 1.5; ///< limits: no vertex is moved further, in how many steps ever
 inline constexpr double least_loop = 6; ///< limits: what is left of a smaller one would be no face's outline
 
 /// Where an edge of that length between two vertices may be given up, as far as these are concerned.
@@ -27,7 +26,7 @@ inline bool ends_can_meet(const editable_topology& topology, const limits& allow
   const auto& second = topology.vertex(ends[1]);
   if (std::max(topology.deviation_of_vertex(ends[0]), topology.deviation_of_vertex(ends[1])) +
           distance(first.point, second.point) >
-      furthest * allowed.length(first.point))
+      furthest_vertex * allowed.length(first.point))
     return false; // vertices that have taken in others already
   for (std::size_t other = 0; other < topology.curve_count(); ++other) {
     const auto id = static_cast<local_id>(other);

@@ -1,0 +1,339 @@
+/// Details far smaller than the size: what is given up, what stays, and that what is left is a model.
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "models/discrete_shapes.hpp"
+#include "models/virtual_shapes.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+using namespace dovetail;
+using namespace dovetail::testing;
+using kind = suppressed_detail::kind;
+
+namespace {
+
+constexpr double limit = 0.25;
+
+/// At size 1: narrower than a quarter is a detail.
+virtual_model without_details(const any_geometry& given, double size = 1) {
+  virtual_model made(given, uniform_size(size));
+  CHECK(virtual_checks(made, given, 0.25 * size).faults() == "");
+  return made;
+}
+
+std::vector<kind> kinds_of(const virtual_model& model) {
+  std::vector<kind> kinds;
+  for (const auto& one : model.suppressed())
+    kinds.push_back(one.what);
+  return kinds;
+}
+
+void check_kept_whole(const any_geometry& given) {
+  const virtual_model made = without_details(given);
+  CHECK(made.suppressed().empty());
+  CHECK(counts_of(made.topology()) == counts_of(given.topology()));
+}
+
+occt_model model_of(const TopoDS_Shape& shape) {
+  return occt_shape_from(shape).model;
+}
+
+/// Edges of a shape whose middle is so.
+template <class Predicate>
+std::vector<TopoDS_Edge> edges_where(const TopoDS_Shape& shape, Predicate&& is_so) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  std::vector<TopoDS_Edge> found;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    const BRepAdaptor_Curve curve(edge);
+    if (const gp_Pnt p = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+        is_so(vec3{p.X(), p.Y(), p.Z()}))
+      found.push_back(edge);
+  }
+  return found;
+}
+
+template <class Predicate>
+TopoDS_Shape chamfered(const TopoDS_Shape& shape, double width, Predicate&& is_so) {
+  BRepFilletAPI_MakeChamfer made(shape);
+  for (const TopoDS_Edge& edge : edges_where(shape, is_so))
+    made.Add(width, edge);
+  return made.Shape();
+}
+
+/// A cylinder of radius 5 on one of another radius, turned against it.
+TopoDS_Shape stepped_cylinder(double radius, double turn) {
+  const gp_Ax2 turned(gp_Pnt(0, 0, 4), gp_Dir(0, 0, 1), gp_Dir(std::cos(turn), std::sin(turn), 0));
+  return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(radius, 4).Shape(),
+                          BRepPrimAPI_MakeCylinder(turned, 5, 4).Shape())
+      .Shape();
+}
+
+/// A cube of 10 with a chamfer that begins at a point, and perhaps a hole in it.
+TopoDS_Shape run_out_chamfer(double hole_radius) {
+  TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+  BRepFilletAPI_MakeFillet fillet(box);
+  for (const TopoDS_Edge& edge : edges_where(box, [](vec3 p) { return p.x > 9.9 && p.y > 9.9; }))
+    fillet.Add(0.01, 3, edge);
+  box = fillet.Shape();
+  if (hole_radius > 0)
+    box = BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, 9), gp_Dir(1, 1, 0)), hole_radius, 9)
+                                   .Shape())
+              .Shape();
+  return box;
+}
+
+} // namespace
+
+TEST_CASE("a chamfer far narrower than the size becomes the edge that it was made of") {
+  const discrete_model given = chamfered_cube(0.1, 0.1).model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::narrow_face});
+  const auto& [what, face, place, width] = made.suppressed()[0];
+  CHECK(distance(place, {9.95, 9.95, 5}) < 0.1);
+  CHECK(distance(given.face_point(face, given.curve_uv(face, 0, 0)), {9.95, 9.95, 5}) < 5.1);
+  CHECK(width == doctest::Approx(0.1 * std::numbers::sqrt2));
+  CHECK(counts_of(given.topology()) == entity_counts{7, 15, 10});
+  CHECK(counts_of(made.topology()) == entity_counts{6, 12, 8});
+  CHECK(made.summary().get("narrow_faces") == 1);
+  CHECK(made.summary().get("short_edges") == 0);
+  CHECK(made.summary().get("largest_deviation") == width);
+}
+
+TEST_CASE("a step in a side is the edge between what is before and behind it") {
+  const outline stepped{{0, 0}, {5, 0}, {5.05, -0.1}, {10, -0.1}, {10, 10}, {0, 10}};
+  const virtual_model made = without_details(prism(stepped, stepped, {5, 5}, 10).model());
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+  CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
+}
+
+TEST_CASE("a short edge between long ones becomes the vertex of theirs that has more curves") {
+  polygon_surface jog = prism({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}},
+                              {{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}}, {5, 5}, 10);
+  const auto is_top = [&](const simplex<2>& t) {
+    return std::all_of(t.begin(), t.end(), [&](local_id v) { return jog.points[v].z == 10; });
+  };
+  std::erase_if(jog.triangles, is_top);
+  jog.ids.assign(jog.triangles.size(), no_id);
+  jog.add({{0, 0, 10}, {5, 0, 10}, {5, 5, 10}, {5.1, 5, 10}, {5.1, 10, 10}, {0, 10, 10}}, {2, 5, 10}, 1);
+  jog.add({{10, 0, 10}, {10, 10, 10}, {5.1, 10, 10}, {5.1, 5, 10}, {5, 5, 10}, {5, 0, 10}}, {8, 5, 10}, 2);
+  const discrete_model given = jog.model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::short_edge});
+  CHECK(made.suppressed()[0].length == doctest::Approx(0.1));
+  CHECK(distance(made.suppressed()[0].place, {5.05, 5, 10}) < 1e-9);
+  CHECK(distance(given.curve_point(made.suppressed()[0].entity, 0), {5.05, 5, 10}) < 0.051);
+  CHECK(made.summary().get("short_edges") == 1);
+  const auto before = counts_of(given.topology()), after = counts_of(made.topology());
+  CHECK(after == entity_counts{before.faces, before.curves - 1, before.vertices - 1});
+}
+
+TEST_CASE("where a neighbour's vertex is on one side of a strip only, the other side gets one") {
+  for (const std::size_t side : {1U, 3U}) { // before and behind it
+    const auto cube = chamfered_cube(0.1, 0.15, 4, [side](std::size_t s, std::size_t layer) {
+      return s == side ? static_cast<local_id>(layer) : no_id;
+    });
+    const discrete_model given = cube.model();
+    const virtual_model made = without_details(given);
+    CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+    CHECK(made.topology().curves.size() == given.topology().curves.size() + 3);
+    CHECK(counts_of(made.topology()) == entity_counts{9, 9 + 12, 8 + 6});
+  }
+}
+
+TEST_CASE("a strip that is all that is left of a named group stays") {
+  outline both = chamfered_square(0.1);
+  both[0] = {0.1, 0};
+  both.push_back({0, 0.1});
+  const auto groups = [&](local_id first, local_id second) {
+    return prism(both, both, {5, 5}, 10, 1, [=](std::size_t s, std::size_t) {
+             return s == 2 ? first : s == 5 ? second : no_id;
+           }).model();
+  };
+  CHECK(without_details(groups(no_id, no_id)).suppressed().size() == 2);
+  CHECK(without_details(groups(7, no_id)).suppressed().size() == 1);
+  CHECK(without_details(groups(7, 8)).suppressed().empty());
+  CHECK(without_details(groups(7, 7)).suppressed().size() == 1);
+}
+
+TEST_CASE("the end of a face that begins at a point is cut where it is wide enough") {
+  const discrete_model given = chamfered_cube(0, 1).model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::narrow_end});
+  const auto& [what, face, place, width] = made.suppressed()[0];
+  CHECK(made.topology().faces[face].coedges.size() == 3);
+  CHECK(width == doctest::Approx(0.9 * limit).epsilon(0.01));
+  CHECK(place.z == doctest::Approx(0.5 * 0.9 * limit * 10 / std::numbers::sqrt2).epsilon(0.05));
+  CHECK(made.summary().get("narrow_ends") == 1);
+  CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
+  check_kept_whole(chamfered_cube(0, 10.0 / 2).model()); // wide at once
+}
+
+TEST_CASE("what is large enough stays, and so does everything at no share of the size") {
+  check_kept_whole(chamfered_cube(0.2, 0.2).model());
+  check_kept_whole(discrete_model(box_soup({0, 0, 0}, {1, 1, 1}, 2).points,
+                                  box_soup({0, 0, 0}, {1, 1, 1}, 2).triangles));
+  const discrete_model given = chamfered_cube(0.1, 0.1).model();
+  CHECK(virtual_model(given, uniform_size(1.0), {.share_of_size = 0}).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.5)).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.5), {.share_of_size = 0.5}).suppressed().size() == 1);
+  const auto small_there = [](vec3 p) { return p.x > 9 && p.y > 9 ? 0.5 : 1.0; };
+  CHECK(virtual_model(given, small_there).suppressed().empty());
+  for (const double share : {-0.1, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_size = share}), sizing_error);
+}
+
+TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {
+  const auto plate = box_soup({0, 0, 0}, {10, 10, 0.1}, 1);
+  check_kept_whole(discrete_model(plate.points, plate.triangles));
+  check_kept_whole(model_of(BRepPrimAPI_MakeBox(10, 10, 0.1).Shape()));
+  check_kept_whole(model_of(BRepPrimAPI_MakeCylinder(5, 0.1).Shape()));
+  const outline wedge{{0, 0}, {10, 0}, {10, 0.15}, {0, 3}};
+  check_kept_whole(prism(wedge, wedge, {3, 1}, 10).model());
+}
+
+TEST_CASE("a hole far smaller than the size stays one") {
+  check_kept_whole(model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 3).Shape(),
+                                            BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, -1), gp_Dir(0, 0, 1)),
+                                                                     0.03, 5))
+                                .Shape()));
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 3).Shape();
+  const TopoDS_Shape pin = BRepPrimAPI_MakeBox(gp_Pnt(5, 5, -1), gp_Pnt(5.1, 5.1, 5)).Shape();
+  check_kept_whole(model_of(BRepAlgoAPI_Cut(box, pin).Shape()));
+}
+
+TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {
+  const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(5, 8).Shape();
+  const auto rounded = without_details(
+      model_of(chamfered(cylinder, 0.1, [](vec3 p) { return p.z > 7.9; })));
+  CHECK(kinds_of(rounded) == std::vector{kind::narrow_face});
+  CHECK(counts_of(rounded.topology()) == entity_counts{3, 3, 2});
+  for (const double radius : {5.15, 4.85})
+    for (const double turn : {0.0, 0.03, -0.03, 1.0, 3.0, 6.0}) {
+      CAPTURE(radius);
+      CAPTURE(turn);
+      const auto stepped = without_details(model_of(stepped_cylinder(radius, turn)));
+      CHECK(kinds_of(stepped) == std::vector{kind::narrow_face});
+      const bool is_split = std::abs(turn) > 0.05;
+      CHECK(counts_of(stepped.topology()) ==
+            (is_split ? entity_counts{4, 6, 4} : entity_counts{4, 5, 3}));
+    }
+}
+
+TEST_CASE("where a fillet or a chamfer runs out it ends in an edge, beside a hole too") {
+  for (const double hole : {0.0, 0.4}) {
+    CAPTURE(hole);
+    const occt_model given = model_of(run_out_chamfer(hole));
+    const virtual_model made = without_details(given);
+    CHECK(kinds_of(made) == std::vector{kind::narrow_end});
+    CHECK(counts_of(made.topology()).faces == counts_of(given.topology()).faces);
+  }
+}
+
+TEST_CASE("chamfers that meet at corners go together") {
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(10, 10, 2).Shape();
+  const auto top = without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return p.z > 1.9; })));
+  CHECK(kinds_of(top) == std::vector(4, kind::narrow_face));
+  CHECK(counts_of(top.topology()) == entity_counts{6, 12, 8});
+  const auto flat = without_details(
+      model_of(chamfered(plate, 0.1, [](vec3 p) { return std::abs(p.z - 1) > 0.9; })));
+  CHECK(counts_of(flat.topology()) == entity_counts{6, 12, 8});
+  without_details(model_of(chamfered(plate, 0.1, [](vec3) { return true; }))); // with triangles at corners
+}
+
+TEST_CASE("a virtual model of a virtual model is the same") {
+  for (const any_geometry& given :
+       {any_geometry(chamfered_cube(0.1, 0.1).model()), any_geometry(chamfered_cube(0, 1).model()),
+        any_geometry(model_of(stepped_cylinder(5.15, 1)))}) {
+    const virtual_model once(given, uniform_size(1.0));
+    const virtual_model twice(once, uniform_size(1.0));
+    CHECK(twice.suppressed().empty());
+    CHECK(counts_of(twice.topology()) == counts_of(once.topology()));
+    const auto& topology = twice.topology();
+    CHECK(joined(faults_of(twice, absence::of_faces)) == "");
+    for (std::size_t f = 0; f < topology.faces.size(); ++f)
+      for (std::size_t k = 0; k < topology.faces[f].coedges.size(); ++k) {
+        const auto& t = topology.curves[topology.faces[f].coedges[k].curve].t;
+        for (const double at : {t[0], 0.3 * t[0] + 0.7 * t[1], t[1]}) {
+          const auto face = static_cast<local_id>(f);
+          CHECK(norm(twice.curve_uv(face, static_cast<int>(k), at) -
+                     once.curve_uv(face, static_cast<int>(k), at)) < 1e-9);
+        }
+      }
+  }
+}
+
+namespace {
+
+/// A convex polygon with chamfers and steps of random sizes at random places, straight or tapered.
+polygon_surface random_solid(std::mt19937& random) {
+  const auto between = [&](double a, double b) {
+    return a + (b - a) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  const int corners = 4 + static_cast<int>(random() % 3);
+  outline base;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + between(-0.15, 0.15)) / corners;
+    base.push_back({10 * std::cos(angle), 10 * std::sin(angle)});
+  }
+  std::array<outline, 2> ends;
+  const auto towards = [](vec2 p, vec2 q, double length) { return p + (length / norm(q - p)) * (q - p); };
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    const vec2 before = base[(i + base.size() - 1) % base.size()], here = base[i],
+               after = base[(i + 1) % base.size()];
+    const auto what = random() % 4; // 0, 1: a chamfer; 2: a step behind the corner; 3: nothing
+    const std::array widths{between(0.02, 0.4), random() % 3 == 0 ? between(0.02, 0.8) : 0.0};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double width = end == 1 && widths[1] > 0 ? widths[1] : widths[0];
+      if (what < 2) {
+        ends[end].push_back(towards(here, before, width));
+        ends[end].push_back(towards(here, after, width * (what == 0 ? 1.0 : 2.0)));
+      } else {
+        ends[end].push_back(here);
+      }
+      if (what == 2) {
+        const vec2 along = towards({0, 0}, after - here, 1.0), out{along.y, -along.x};
+        ends[end].push_back(here + 3.0 * along);
+        ends[end].push_back(here + (3 + 1.5 * width) * along + width * out);
+        ends[end].push_back(here + 4.5 * along + width * out);
+        ends[end].push_back(here + (4.5 + 1.5 * width) * along);
+      }
+    }
+  }
+  const auto split_side = random() % ends[0].size();
+  return prism(ends[0], ends[1], {0, 0}, between(3, 12), 3, [&](std::size_t side, std::size_t layer) {
+    return side == split_side ? static_cast<local_id>(layer) : no_id;
+  });
+}
+
+} // namespace
+
+TEST_CASE("random solids with random details stay models") {
+  std::size_t suppressed = 0;
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const discrete_model given = random_solid(random).model();
+    if (joined(faults_of(given)) != "") { MESSAGE("bad"); continue; }
+    suppressed += without_details(given, 1 + seed % 5).suppressed().size();
+  }
+  CHECK(suppressed > 80);
+}
