@@ -18,7 +18,8 @@ template <geometry_model G>
 class model_checks {
 public:
   explicit model_checks(const G& model, absence allowed = absence::none)
-      : model_(model), topology_(model.topology()), allowed_(allowed), is_used_(topology_.curves.size(), false) {
+      : model_(model), topology_(model.topology()), allowed_(allowed),
+        is_used_(topology_.curves.size(), false) {
     for (const auto& face : topology_.faces)
       for (const auto& coedge : face.coedges)
         is_used_[coedge.curve] = true;

@@ -11,10 +11,12 @@
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <doctest/doctest.h>
 
@@ -79,26 +81,31 @@ TopoDS_Shape chamfered(const TopoDS_Shape& shape, double width, Predicate&& is_s
   return made.Shape();
 }
 
-/// A cylinder of radius 5 on one of another radius, turned against it.
-TopoDS_Shape stepped_cylinder(double radius, double turn) {
+/// A cylinder on one of another radius, turned against it.
+TopoDS_Shape stepped_cylinder(double radius, double turn, double upper_radius = 5) {
   const gp_Ax2 turned(gp_Pnt(0, 0, 4), gp_Dir(0, 0, 1), gp_Dir(std::cos(turn), std::sin(turn), 0));
   return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(radius, 4).Shape(),
-                          BRepPrimAPI_MakeCylinder(turned, 5, 4).Shape())
+                          BRepPrimAPI_MakeCylinder(turned, upper_radius, 4).Shape())
       .Shape();
 }
 
-/// A cube of 10 with a chamfer that begins at a point, and perhaps a hole in it.
-TopoDS_Shape run_out_chamfer(double hole_radius) {
-  TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
-  BRepFilletAPI_MakeFillet fillet(box);
-  for (const TopoDS_Edge& edge : edges_where(box, [](vec3 p) { return p.x > 9.9 && p.y > 9.9; }))
-    fillet.Add(0.01, 3, edge);
-  box = fillet.Shape();
-  if (hole_radius > 0)
-    box = BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, 9), gp_Dir(1, 1, 0)), hole_radius, 9)
-                                   .Shape())
-              .Shape();
-  return box;
+TopoDS_Shape run_out_fillet() {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+  BRepFilletAPI_MakeFillet made(box);
+  for (const TopoDS_Edge& edge : edges_where(box, [](vec3 p) { return p.x > 9 && p.y > 9; }))
+    made.Add(0.01, 3, edge);
+  return made.Shape();
+}
+
+/// A cube with a chamfer that begins at a point, and a round hole in it.
+TopoDS_Shape run_out_chamfer_with_hole() {
+  const gp_Dir normal(1, 1, 0.1), along(1, -1, 0);
+  const gp_Pnt corner =
+      gp_Pnt(10, 10, 0).Translated(-20 * gp_Vec(along) - 20 * gp_Vec(normal.Crossed(along)));
+  const TopoDS_Shape beyond = BRepPrimAPI_MakeBox(gp_Ax2(corner, normal, along), 40, 40, 10).Shape();
+  const TopoDS_Shape drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(7.6, 7.6, 7.8), normal), 0.2, 9).Shape();
+  const TopoDS_Shape cut = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 10).Shape(), beyond).Shape();
+  return BRepAlgoAPI_Cut(cut, drill).Shape();
 }
 
 } // namespace
@@ -120,14 +127,14 @@ TEST_CASE("a chamfer far narrower than the size becomes the edge that it was mad
 
 TEST_CASE("a step in a side is the edge between what is before and behind it") {
   const outline stepped{{0, 0}, {5, 0}, {5.05, -0.1}, {10, -0.1}, {10, 10}, {0, 10}};
-  const virtual_model made = without_details(prism(stepped, stepped, {5, 5}, 10).model());
+  const virtual_model made = without_details(prism(stepped, stepped, {5, 5}, {0, 10}).model());
   CHECK(kinds_of(made) == std::vector{kind::narrow_face});
   CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
 }
 
 TEST_CASE("a short edge between long ones becomes the vertex of theirs that has more curves") {
   polygon_surface jog = prism({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}},
-                              {{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}}, {5, 5}, 10);
+                              {{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}}, {5, 5}, {0, 10});
   const auto is_top = [&](const simplex<2>& t) {
     return std::all_of(t.begin(), t.end(), [&](local_id v) { return jog.points[v].z == 10; });
   };
@@ -148,7 +155,7 @@ TEST_CASE("a short edge between long ones becomes the vertex of theirs that has 
 
 TEST_CASE("where a neighbour's vertex is on one side of a strip only, the other side gets one") {
   for (const std::size_t side : {1U, 3U}) { // before and behind it
-    const auto cube = chamfered_cube(0.1, 0.15, 4, [side](std::size_t s, std::size_t layer) {
+    const auto cube = chamfered_cube(0.1, 0.15, {0, 2, 5, 8, 10}, [side](std::size_t s, std::size_t layer) {
       return s == side ? static_cast<local_id>(layer) : no_id;
     });
     const discrete_model given = cube.model();
@@ -164,9 +171,11 @@ TEST_CASE("a strip that is all that is left of a named group stays") {
   both[0] = {0.1, 0};
   both.push_back({0, 0.1});
   const auto groups = [&](local_id first, local_id second) {
-    return prism(both, both, {5, 5}, 10, 1, [=](std::size_t s, std::size_t) {
-             return s == 2 ? first : s == 5 ? second : no_id;
-           }).model();
+    return prism(both, both, {5, 5}, {0, 10},
+                 [=](std::size_t s, std::size_t) { return s == 2   ? first
+                                                          : s == 5 ? second
+                                                                   : no_id; })
+        .model();
   };
   CHECK(without_details(groups(no_id, no_id)).suppressed().size() == 2);
   CHECK(without_details(groups(7, no_id)).suppressed().size() == 1);
@@ -189,8 +198,8 @@ TEST_CASE("the end of a face that begins at a point is cut where it is wide enou
 
 TEST_CASE("what is large enough stays, and so does everything at no share of the size") {
   check_kept_whole(chamfered_cube(0.2, 0.2).model());
-  check_kept_whole(discrete_model(box_soup({0, 0, 0}, {1, 1, 1}, 2).points,
-                                  box_soup({0, 0, 0}, {1, 1, 1}, 2).triangles));
+  check_kept_whole(
+      discrete_model(box_soup({0, 0, 0}, {1, 1, 1}, 2).points, box_soup({0, 0, 0}, {1, 1, 1}, 2).triangles));
   const discrete_model given = chamfered_cube(0.1, 0.1).model();
   CHECK(virtual_model(given, uniform_size(1.0), {.share_of_size = 0}).suppressed().empty());
   CHECK(virtual_model(given, uniform_size(0.5)).suppressed().empty());
@@ -207,14 +216,14 @@ TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {
   check_kept_whole(model_of(BRepPrimAPI_MakeBox(10, 10, 0.1).Shape()));
   check_kept_whole(model_of(BRepPrimAPI_MakeCylinder(5, 0.1).Shape()));
   const outline wedge{{0, 0}, {10, 0}, {10, 0.15}, {0, 3}};
-  check_kept_whole(prism(wedge, wedge, {3, 1}, 10).model());
+  check_kept_whole(prism(wedge, wedge, {3, 1}, {0, 10}).model());
 }
 
 TEST_CASE("a hole far smaller than the size stays one") {
-  check_kept_whole(model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 3).Shape(),
-                                            BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, -1), gp_Dir(0, 0, 1)),
-                                                                     0.03, 5))
-                                .Shape()));
+  check_kept_whole(
+      model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 3).Shape(),
+                               BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, -1), gp_Dir(0, 0, 1)), 0.03, 5))
+                   .Shape()));
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 3).Shape();
   const TopoDS_Shape pin = BRepPrimAPI_MakeBox(gp_Pnt(5, 5, -1), gp_Pnt(5.1, 5.1, 5)).Shape();
   check_kept_whole(model_of(BRepAlgoAPI_Cut(box, pin).Shape()));
@@ -222,8 +231,7 @@ TEST_CASE("a hole far smaller than the size stays one") {
 
 TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {
   const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(5, 8).Shape();
-  const auto rounded = without_details(
-      model_of(chamfered(cylinder, 0.1, [](vec3 p) { return p.z > 7.9; })));
+  const auto rounded = without_details(model_of(chamfered(cylinder, 0.1, [](vec3 p) { return p.z > 7.9; })));
   CHECK(kinds_of(rounded) == std::vector{kind::narrow_face});
   CHECK(counts_of(rounded.topology()) == entity_counts{3, 3, 2});
   for (const double radius : {5.15, 4.85})
@@ -233,15 +241,71 @@ TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles
       const auto stepped = without_details(model_of(stepped_cylinder(radius, turn)));
       CHECK(kinds_of(stepped) == std::vector{kind::narrow_face});
       const bool is_split = std::abs(turn) > 0.05;
-      CHECK(counts_of(stepped.topology()) ==
-            (is_split ? entity_counts{4, 6, 4} : entity_counts{4, 5, 3}));
+      CHECK(counts_of(stepped.topology()) == (is_split ? entity_counts{4, 6, 4} : entity_counts{4, 5, 3}));
     }
 }
 
+TEST_CASE("circles whose starts are not quite beside each other become one all the same") {
+  for (const double turn : {0.0, 0.19, -0.19}) {
+    CAPTURE(turn);
+    CHECK(without_details(model_of(stepped_cylinder(1.02, turn, 1))).suppressed().size() == 1);
+    CHECK(without_details(model_of(stepped_cylinder(1.1, turn, 1))).suppressed().size() == 1);
+    outline lower, upper;
+    for (int i = 0; i < 48; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 48;
+      lower.push_back({1.1 * std::cos(angle), 1.1 * std::sin(angle)});
+      upper.push_back({std::cos(angle + turn), std::sin(angle + turn)});
+    }
+    polygon_surface pin = prism(lower, lower, {0, 0}, {0, 4});
+    std::erase_if(pin.triangles, [&](const simplex<2>& t) {
+      return std::all_of(t.begin(), t.end(), [&](local_id v) { return pin.points[v].z == 4; });
+    });
+    polygon_surface top = prism(upper, upper, {0, 0}, {0, 4});
+    std::erase_if(top.triangles, [&](const simplex<2>& t) {
+      return std::all_of(t.begin(), t.end(), [&](local_id v) { return top.points[v].z == 0; });
+    });
+    const auto first = static_cast<local_id>(pin.points.size());
+    for (const vec3 p : top.points)
+      pin.points.push_back(p + vec3{0, 0, 4});
+    for (const auto& [a, b, c] : top.triangles)
+      pin.triangles.push_back({a + first, b + first, c + first});
+    pin.ids.assign(pin.triangles.size(), no_id);
+    for (std::size_t i = 0; i < 48; ++i) { // the step
+      const auto at = [](const outline& ring, std::size_t k) {
+        return vec3{ring[k % 48].x, ring[k % 48].y, 4};
+      };
+      pin.add({at(lower, i), at(lower, i + 1), at(upper, i + 1), at(upper, i)},
+              0.25 * (at(lower, i) + at(lower, i + 1) + at(upper, i + 1) + at(upper, i)));
+    }
+    const discrete_model given = pin.model();
+    without_details(given);
+  }
+}
+
+TEST_CASE("a step between two materials") {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(10, 10, 10).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(10, 0.1, 0.15), gp_Pnt(20, 9.9, 9.85)).Shape());
+  const virtual_model made = without_details(model_of(both));
+  CHECK(counts_of(made.topology()).faces == 11);
+}
+
+TEST_CASE("vertices of short edges at the end of a strip move no further than others") {
+  for (const double height : {0.1, 0.15, 0.2, 0.24}) {
+    CAPTURE(height);
+    const auto own_groups = [](std::size_t side, std::size_t layer) { // so that they stay
+      return side == 1 || side == 3 ? static_cast<local_id>(10 * side + layer) : no_id;
+    };
+    const auto given = chamfered_cube(0.1, 0.1, {0, height, 2 * height, 10}, own_groups).model();
+    CHECK(without_details(given).suppressed().size() == (height < 0.16 ? 1 : 0));
+  }
+}
+
 TEST_CASE("where a fillet or a chamfer runs out it ends in an edge, beside a hole too") {
-  for (const double hole : {0.0, 0.4}) {
-    CAPTURE(hole);
-    const occt_model given = model_of(run_out_chamfer(hole));
+  for (const TopoDS_Shape& shape : {run_out_fillet(), run_out_chamfer_with_hole()}) {
+    const occt_model given = model_of(shape);
     const virtual_model made = without_details(given);
     CHECK(kinds_of(made) == std::vector{kind::narrow_end});
     CHECK(counts_of(made.topology()).faces == counts_of(given.topology()).faces);
@@ -253,10 +317,23 @@ TEST_CASE("chamfers that meet at corners go together") {
   const auto top = without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return p.z > 1.9; })));
   CHECK(kinds_of(top) == std::vector(4, kind::narrow_face));
   CHECK(counts_of(top.topology()) == entity_counts{6, 12, 8});
-  const auto flat = without_details(
-      model_of(chamfered(plate, 0.1, [](vec3 p) { return std::abs(p.z - 1) > 0.9; })));
+  const auto flat =
+      without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return std::abs(p.z - 1) > 0.9; })));
   CHECK(counts_of(flat.topology()) == entity_counts{6, 12, 8});
   without_details(model_of(chamfered(plate, 0.1, [](vec3) { return true; }))); // with triangles at corners
+}
+
+TEST_CASE("a narrow sheet that borders on nothing stays, one beside another sheet does not") {
+  polygon_surface sheet;
+  sheet.add({{0, 0, 0}, {10, 0, 0}, {10, 0.1, 0}, {0, 0.1, 0}}, {5, 0.05, 0});
+  const auto model = [&] {
+    return discrete_model(sheet.points, sheet.triangles, sheet.ids, {.allow_sheets = true});
+  };
+  CHECK(virtual_model(model(), uniform_size(1.0)).suppressed().empty());
+  sheet.add({{0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0}}, {5, 0, 5});
+  const virtual_model made(model(), uniform_size(1.0));
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+  CHECK(counts_of(made.topology()) == entity_counts{1, 4, 4});
 }
 
 TEST_CASE("a virtual model of a virtual model is the same") {
@@ -318,9 +395,11 @@ polygon_surface random_solid(std::mt19937& random) {
       }
     }
   }
-  const auto split_side = random() % ends[0].size();
-  return prism(ends[0], ends[1], {0, 0}, between(3, 12), 3, [&](std::size_t side, std::size_t layer) {
-    return side == split_side ? static_cast<local_id>(layer) : no_id;
+  const auto split_side = random() % ends[0].size(), other_side = random() % ends[0].size();
+  std::vector<double> heights{0, 0, between(3, 6), between(8, 12)};
+  heights[1] = random() % 2 == 0 ? between(0.05, 0.4) : 2;
+  return prism(ends[0], ends[1], {0, 0}, heights, [&](std::size_t side, std::size_t layer) {
+    return side == split_side || side == other_side ? static_cast<local_id>(layer) : no_id;
   });
 }
 
@@ -328,12 +407,12 @@ polygon_surface random_solid(std::mt19937& random) {
 
 TEST_CASE("random solids with random details stay models") {
   std::size_t suppressed = 0;
-  for (unsigned seed = 0; seed < 3000; ++seed) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
     const discrete_model given = random_solid(random).model();
-    if (joined(faults_of(given)) != "") { MESSAGE("bad"); continue; }
+    REQUIRE(joined(faults_of(given)) == "");
     suppressed += without_details(given, 1 + seed % 5).suppressed().size();
   }
-  CHECK(suppressed > 80);
+  CHECK(suppressed > 90);
 }
