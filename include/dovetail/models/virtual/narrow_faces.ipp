@@ -185,11 +185,15 @@ private:
     };
     for (const auto& loop : topology_.loops(face_)) {
       std::size_t left = 0;
+      double length = 0;
       for (const virtual_coedge& coedge : loop)
         if (!of_side(narrow_.sides[0], coedge.curve) && !of_side(narrow_.sides[1], coedge.curve) &&
-            !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve))
+            !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve)) {
           ++left;
-      if (left < 2 && left < loop.size())
+          length += topology_.length(coedge.curve);
+        }
+      const local_id cut = narrow_.sides[0].back().curve;
+      if (left < loop.size() && (left < 2 || length < least_loop * allowed_.length(topology_.middle(cut))))
         return false;
     }
     return true;

@@ -15,8 +15,6 @@ namespace dovetail::virtual_topology {
 
 namespace detail {
 
-inline constexpr double least_loop = 6; ///< limits: what is left of a smaller one would be no face's outline
-
 /// Where an edge of that length between two vertices may be given up, as far as these are concerned.
 inline bool ends_can_meet(const editable_topology& topology, const limits& allowed, local_id c) {
   const auto& ends = topology.curve(c).vertices;
@@ -50,15 +48,18 @@ DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const lim
   const auto& loop = topology.loops(p.face)[p.loop];
   const std::size_t count = loop.size();
   const virtual_coedge& gone = loop[p.place];
-  if (count < 3 ||
-      topology.length_of_loop(p) < detail::least_loop * allowed.length(topology.middle(gone.curve)))
+  if (count < 3 || topology.length_of_loop(p) < least_loop * allowed.length(topology.middle(gone.curve)))
     return false;
   const virtual_coedge& before = loop[(p.place + count - 1) % count];
   const virtual_coedge& after = loop[(p.place + 1) % count];
   if (topology.curve(before.curve).degenerate || topology.curve(after.curve).degenerate)
     return false;
-  const double turn = angle_between(topology.direction(before, 1), topology.direction(after, 0));
-  return turn <= std::numbers::pi - allowed.least_angle_deg / degrees_per_radian;
+  const auto turn = [&](const virtual_coedge& from, const virtual_coedge& to) {
+    return angle_between(topology.direction(from, 1), topology.direction(to, 0));
+  };
+  constexpr double same = 0.02; // radians, by which curves bend: a corner that is as sharp already only moves
+  return turn(before, after) <= std::max({std::numbers::pi - allowed.least_angle_deg / degrees_per_radian,
+                                          turn(before, gone) + same, turn(gone, after) + same});
 }
 
 DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, const limits& allowed,
