@@ -196,6 +196,20 @@ TEST_CASE("the end of a face that begins at a point is cut where it is wide enou
   check_kept_whole(chamfered_cube(0, 10.0 / 2).model()); // wide at once
 }
 
+TEST_CASE("the end that is cut leaves no short edge, nor a face that is all but gone") {
+  const auto split_neighbour = [](std::size_t side, std::size_t layer) {
+    return side == 1 ? static_cast<local_id>(layer) : no_id;
+  };
+  const virtual_model made = without_details(chamfered_cube(0, 1, {0, 1.6, 10}, split_neighbour).model());
+  CHECK(kinds_of(made) == std::vector{kind::narrow_end, kind::short_edge});
+  CHECK(made.suppressed()[1].length < 0.02);
+  CHECK(counts_of(made.topology()) == entity_counts{8, 17, 11});
+  const auto split_chamfer = [](std::size_t side, std::size_t layer) {
+    return side == 2 ? static_cast<local_id>(layer) : no_id;
+  };
+  check_kept_whole(chamfered_cube(0, 1, {0, 1.8, 10}, split_chamfer).model());
+}
+
 TEST_CASE("what is large enough stays, and so does everything at no share of the size") {
   check_kept_whole(chamfered_cube(0.2, 0.2).model());
   check_kept_whole(
@@ -357,53 +371,6 @@ TEST_CASE("a virtual model of a virtual model is the same") {
       }
   }
 }
-
-namespace {
-
-/// A convex polygon with chamfers and steps of random sizes at random places, straight or tapered.
-polygon_surface random_solid(std::mt19937& random) {
-  const auto between = [&](double a, double b) {
-    return a + (b - a) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
-  };
-  const int corners = 4 + static_cast<int>(random() % 3);
-  outline base;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + between(-0.15, 0.15)) / corners;
-    base.push_back({10 * std::cos(angle), 10 * std::sin(angle)});
-  }
-  std::array<outline, 2> ends;
-  const auto towards = [](vec2 p, vec2 q, double length) { return p + (length / norm(q - p)) * (q - p); };
-  for (std::size_t i = 0; i < base.size(); ++i) {
-    const vec2 before = base[(i + base.size() - 1) % base.size()], here = base[i],
-               after = base[(i + 1) % base.size()];
-    const auto what = random() % 4; // 0, 1: a chamfer; 2: a step behind the corner; 3: nothing
-    const std::array widths{between(0.02, 0.4), random() % 3 == 0 ? between(0.02, 0.8) : 0.0};
-    for (std::size_t end = 0; end < 2; ++end) {
-      const double width = end == 1 && widths[1] > 0 ? widths[1] : widths[0];
-      if (what < 2) {
-        ends[end].push_back(towards(here, before, width));
-        ends[end].push_back(towards(here, after, width * (what == 0 ? 1.0 : 2.0)));
-      } else {
-        ends[end].push_back(here);
-      }
-      if (what == 2) {
-        const vec2 along = towards({0, 0}, after - here, 1.0), out{along.y, -along.x};
-        ends[end].push_back(here + 3.0 * along);
-        ends[end].push_back(here + (3 + 1.5 * width) * along + width * out);
-        ends[end].push_back(here + 4.5 * along + width * out);
-        ends[end].push_back(here + (4.5 + 1.5 * width) * along);
-      }
-    }
-  }
-  const auto split_side = random() % ends[0].size(), other_side = random() % ends[0].size();
-  std::vector<double> heights{0, 0, between(3, 6), between(8, 12)};
-  heights[1] = random() % 2 == 0 ? between(0.05, 0.4) : 2;
-  return prism(ends[0], ends[1], {0, 0}, heights, [&](std::size_t side, std::size_t layer) {
-    return side == split_side || side == other_side ? static_cast<local_id>(layer) : no_id;
-  });
-}
-
-} // namespace
 
 TEST_CASE("random solids with random details stay models") {
   std::size_t suppressed = 0;

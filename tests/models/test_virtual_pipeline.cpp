@@ -84,3 +84,16 @@ TEST_CASE("a step all around a cylinder is one circle") {
   check_meshes(occt_shape_from(BRepAlgoAPI_Fuse(lower, upper).Shape()).model, 1,
                std::numbers::pi * 3 * (3.1 * 3.1 + 3 * 3));
 }
+
+TEST_CASE("random solids with random details are meshed, closed") {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const discrete_model given = random_solid(random).model();
+    const uniform_size size(1 + seed % 3);
+    const whole_mesh surface = require_valid(
+        generate<2>(virtual_model(given, size), size, parameters<>{}.with_options(in_parts(3))));
+    CHECK(euler_characteristic(surface) == 2);
+    CHECK(volume_inside(surface) == doctest::Approx(*given.volume()).epsilon(0.05));
+  }
+}
