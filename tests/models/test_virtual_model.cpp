@@ -125,6 +125,19 @@ TEST_CASE("a chamfer far narrower than the size becomes the edge that it was mad
   CHECK(made.summary().get("largest_deviation") == width);
 }
 
+TEST_CASE("of many strips in a row some stay: no face is moved by more than one may be wide") {
+  outline row{{0, 0}, {10, 0}};
+  for (int i = 0; i <= 6; ++i)
+    row.push_back({10, 3 + 0.12 * i});
+  row.insert(row.end(), {{10, 10}, {0, 10}});
+  const virtual_model made =
+      without_details(prism(row, row, {5, 5}, {0, 10}, [](std::size_t side, std::size_t) {
+                        return static_cast<local_id>(side % 2); // there are large faces in both groups
+                      }).model());
+  CHECK(made.suppressed().size() >= 2);
+  CHECK(made.suppressed().size() < 6);
+}
+
 TEST_CASE("a step in a side is the edge between what is before and behind it") {
   const outline stepped{{0, 0}, {5, 0}, {5.05, -0.1}, {10, -0.1}, {10, 10}, {0, 10}};
   const virtual_model made = without_details(prism(stepped, stepped, {5, 5}, {0, 10}).model());
