@@ -23,9 +23,9 @@ struct virtual_options {
 
 /// How much of a model was suppressed.
 struct suppression_counts {
-  std::size_t narrow_faces = 0;
-  std::size_t narrow_ends = 0; ///< of faces that stay
-  std::size_t short_edges = 0;
+  std::size_t narrow_faces = 0; ///< faces that are curves
+  std::size_t narrow_ends = 0;  ///< of faces that stay
+  std::size_t short_edges = 0;  ///< edges that are vertices
   double largest_deviation = 0; ///< the furthest that a vertex, or a face's end, was moved by it
 
   using fields = field_list<&suppression_counts::narrow_faces, &suppression_counts::narrow_ends,

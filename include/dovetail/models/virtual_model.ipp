@@ -6,6 +6,7 @@
 #include "dovetail/models/virtual/editable_topology.hpp"
 #include "dovetail/models/virtual/narrow_faces.hpp"
 #include "dovetail/models/virtual/short_edges.hpp"
+#include "dovetail/models/virtual/tiny_faces.hpp"
 #include "dovetail/models/virtual_model.hpp"
 #include "dovetail/sizing/bounds.hpp"
 
@@ -70,6 +71,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
   std::size_t found = 1;
   while (found > 0) { // a face that is gone leaves edges that are short now, and the other way round
     found = collapse_short_edges(topology, allowed, made->suppressed);
+    found += collapse_tiny_faces(topology, allowed, made->suppressed);
     found += collapse_narrow_faces(topology, allowed, made->suppressed);
     found += collapse_narrow_ends(topology, allowed, made->suppressed);
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace dovetail::virtual_topology {
@@ -87,6 +88,17 @@ DOVETAIL_INLINE bool editable_topology::has_closed_loops() const {
       for (std::size_t k = 0; k < loop.size(); ++k)
         if (ends(loop[k])[1] != ends(loop[(k + 1) % loop.size()])[0])
           return false;
+  return true;
+}
+
+DOVETAIL_INLINE bool editable_topology::is_last_of_group(local_id f) const {
+  const auto& faces = model_->topology().faces;
+  const std::string& group = faces[f].group;
+  if (group.empty())
+    return false;
+  for (std::size_t other = 0; other < faces.size(); ++other)
+    if (other != static_cast<std::size_t>(f) && faces[other].group == group && !loops_[other].empty())
+      return false;
   return true;
 }
 
@@ -217,6 +229,13 @@ DOVETAIL_INLINE void editable_topology::drop(const passage& p, local_id kept) {
   --passages_[gone.curve];
 }
 
+DOVETAIL_INLINE void editable_topology::drop_all(local_id c, local_id kept) {
+  for (auto passages = passages_of(c); !passages.empty(); passages = passages_of(c))
+    drop(passages.front(), kept);
+  for (const local_id v : curves_[c].vertices)
+    merge_vertices(v, kept);
+}
+
 DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<local_id>& curves,
                                                 local_id kept) {
   const auto is_gone = [&](const virtual_coedge& coedge) {
@@ -252,6 +271,7 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
 DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id kept, bool same_direction,
                                                       double width) {
   const auto& t = curves_[kept].t;
+  double furthest = curve_deviations_[gone] + width;
   for (const passage& p : passages_of(gone)) {
     virtual_coedge& coedge = loops_[p.face][p.loop][p.place];
     const auto& range = curves_[gone].t;
@@ -273,11 +293,14 @@ DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id ke
       pairs.push_back({at, std::clamp(found, least, most)});
     }
     pairs.push_back({t[1], own[1]});
+    for (const auto& [at, beside] :
+         pairs) // at its ends, whose vertices are not quite beside each other, more
+      furthest = std::max(furthest, distance(point(kept, at), model_->curve_point(coedge.own_curve, beside)));
     coedge.beside = std::move(pairs);
     coedge.curve = kept;
   }
   curves_[kept].tolerance = std::max(curves_[kept].tolerance, curves_[gone].tolerance);
-  curve_deviations_[kept] = std::max(curve_deviations_[kept], curve_deviations_[gone] + width);
+  curve_deviations_[kept] = std::max(curve_deviations_[kept], furthest);
   count_passages();
 }
 

@@ -11,25 +11,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace dovetail::virtual_topology {
 
 namespace detail {
-
-/// Whether a face is all that is left of a group that has a name: boundary conditions may be set on it.
-inline bool is_last_of_group(const editable_topology& topology, local_id f) {
-  const auto& faces = topology.model().topology().faces;
-  const std::string& group = faces[f].group;
-  if (group.empty())
-    return false;
-  for (std::size_t k = 0; k < faces.size(); ++k)
-    if (const auto other = static_cast<local_id>(k);
-        other != f && faces[k].group == group && !topology.loops(other).empty())
-      return false;
-  return true;
-}
 
 /// One attempt to make a curve of a face, on a copy of the topology.
 class narrow_face_collapse {
@@ -41,7 +27,7 @@ public:
   /// Nothing where it must not be.
   std::optional<editable_topology> run() {
     if ((narrow_.is_tip && !face_goes_on()) || !ends_can_be_dropped() ||
-        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !stays_near() || !faces_can_meet() ||
+        (narrow_.is_ring && !start_beside()) || !pair_vertices() || !faces_can_meet() ||
         !second_side_can_move())
       return std::nullopt;
     const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
@@ -58,9 +44,7 @@ public:
     }
     for (std::size_t k = 0; k < vertices[0].size(); ++k)
       topology_.merge_vertices(vertices[1][k], vertices[0][k]);
-    if (!topology_.has_closed_loops())
-      return std::nullopt;
-    return std::move(topology_);
+    return topology_.has_closed_loops() && stays_near() ? std::optional(std::move(topology_)) : std::nullopt;
   }
 
 private:
@@ -73,25 +57,10 @@ private:
     for (const auto& end : narrow_.ends)
       for (const local_id c : end)
         for (const passage& p : topology_.passages_of(c))
-          if (p.face != face_ && !can_be_dropped(topology_, allowed_, p) && !goes_on(p.face, c))
+          if (p.face != face_ && !can_be_dropped(topology_, allowed_, p) &&
+              !has_narrow_end_at(topology_, allowed_, p.face, c))
             return false;
     return true;
-  }
-
-  bool goes_on(local_id f, local_id c) const {
-    const auto has = [c](const std::vector<local_id>& end) {
-      return std::find(end.begin(), end.end(), c) != end.end();
-    };
-    if (const auto next = strip_of_face(topology_, allowed_, f);
-        next && std::any_of(next->ends.begin(), next->ends.end(), has) &&
-        width_of(topology_, allowed_, *next))
-      return true;
-    for (const turn_back& turn : turns_of_face(topology_, allowed_, f)) {
-      editable_topology trial = topology_;
-      if (const auto next = narrow_end(trial, allowed_, f, turn); next && has(next->ends[0]))
-        return true;
-    }
-    return false;
   }
 
   /// The second side of a ring starts beside the first one, at a vertex that it gets there if need be.
@@ -129,29 +98,20 @@ private:
         split(topology_, narrow_.sides[to], where);
       }
     }
-    const std::array vertices{vertices_of(topology_, narrow_.sides[0]),
-                              vertices_of(topology_, narrow_.sides[1])};
-    if (vertices[0].size() != vertices[1].size())
-      return false;
-    constexpr double furthest = 1.5; // limits: no vertex is moved further, in how many steps ever
-    for (std::size_t k = 0; k < vertices[0].size(); ++k) {
-      const local_id a = vertices[0][k], b = vertices[1][k];
-      const double before = std::max(topology_.deviation_of_vertex(a), topology_.deviation_of_vertex(b));
-      if (distance(point_of(a), point_of(b)) + before > furthest * limit_at(a))
-        return false;
-    }
-    return true;
+    return vertices_of(topology_, narrow_.sides[0]).size() == vertices_of(topology_, narrow_.sides[1]).size();
   }
 
-  /// No face is moved by more than the limit, in how many steps ever.
+  /// No face was moved by more than the limit, and no vertex by much more, in how many steps ever.
   bool stays_near() const {
-    for (std::size_t k = 0; k < narrow_.sides[1].size(); ++k) {
-      const local_id kept = narrow_.sides[0][k].curve, gone = narrow_.sides[1][k].curve;
-      if (width_ + std::max(topology_.deviation_of_curve(kept), topology_.deviation_of_curve(gone)) >
-          allowed_.length(topology_.middle(kept)))
-        return false;
-    }
-    return true;
+    const auto vertices = vertices_of(topology_, narrow_.sides[0]);
+    return std::all_of(narrow_.sides[0].begin(), narrow_.sides[0].end(),
+                       [&](const side_curve& kept) {
+                         return topology_.deviation_of_curve(kept.curve) <=
+                                allowed_.length(topology_.middle(kept.curve));
+                       }) &&
+           std::all_of(vertices.begin(), vertices.end(), [&](local_id v) {
+             return topology_.deviation_of_vertex(v) <= furthest_vertex * limit_at(v);
+           });
   }
 
   /// Whether faces behind the second side are wide enough to end at the first one instead.
@@ -195,14 +155,23 @@ private:
            (other == before && turn(loop[before], loop[p.place]) < sharp);
   }
 
-  /// The faces behind the two sides do not fold onto each other.
+  /// The faces behind the two sides do not fold onto each other, and there is one: a sheet of its own stays.
   bool faces_can_meet() const {
-    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k)
-      for (const passage& p : topology_.passages_of(narrow_.sides[0][k].curve))
-        for (const passage& q : topology_.passages_of(narrow_.sides[1][k].curve))
-          if (p.face != face_ && q.face != face_ && (p.face == q.face || !can_meet(p, q)))
+    bool has_neighbour = false;
+    const auto passages_behind = [&](const side_curve& passed) {
+      auto found = topology_.passages_of(passed.curve);
+      std::erase_if(found, [&](const passage& p) { return p.face == face_; });
+      has_neighbour = has_neighbour || !found.empty();
+      return found;
+    };
+    for (std::size_t k = 0; k < narrow_.sides[0].size(); ++k) {
+      const auto behind_second = passages_behind(narrow_.sides[1][k]);
+      for (const passage& p : passages_behind(narrow_.sides[0][k]))
+        for (const passage& q : behind_second)
+          if (p.face == q.face || !can_meet(p, q))
             return false;
-    return true;
+    }
+    return has_neighbour;
   }
 
   bool can_meet(const passage& p, const passage& q) const {
@@ -230,11 +199,15 @@ private:
     };
     for (const auto& loop : topology_.loops(face_)) {
       std::size_t left = 0;
+      double length = 0;
       for (const virtual_coedge& coedge : loop)
         if (!of_side(narrow_.sides[0], coedge.curve) && !of_side(narrow_.sides[1], coedge.curve) &&
-            !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve))
+            !std::count(narrow_.ends[0].begin(), narrow_.ends[0].end(), coedge.curve)) {
           ++left;
-      if (left < 2)
+          length += topology_.length(coedge.curve);
+        }
+      const local_id cut = narrow_.sides[0].back().curve;
+      if (left < loop.size() && (left < 2 || length < least_loop * allowed_.length(topology_.middle(cut))))
         return false;
     }
     return true;
@@ -251,12 +224,8 @@ private:
 
   /// Edges from the first side to the second become the vertex that is kept.
   void drop_end(const std::vector<local_id>& curves, local_id kept) {
-    for (const local_id c : curves) {
-      for (auto passages = topology_.passages_of(c); !passages.empty(); passages = topology_.passages_of(c))
-        topology_.drop(passages.front(), kept);
-      for (const local_id v : topology_.curve(c).vertices)
-        topology_.merge_vertices(v, kept);
-    }
+    for (const local_id c : curves)
+      topology_.drop_all(c, kept);
   }
 
   editable_topology topology_;
@@ -320,7 +289,7 @@ DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, c
     if (!narrow)
       continue;
     const auto width = width_of(topology, allowed, *narrow);
-    if (!width || detail::is_last_of_group(topology, f))
+    if (!width || topology.is_last_of_group(f))
       continue;
     auto collapsed = detail::collapsed(topology, allowed, f, *narrow, *width);
     if (!collapsed)

@@ -17,11 +17,14 @@ struct limits {
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay
 };
 
+inline constexpr double furthest_vertex = 1.5; ///< limits: none is moved further, in how many steps ever
+inline constexpr double least_loop = 6; ///< limits: what is left of a smaller one would be no face's outline
+
 /// Whether a curve is that short.
 bool is_short(const editable_topology& topology, const limits& allowed, local_id c);
 
 /// Whether a passage may be taken out of its loop: the loop stays one, far longer than the limit, without a
-/// corner sharper than allowed.
+/// corner sharper than allowed, unless it was so before.
 bool can_be_dropped(const editable_topology& topology, const limits& allowed, const passage& p);
 
 /// Whether the boundaries of all faces that must be kept are the same in both.

@@ -15,9 +15,6 @@ namespace dovetail::virtual_topology {
 
 namespace detail {
 
-inline constexpr double furthest = 1.5; ///< limits: no vertex is moved further, in how many steps ever
-inline constexpr double least_loop = 6; ///< limits: what is left of a smaller one would be no face's outline
-
 /// Where an edge of that length between two vertices may be given up, as far as these are concerned.
 inline bool ends_can_meet(const editable_topology& topology, const limits& allowed, local_id c) {
   const auto& ends = topology.curve(c).vertices;
@@ -27,7 +24,7 @@ inline bool ends_can_meet(const editable_topology& topology, const limits& allow
   const auto& second = topology.vertex(ends[1]);
   if (std::max(topology.deviation_of_vertex(ends[0]), topology.deviation_of_vertex(ends[1])) +
           distance(first.point, second.point) >
-      furthest * allowed.length(first.point))
+      furthest_vertex * allowed.length(first.point))
     return false; // vertices that have taken in others already
   for (std::size_t other = 0; other < topology.curve_count(); ++other) {
     const auto id = static_cast<local_id>(other);
@@ -51,15 +48,18 @@ DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const lim
   const auto& loop = topology.loops(p.face)[p.loop];
   const std::size_t count = loop.size();
   const virtual_coedge& gone = loop[p.place];
-  if (count < 3 ||
-      topology.length_of_loop(p) < detail::least_loop * allowed.length(topology.middle(gone.curve)))
+  if (count < 3 || topology.length_of_loop(p) < least_loop * allowed.length(topology.middle(gone.curve)))
     return false;
   const virtual_coedge& before = loop[(p.place + count - 1) % count];
   const virtual_coedge& after = loop[(p.place + 1) % count];
   if (topology.curve(before.curve).degenerate || topology.curve(after.curve).degenerate)
     return false;
-  const double turn = angle_between(topology.direction(before, 1), topology.direction(after, 0));
-  return turn <= std::numbers::pi - allowed.least_angle_deg / degrees_per_radian;
+  const auto turn = [&](const virtual_coedge& from, const virtual_coedge& to) {
+    return angle_between(topology.direction(from, 1), topology.direction(to, 0));
+  };
+  constexpr double same = 0.02; // radians, by which curves bend: a corner that is as sharp already only moves
+  return turn(before, after) <= std::max({std::numbers::pi - allowed.least_angle_deg / degrees_per_radian,
+                                          turn(before, gone) + same, turn(gone, after) + same});
 }
 
 DOVETAIL_INLINE bool keeps_faces(const editable_topology& before, const editable_topology& after,
@@ -85,7 +85,7 @@ DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, co
   std::sort(waiting.begin(), waiting.end());
   std::size_t count = 0;
   for (const auto& [length, c] : waiting) {
-    auto passages = topology.passages_of(c);
+    const auto passages = topology.passages_of(c);
     if (!detail::ends_can_meet(topology, allowed, c) ||
         !std::all_of(passages.begin(), passages.end(),
                      [&](const passage& p) { return can_be_dropped(topology, allowed, p); }))
@@ -94,9 +94,7 @@ DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, co
     if (topology.curves_at(gone) > topology.curves_at(kept))
       std::swap(kept, gone);
     editable_topology trial = topology;
-    for (; !passages.empty(); passages = trial.passages_of(c))
-      trial.drop(passages.front(), kept);
-    trial.merge_vertices(gone, kept);
+    trial.drop_all(c, kept);
     if (!keeps_faces(topology, trial, allowed))
       continue;
     found.push_back(

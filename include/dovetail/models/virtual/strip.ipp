@@ -209,6 +209,23 @@ DOVETAIL_INLINE std::optional<strip> narrow_end(editable_topology& topology, con
   return detail::cut_where_apart(topology, allowed, made) ? std::optional(made) : std::nullopt;
 }
 
+DOVETAIL_INLINE bool has_narrow_end_at(const editable_topology& topology, const limits& allowed, local_id f,
+                                       local_id c) {
+  const auto has = [c](const std::vector<local_id>& end) {
+    return std::find(end.begin(), end.end(), c) != end.end();
+  };
+  if (const auto whole = strip_of_face(topology, allowed, f);
+      whole && std::any_of(whole->ends.begin(), whole->ends.end(), has) &&
+      width_of(topology, allowed, *whole))
+    return true;
+  for (const turn_back& turn : turns_of_face(topology, allowed, f)) {
+    editable_topology trial = topology;
+    if (const auto end = narrow_end(trial, allowed, f, turn); end && has(end->ends[0]))
+      return true;
+  }
+  return false;
+}
+
 DOVETAIL_INLINE std::vector<local_id> vertices_of(const editable_topology& topology, const side& one) {
   std::vector<local_id> found;
   for (const side_curve& passed : one)

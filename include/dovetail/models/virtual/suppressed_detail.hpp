@@ -14,14 +14,14 @@ namespace dovetail {
 struct suppressed_detail {
   /// What it is, and what it became.
   enum class kind : std::uint8_t {
-    narrow_face, ///< a face that became a curve
+    narrow_face, ///< a face that became a curve, or a vertex
     narrow_end,  ///< the end of a face, which became a curve
     short_edge   ///< an edge that became a vertex
   };
-  kind what = kind::narrow_face;
-  local_id entity = no_id; ///< its number in the model that was given
-  vec3 place{};            ///< a point of it
-  double length = 0;       ///< the face's largest width, the edge's length
+  kind what = kind::narrow_face; ///< what it is
+  local_id entity = no_id;       ///< its number in the model that was given
+  vec3 place{};                  ///< a point of it
+  double length = 0;             ///< the face's largest width, the edge's length
 };
 
 /// A few words, such as "narrow face".

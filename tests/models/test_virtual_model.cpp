@@ -1,0 +1,398 @@
+/// Details far smaller than the size: what is given up, what stays, and that what is left is a model.
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "models/discrete_shapes.hpp"
+#include "models/virtual_shapes.hpp"
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+using namespace dovetail;
+using namespace dovetail::testing;
+using kind = suppressed_detail::kind;
+
+namespace {
+
+constexpr double limit = 0.25;
+
+/// At size 1: narrower than a quarter is a detail.
+virtual_model without_details(const any_geometry& given, double size = 1) {
+  virtual_model made(given, uniform_size(size));
+  CHECK(virtual_checks(made, given, 0.25 * size).faults() == "");
+  return made;
+}
+
+std::vector<kind> kinds_of(const virtual_model& model) {
+  std::vector<kind> kinds;
+  for (const auto& one : model.suppressed())
+    kinds.push_back(one.what);
+  return kinds;
+}
+
+void check_kept_whole(const any_geometry& given) {
+  const virtual_model made = without_details(given);
+  CHECK(made.suppressed().empty());
+  CHECK(counts_of(made.topology()) == counts_of(given.topology()));
+}
+
+occt_model model_of(const TopoDS_Shape& shape) {
+  return occt_shape_from(shape).model;
+}
+
+/// Edges of a shape whose middle is so.
+template <class Predicate>
+std::vector<TopoDS_Edge> edges_where(const TopoDS_Shape& shape, Predicate&& is_so) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  std::vector<TopoDS_Edge> found;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    const BRepAdaptor_Curve curve(edge);
+    if (const gp_Pnt p = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+        is_so(vec3{p.X(), p.Y(), p.Z()}))
+      found.push_back(edge);
+  }
+  return found;
+}
+
+template <class Predicate>
+TopoDS_Shape chamfered(const TopoDS_Shape& shape, double width, Predicate&& is_so) {
+  BRepFilletAPI_MakeChamfer made(shape);
+  for (const TopoDS_Edge& edge : edges_where(shape, is_so))
+    made.Add(width, edge);
+  return made.Shape();
+}
+
+/// A cylinder on one of another radius, turned against it.
+TopoDS_Shape stepped_cylinder(double radius, double turn, double upper_radius = 5) {
+  const gp_Ax2 turned(gp_Pnt(0, 0, 4), gp_Dir(0, 0, 1), gp_Dir(std::cos(turn), std::sin(turn), 0));
+  return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(radius, 4).Shape(),
+                          BRepPrimAPI_MakeCylinder(turned, upper_radius, 4).Shape())
+      .Shape();
+}
+
+TopoDS_Shape run_out_fillet() {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+  BRepFilletAPI_MakeFillet made(box);
+  for (const TopoDS_Edge& edge : edges_where(box, [](vec3 p) { return p.x > 9 && p.y > 9; }))
+    made.Add(0.01, 3, edge);
+  return made.Shape();
+}
+
+/// A cube with a chamfer that begins at a point, and a round hole in it.
+TopoDS_Shape run_out_chamfer_with_hole() {
+  const gp_Dir normal(1, 1, 0.1), along(1, -1, 0);
+  const gp_Pnt corner =
+      gp_Pnt(10, 10, 0).Translated(-20 * gp_Vec(along) - 20 * gp_Vec(normal.Crossed(along)));
+  const TopoDS_Shape beyond = BRepPrimAPI_MakeBox(gp_Ax2(corner, normal, along), 40, 40, 10).Shape();
+  const TopoDS_Shape drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(7.6, 7.6, 7.8), normal), 0.2, 9).Shape();
+  const TopoDS_Shape cut = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 10).Shape(), beyond).Shape();
+  return BRepAlgoAPI_Cut(cut, drill).Shape();
+}
+
+} // namespace
+
+TEST_CASE("a chamfer far narrower than the size becomes the edge that it was made of") {
+  const discrete_model given = chamfered_cube(0.1, 0.1).model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::narrow_face});
+  const auto& [what, face, place, width] = made.suppressed()[0];
+  CHECK(distance(place, {9.95, 9.95, 5}) < 0.1);
+  CHECK(distance(given.face_point(face, given.curve_uv(face, 0, 0)), {9.95, 9.95, 5}) < 5.1);
+  CHECK(width == doctest::Approx(0.1 * std::numbers::sqrt2));
+  CHECK(counts_of(given.topology()) == entity_counts{7, 15, 10});
+  CHECK(counts_of(made.topology()) == entity_counts{6, 12, 8});
+  CHECK(made.summary().get("narrow_faces") == 1);
+  CHECK(made.summary().get("short_edges") == 0);
+  CHECK(made.summary().get("largest_deviation") == width);
+}
+
+TEST_CASE("of many strips in a row some stay: no face is moved by more than one may be wide") {
+  outline row{{0, 0}, {10, 0}};
+  for (int i = 0; i <= 6; ++i)
+    row.push_back({10, 3 + 0.12 * i});
+  row.insert(row.end(), {{10, 10}, {0, 10}});
+  const virtual_model made =
+      without_details(prism(row, row, {5, 5}, {0, 10}, [](std::size_t side, std::size_t) {
+                        return static_cast<local_id>(side % 2); // there are large faces in both groups
+                      }).model());
+  CHECK(made.suppressed().size() >= 2);
+  CHECK(made.suppressed().size() < 6);
+}
+
+TEST_CASE("a step in a side is the edge between what is before and behind it") {
+  const outline stepped{{0, 0}, {5, 0}, {5.05, -0.1}, {10, -0.1}, {10, 10}, {0, 10}};
+  const virtual_model made = without_details(prism(stepped, stepped, {5, 5}, {0, 10}).model());
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+  CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
+}
+
+TEST_CASE("a short edge between long ones becomes the vertex of theirs that has more curves") {
+  polygon_surface jog = prism({{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}},
+                              {{0, 0}, {5, 0}, {10, 0}, {10, 10}, {5.1, 10}, {0, 10}}, {5, 5}, {0, 10});
+  const auto is_top = [&](const simplex<2>& t) {
+    return std::all_of(t.begin(), t.end(), [&](local_id v) { return jog.points[v].z == 10; });
+  };
+  std::erase_if(jog.triangles, is_top);
+  jog.ids.assign(jog.triangles.size(), no_id);
+  jog.add({{0, 0, 10}, {5, 0, 10}, {5, 5, 10}, {5.1, 5, 10}, {5.1, 10, 10}, {0, 10, 10}}, {2, 5, 10}, 1);
+  jog.add({{10, 0, 10}, {10, 10, 10}, {5.1, 10, 10}, {5.1, 5, 10}, {5, 5, 10}, {5, 0, 10}}, {8, 5, 10}, 2);
+  const discrete_model given = jog.model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::short_edge});
+  CHECK(made.suppressed()[0].length == doctest::Approx(0.1));
+  CHECK(distance(made.suppressed()[0].place, {5.05, 5, 10}) < 1e-9);
+  CHECK(distance(given.curve_point(made.suppressed()[0].entity, 0), {5.05, 5, 10}) < 0.051);
+  CHECK(made.summary().get("short_edges") == 1);
+  const auto before = counts_of(given.topology()), after = counts_of(made.topology());
+  CHECK(after == entity_counts{before.faces, before.curves - 1, before.vertices - 1});
+}
+
+TEST_CASE("where a neighbour's vertex is on one side of a strip only, the other side gets one") {
+  for (const std::size_t side : {1U, 3U}) { // before and behind it
+    const auto cube = chamfered_cube(0.1, 0.15, {0, 2, 5, 8, 10}, [side](std::size_t s, std::size_t layer) {
+      return s == side ? static_cast<local_id>(layer) : no_id;
+    });
+    const discrete_model given = cube.model();
+    const virtual_model made = without_details(given);
+    CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+    CHECK(made.topology().curves.size() == given.topology().curves.size() + 3);
+    CHECK(counts_of(made.topology()) == entity_counts{9, 9 + 12, 8 + 6});
+  }
+}
+
+TEST_CASE("a strip that is all that is left of a named group stays") {
+  outline both = chamfered_square(0.1);
+  both[0] = {0.1, 0};
+  both.push_back({0, 0.1});
+  const auto groups = [&](local_id first, local_id second) {
+    return prism(both, both, {5, 5}, {0, 10},
+                 [=](std::size_t s, std::size_t) { return s == 2   ? first
+                                                          : s == 5 ? second
+                                                                   : no_id; })
+        .model();
+  };
+  CHECK(without_details(groups(no_id, no_id)).suppressed().size() == 2);
+  CHECK(without_details(groups(7, no_id)).suppressed().size() == 1);
+  CHECK(without_details(groups(7, 8)).suppressed().empty());
+  CHECK(without_details(groups(7, 7)).suppressed().size() == 1);
+}
+
+TEST_CASE("the end of a face that begins at a point is cut where it is wide enough") {
+  const discrete_model given = chamfered_cube(0, 1).model();
+  const virtual_model made = without_details(given);
+  REQUIRE(kinds_of(made) == std::vector{kind::narrow_end});
+  const auto& [what, face, place, width] = made.suppressed()[0];
+  CHECK(made.topology().faces[face].coedges.size() == 3);
+  CHECK(width == doctest::Approx(0.9 * limit).epsilon(0.01));
+  CHECK(place.z == doctest::Approx(0.5 * 0.9 * limit * 10 / std::numbers::sqrt2).epsilon(0.05));
+  CHECK(made.summary().get("narrow_ends") == 1);
+  CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
+  check_kept_whole(chamfered_cube(0, 10.0 / 2).model()); // wide at once
+}
+
+TEST_CASE("the end that is cut leaves no short edge, nor a face that is all but gone") {
+  const auto split_neighbour = [](std::size_t side, std::size_t layer) {
+    return side == 1 ? static_cast<local_id>(layer) : no_id;
+  };
+  const virtual_model made = without_details(chamfered_cube(0, 1, {0, 1.6, 10}, split_neighbour).model());
+  CHECK(kinds_of(made) == std::vector{kind::narrow_end, kind::short_edge});
+  CHECK(made.suppressed()[1].length < 0.02);
+  CHECK(counts_of(made.topology()) == entity_counts{8, 17, 11});
+  const auto split_chamfer = [](std::size_t side, std::size_t layer) {
+    return side == 2 ? static_cast<local_id>(layer) : no_id;
+  };
+  check_kept_whole(chamfered_cube(0, 1, {0, 1.8, 10}, split_chamfer).model());
+}
+
+TEST_CASE("what is large enough stays, and so does everything at no share of the size") {
+  check_kept_whole(chamfered_cube(0.2, 0.2).model());
+  check_kept_whole(
+      discrete_model(box_soup({0, 0, 0}, {1, 1, 1}, 2).points, box_soup({0, 0, 0}, {1, 1, 1}, 2).triangles));
+  const discrete_model given = chamfered_cube(0.1, 0.1).model();
+  CHECK(virtual_model(given, uniform_size(1.0), {.share_of_size = 0}).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.5)).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.5), {.share_of_size = 0.5}).suppressed().size() == 1);
+  const auto small_there = [](vec3 p) { return p.x > 9 && p.y > 9 ? 0.5 : 1.0; };
+  CHECK(virtual_model(given, small_there).suppressed().empty());
+  for (const double share : {-0.1, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_size = share}), sizing_error);
+}
+
+TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {
+  const auto plate = box_soup({0, 0, 0}, {10, 10, 0.1}, 1);
+  check_kept_whole(discrete_model(plate.points, plate.triangles));
+  check_kept_whole(model_of(BRepPrimAPI_MakeBox(10, 10, 0.1).Shape()));
+  check_kept_whole(model_of(BRepPrimAPI_MakeCylinder(5, 0.1).Shape()));
+  const outline wedge{{0, 0}, {10, 0}, {10, 0.15}, {0, 3}};
+  check_kept_whole(prism(wedge, wedge, {3, 1}, {0, 10}).model());
+}
+
+TEST_CASE("a hole far smaller than the size stays one") {
+  check_kept_whole(
+      model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 3).Shape(),
+                               BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(5, 5, -1), gp_Dir(0, 0, 1)), 0.03, 5))
+                   .Shape()));
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 3).Shape();
+  const TopoDS_Shape pin = BRepPrimAPI_MakeBox(gp_Pnt(5, 5, -1), gp_Pnt(5.1, 5.1, 5)).Shape();
+  check_kept_whole(model_of(BRepAlgoAPI_Cut(box, pin).Shape()));
+}
+
+TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {
+  const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(5, 8).Shape();
+  const auto rounded = without_details(model_of(chamfered(cylinder, 0.1, [](vec3 p) { return p.z > 7.9; })));
+  CHECK(kinds_of(rounded) == std::vector{kind::narrow_face});
+  CHECK(counts_of(rounded.topology()) == entity_counts{3, 3, 2});
+  for (const double radius : {5.15, 4.85})
+    for (const double turn : {0.0, 0.03, -0.03, 1.0, 3.0, 6.0}) {
+      CAPTURE(radius);
+      CAPTURE(turn);
+      const auto stepped = without_details(model_of(stepped_cylinder(radius, turn)));
+      CHECK(kinds_of(stepped) == std::vector{kind::narrow_face});
+      const bool is_split = std::abs(turn) > 0.05;
+      CHECK(counts_of(stepped.topology()) == (is_split ? entity_counts{4, 6, 4} : entity_counts{4, 5, 3}));
+    }
+}
+
+TEST_CASE("circles whose starts are not quite beside each other become one all the same") {
+  for (const double turn : {0.0, 0.19, -0.19}) {
+    CAPTURE(turn);
+    CHECK(without_details(model_of(stepped_cylinder(1.02, turn, 1))).suppressed().size() == 1);
+    CHECK(without_details(model_of(stepped_cylinder(1.1, turn, 1))).suppressed().size() == 1);
+    outline lower, upper;
+    for (int i = 0; i < 48; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 48;
+      lower.push_back({1.1 * std::cos(angle), 1.1 * std::sin(angle)});
+      upper.push_back({std::cos(angle + turn), std::sin(angle + turn)});
+    }
+    polygon_surface pin = prism(lower, lower, {0, 0}, {0, 4});
+    std::erase_if(pin.triangles, [&](const simplex<2>& t) {
+      return std::all_of(t.begin(), t.end(), [&](local_id v) { return pin.points[v].z == 4; });
+    });
+    polygon_surface top = prism(upper, upper, {0, 0}, {0, 4});
+    std::erase_if(top.triangles, [&](const simplex<2>& t) {
+      return std::all_of(t.begin(), t.end(), [&](local_id v) { return top.points[v].z == 0; });
+    });
+    const auto first = static_cast<local_id>(pin.points.size());
+    for (const vec3 p : top.points)
+      pin.points.push_back(p + vec3{0, 0, 4});
+    for (const auto& [a, b, c] : top.triangles)
+      pin.triangles.push_back({a + first, b + first, c + first});
+    pin.ids.assign(pin.triangles.size(), no_id);
+    for (std::size_t i = 0; i < 48; ++i) { // the step
+      const auto at = [](const outline& ring, std::size_t k) {
+        return vec3{ring[k % 48].x, ring[k % 48].y, 4};
+      };
+      pin.add({at(lower, i), at(lower, i + 1), at(upper, i + 1), at(upper, i)},
+              0.25 * (at(lower, i) + at(lower, i + 1) + at(upper, i + 1) + at(upper, i)));
+    }
+    const discrete_model given = pin.model();
+    without_details(given);
+  }
+}
+
+TEST_CASE("a step between two materials") {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(10, 10, 10).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(10, 0.1, 0.15), gp_Pnt(20, 9.9, 9.85)).Shape());
+  const virtual_model made = without_details(model_of(both));
+  CHECK(counts_of(made.topology()).faces == 11);
+}
+
+TEST_CASE("vertices of short edges at the end of a strip move no further than others") {
+  for (const double height : {0.1, 0.15, 0.2, 0.24}) {
+    CAPTURE(height);
+    const auto own_groups = [](std::size_t side, std::size_t layer) { // so that they stay
+      return side == 1 || side == 3 ? static_cast<local_id>(10 * side + layer) : no_id;
+    };
+    const auto given = chamfered_cube(0.1, 0.1, {0, height, 2 * height, 10}, own_groups).model();
+    CHECK(without_details(given).suppressed().size() == (height < 0.16 ? 1 : 0));
+  }
+}
+
+TEST_CASE("where a fillet or a chamfer runs out it ends in an edge, beside a hole too") {
+  for (const TopoDS_Shape& shape : {run_out_fillet(), run_out_chamfer_with_hole()}) {
+    const occt_model given = model_of(shape);
+    const virtual_model made = without_details(given);
+    CHECK(kinds_of(made) == std::vector{kind::narrow_end});
+    CHECK(counts_of(made.topology()).faces == counts_of(given.topology()).faces);
+  }
+}
+
+TEST_CASE("chamfers that meet at corners go together") {
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(10, 10, 2).Shape();
+  const auto top = without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return p.z > 1.9; })));
+  CHECK(kinds_of(top) == std::vector(4, kind::narrow_face));
+  CHECK(counts_of(top.topology()) == entity_counts{6, 12, 8});
+  const auto flat =
+      without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return std::abs(p.z - 1) > 0.9; })));
+  CHECK(counts_of(flat.topology()) == entity_counts{6, 12, 8});
+  without_details(model_of(chamfered(plate, 0.1, [](vec3) { return true; }))); // with triangles at corners
+}
+
+TEST_CASE("a narrow sheet that borders on nothing stays, one beside another sheet does not") {
+  polygon_surface sheet;
+  sheet.add({{0, 0, 0}, {10, 0, 0}, {10, 0.1, 0}, {0, 0.1, 0}}, {5, 0.05, 0});
+  const auto model = [&] {
+    return discrete_model(sheet.points, sheet.triangles, sheet.ids, {.allow_sheets = true});
+  };
+  CHECK(virtual_model(model(), uniform_size(1.0)).suppressed().empty());
+  sheet.add({{0, 0, 0}, {0, 0, 10}, {10, 0, 10}, {10, 0, 0}}, {5, 0, 5});
+  const virtual_model made(model(), uniform_size(1.0));
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+  CHECK(counts_of(made.topology()) == entity_counts{1, 4, 4});
+}
+
+TEST_CASE("a virtual model of a virtual model is the same") {
+  for (const any_geometry& given :
+       {any_geometry(chamfered_cube(0.1, 0.1).model()), any_geometry(chamfered_cube(0, 1).model()),
+        any_geometry(model_of(stepped_cylinder(5.15, 1)))}) {
+    const virtual_model once(given, uniform_size(1.0));
+    const virtual_model twice(once, uniform_size(1.0));
+    CHECK(twice.suppressed().empty());
+    CHECK(counts_of(twice.topology()) == counts_of(once.topology()));
+    const auto& topology = twice.topology();
+    CHECK(joined(faults_of(twice, absence::of_faces)) == "");
+    for (std::size_t f = 0; f < topology.faces.size(); ++f)
+      for (std::size_t k = 0; k < topology.faces[f].coedges.size(); ++k) {
+        const auto& t = topology.curves[topology.faces[f].coedges[k].curve].t;
+        for (const double at : {t[0], 0.3 * t[0] + 0.7 * t[1], t[1]}) {
+          const auto face = static_cast<local_id>(f);
+          CHECK(norm(twice.curve_uv(face, static_cast<int>(k), at) -
+                     once.curve_uv(face, static_cast<int>(k), at)) < 1e-9);
+        }
+      }
+  }
+}
+
+TEST_CASE("random solids with random details stay models") {
+  std::size_t suppressed = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const discrete_model given = random_solid(random).model();
+    REQUIRE(joined(faults_of(given)) == "");
+    suppressed += without_details(given, 1 + seed % 5).suppressed().size();
+  }
+  CHECK(suppressed > 90);
+}
