@@ -217,7 +217,8 @@ private:
       const std::string name = "curve " + std::to_string(c);
       if (passages[c] == 0 ? !curve.degenerate : !curve.degenerate && (passages[c] < 2 || passages[c] > most))
         faults_.push_back(name + " has " + std::to_string(passages[c]) + " passages");
-      if (curve.tolerance > given_tolerance_ + limit_ + rounding_)
+      if (curve.tolerance >
+          given_tolerance_ + (1 + 4 * 1.5) * limit_ + rounding_) // its own way, and its ends and corners
         faults_.push_back(name + " moved by " + std::to_string(curve.tolerance));
       for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
         if (const auto& vertex = topology_.vertices[curve.vertices[end]];

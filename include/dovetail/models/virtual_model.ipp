@@ -20,14 +20,17 @@ namespace detail {
 
 /// How the end of a curve bends to where its vertex is now.
 struct bent_end {
-  vec3 from{};      ///< where the model's curve ends
-  vec3 by{};        ///< from there to the vertex
-  double reach = 0; ///< how far from there the curve is bent; 0: not at all
+  vec3 from{};         ///< where the model's curve ends
+  vec3 by{};           ///< from there to the vertex
+  double reach = 0;    ///< how far from there the curve is bent; 0: not at all
+  bool evenly = false; ///< as far as it goes, since it is short
 
   /// The part of `by` that a point of the model's curve is moved by, and how that changes with its distance.
   std::array<double, 2> share_at(vec3 p) const {
     const double left = reach > 0 ? 1 - distance(p, from) / reach : 0;
-    return left > 0 ? std::array{left * left, -2 * left / reach} : std::array{0.0, 0.0};
+    if (left <= 0)
+      return {0, 0};
+    return evenly ? std::array{left, -1 / reach} : std::array{left * left, -2 * left / reach};
   }
 };
 
@@ -43,19 +46,39 @@ struct virtual_model::data {
   void bend_curves(const any_geometry& model, const virtual_topology::editable_topology& edited) {
     constexpr double reach = 6; // displacements: the curve turns by no more than about 20 degrees
     bent.resize(topology.curves.size());
-    for (std::size_t c = 0; c < topology.curves.size(); ++c)
+    for (std::size_t c = 0; c < topology.curves.size(); ++c) {
+      auto& curve = topology.curves[c];
+      const auto id = static_cast<local_id>(c);
+      if (curve.degenerate || !edited.is_used(id))
+        continue;
       for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-        const auto& curve = topology.curves[c];
-        if (curve.degenerate || !edited.is_used(static_cast<local_id>(c)))
-          continue;
-        const vec3 vertex = topology.vertices[curve.vertices[end]].point;
-        if (edited.deviation_of_vertex(edited.curve(static_cast<local_id>(c)).vertices[end]) == 0)
+        if (edited.deviation_of_vertex(edited.curve(id).vertices[end]) == 0)
           continue; // what the model itself has apart stays so
+        const vec3 vertex = topology.vertices[curve.vertices[end]].point;
         const vec3 from = model.curve_point(inner_curve[c], curve.t[end]);
         const double moved = distance(vertex, from);
-        bent[c][end] = {from, vertex - from,
-                        std::min(reach * moved, 0.5 * edited.length(static_cast<local_id>(c)))};
+        const double chord = distance(from, model.curve_point(inner_curve[c], curve.t[1 - end]));
+        const bool is_short = 2 * reach * moved > chord && chord > 0;
+        bent[c][end] = {from, vertex - from, is_short ? chord : reach * moved, is_short};
+        curve.tolerance += moved;
       }
+    }
+  }
+
+  /// A face that goes on to where an edge was has its corner there: its passages are off by as much at most.
+  void widen_at_corners(const any_geometry& model) {
+    for (std::size_t f = 0; f < coedges.size(); ++f)
+      for (const auto& coedge : coedges[f])
+        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+          if (!coedge.corners[end])
+            continue;
+          const auto face = static_cast<local_id>(f);
+          auto& curve = topology.curves[coedge.curve];
+          const double own =
+              virtual_topology::own_parameter(model, inner_curve[coedge.curve], coedge, curve.t[end]);
+          curve.tolerance += distance(model.face_point(face, *coedge.corners[end]),
+                                      model.face_point(face, model.curve_uv(face, coedge.own, own)));
+        }
   }
 };
 
@@ -84,6 +107,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
       coedges.insert(coedges.end(), loop.begin(), loop.end());
   }
   made->bend_curves(model_, topology);
+  made->widen_at_corners(model_);
   data_ = std::move(made);
 }
 
@@ -106,12 +130,15 @@ DOVETAIL_INLINE vec3 virtual_model::curve_point(local_id c, double t) const {
 DOVETAIL_INLINE curve_frame virtual_model::curve_frame(local_id c, double t) const {
   const dovetail::curve_frame given = model_.curve_frame(data_->inner_curve[c], t);
   dovetail::curve_frame moved = given;
-  for (const auto& end : data_->bent[c]) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const detail::bent_end& end = data_->bent[c][i];
     const auto [share, slope] = end.share_at(given.point);
     const double away = distance(given.point, end.from);
+    const double leaving = away > 0 ? dot(given.point - end.from, given.derivative) / away
+                           : i == 0 ? norm(given.derivative)
+                                    : -norm(given.derivative);
     moved.point += share * end.by;
-    if (away > 0)
-      moved.derivative += (slope * dot(given.point - end.from, given.derivative) / away) * end.by;
+    moved.derivative += (slope * leaving) * end.by;
   }
   return moved;
 }
@@ -137,7 +164,20 @@ DOVETAIL_INLINE vec2 virtual_model::curve_uv(local_id f, int k, double t) const 
 
 DOVETAIL_INLINE double virtual_model::project_to_curve(local_id c, vec3 p, double seed) const {
   const auto& range = data_->topology.curves[c].t;
-  return std::clamp(model_.project_to_curve(data_->inner_curve[c], p, seed), range[0], range[1]);
+  double t = std::clamp(model_.project_to_curve(data_->inner_curve[c], p, seed), range[0], range[1]);
+  if (data_->bent[c][0].reach == 0 && data_->bent[c][1].reach == 0)
+    return t;
+  constexpr int most_steps = 30; // of Gauss and Newton
+  for (int step = 0; step < most_steps; ++step) {
+    const auto [point, derivative] = curve_frame(c, t);
+    const double square = norm_squared(derivative);
+    const double next =
+        square > 0 ? std::clamp(t + dot(p - point, derivative) / square, range[0], range[1]) : t;
+    if (next == t)
+      break;
+    t = next;
+  }
+  return t;
 }
 
 DOVETAIL_INLINE report virtual_model::summary() const {

@@ -61,6 +61,8 @@ public:
   bool is_used(local_id c) const { return passages_[c] > 0; }
   /// All that pass along a curve, face by face. Linear in the model.
   std::vector<passage> passages_of(local_id c) const;
+  /// Whether no curve has lost more than half of the distance between its ends.
+  bool has_long_curves() const;
   /// Whether each coedge ends at the vertex where the next one of its loop starts.
   bool has_closed_loops() const;
   /// Whether a face is all that is left of a group that has a name: boundary conditions may be set on it.
@@ -115,6 +117,9 @@ public:
 private:
   void count_passages();
   double measured_length(local_id c) const;
+  double measured_chord(local_id c) const {
+    return distance(point(c, curves_[c].t[0]), point(c, curves_[c].t[1]));
+  }
 
   const any_geometry* model_;
   std::vector<geometry_topology::vertex> vertices_;
@@ -123,6 +128,7 @@ private:
   std::vector<std::vector<std::vector<virtual_coedge>>> loops_; ///< by face
   std::vector<int> passages_;                                   ///< by curve
   std::vector<double> lengths_;                                 ///< by curve
+  std::vector<double> chords_;                                  ///< by curve: between the model's own ends
   std::vector<double> vertex_deviations_, curve_deviations_;
 };
 

@@ -60,8 +60,10 @@ DOVETAIL_INLINE editable_topology::editable_topology(const any_geometry* model)
   count_passages();
   vertex_deviations_.assign(vertices_.size(), 0);
   curve_deviations_.assign(curves_.size(), 0);
-  for (std::size_t c = 0; c < curves_.size(); ++c)
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
     lengths_.push_back(curves_[c].degenerate ? 0 : measured_length(static_cast<local_id>(c)));
+    chords_.push_back(curves_[c].degenerate ? 0 : measured_chord(static_cast<local_id>(c)));
+  }
 }
 
 DOVETAIL_INLINE void editable_topology::count_passages() {
@@ -80,6 +82,16 @@ DOVETAIL_INLINE std::vector<passage> editable_topology::passages_of(local_id c) 
         if (loops_[f][l][k].curve == c)
           found.push_back({static_cast<local_id>(f), l, k});
   return found;
+}
+
+DOVETAIL_INLINE bool editable_topology::has_long_curves() const {
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    const auto& [a, b] = curves_[c].vertices;
+    if (passages_[c] > 0 && !curves_[c].degenerate && a != b &&
+        distance(vertices_[a].point, vertices_[b].point) < 0.5 * chords_[c])
+      return false;
+  }
+  return true;
 }
 
 DOVETAIL_INLINE bool editable_topology::has_closed_loops() const {
@@ -194,6 +206,8 @@ DOVETAIL_INLINE local_id editable_topology::split(local_id c, double t) {
   }
   count_passages();
   lengths_.push_back(measured_length(behind));
+  chords_.push_back(measured_chord(behind));
+  chords_[c] = measured_chord(c);
   lengths_[c] = measured_length(c);
   return behind;
 }

@@ -44,7 +44,9 @@ public:
     }
     for (std::size_t k = 0; k < vertices[0].size(); ++k)
       topology_.merge_vertices(vertices[1][k], vertices[0][k]);
-    return topology_.has_closed_loops() && stays_near() ? std::optional(std::move(topology_)) : std::nullopt;
+    return topology_.has_closed_loops() && topology_.has_long_curves() && stays_near()
+               ? std::optional(std::move(topology_))
+               : std::nullopt;
   }
 
 private:
@@ -142,17 +144,19 @@ private:
     return true;
   }
 
-  /// Whether another coedge of its loop is a neighbour of a passage, at no sharp corner.
+  /// Whether another coedge of its loop has a vertex in common with a passage, and they do not follow each
+  /// other at a sharp corner. Around a seam they need not follow each other.
   bool goes_on_to(const passage& p, std::size_t other) const {
     const auto& loop = topology_.loops(p.face)[p.loop];
-    const std::size_t next = (p.place + 1) % loop.size();
-    const std::size_t before = (p.place + loop.size() - 1) % loop.size();
     const double sharp = std::numbers::pi - allowed_.least_angle_deg / degrees_per_radian;
-    const auto turn = [&](const virtual_coedge& a, const virtual_coedge& b) {
-      return angle_between(topology_.direction(a, 1), topology_.direction(b, 0));
+    const auto is_sharp = [&](std::size_t first, std::size_t second) {
+      return (first + 1) % loop.size() == second &&
+             angle_between(topology_.direction(loop[first], 1), topology_.direction(loop[second], 0)) >=
+                 sharp;
     };
-    return (other == next && turn(loop[p.place], loop[next]) < sharp) ||
-           (other == before && turn(loop[before], loop[p.place]) < sharp);
+    const auto own = topology_.ends(loop[p.place]), theirs = topology_.ends(loop[other]);
+    const bool touch = std::find_first_of(own.begin(), own.end(), theirs.begin(), theirs.end()) != own.end();
+    return touch && !is_sharp(p.place, other) && !is_sharp(other, p.place);
   }
 
   /// The faces behind the two sides do not fold onto each other, and there is one: a sheet of its own stays.

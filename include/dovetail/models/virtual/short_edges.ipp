@@ -95,7 +95,7 @@ DOVETAIL_INLINE std::size_t collapse_short_edges(editable_topology& topology, co
       std::swap(kept, gone);
     editable_topology trial = topology;
     trial.drop_all(c, kept);
-    if (!keeps_faces(topology, trial, allowed))
+    if (!trial.has_long_curves() || !keeps_faces(topology, trial, allowed))
       continue;
     found.push_back(
         {suppressed_detail::kind::short_edge, topology.inner_curve(c), topology.middle(c), length});

@@ -61,7 +61,7 @@ DOVETAIL_INLINE std::size_t collapse_tiny_faces(editable_topology& topology, con
       trial.drop_all(c, kept);
     }
     if (trial.deviation_of_vertex(kept) > furthest_vertex * allowed.length(place) ||
-        !trial.has_closed_loops() || !keeps_faces(topology, trial, allowed))
+        !trial.has_closed_loops() || !trial.has_long_curves() || !keeps_faces(topology, trial, allowed))
       continue;
     found.push_back({suppressed_detail::kind::narrow_face, f, place, longest});
     topology = std::move(trial);
