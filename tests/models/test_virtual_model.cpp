@@ -122,7 +122,7 @@ TEST_CASE("a chamfer far narrower than the size becomes the edge that it was mad
   CHECK(counts_of(made.topology()) == entity_counts{6, 12, 8});
   CHECK(made.summary().get("narrow_faces") == 1);
   CHECK(made.summary().get("short_edges") == 0);
-  CHECK(made.summary().get("largest_deviation") == width);
+  CHECK(made.summary().get("largest") == width);
 }
 
 TEST_CASE("of many strips in a row some stay: no face is moved by more than one may be wide") {

@@ -26,19 +26,19 @@ struct suppression_counts {
   std::size_t narrow_faces = 0; ///< faces that are curves
   std::size_t narrow_ends = 0;  ///< of faces that stay
   std::size_t short_edges = 0;  ///< edges that are vertices
-  double largest_deviation = 0; ///< the furthest that a vertex, or a face's end, was moved by it
+  double largest = 0;           ///< the widest of these faces, or the longest of these edges
 
   using fields = field_list<&suppression_counts::narrow_faces, &suppression_counts::narrow_ends,
-                            &suppression_counts::short_edges, &suppression_counts::largest_deviation>;
+                            &suppression_counts::short_edges, &suppression_counts::largest>;
 };
 
 /// Any `geometry_model` as it is meant at the sizes given: faces far narrower than the size are the curves
 /// along which their neighbours meet, edges far shorter than it are vertices. Numbers of faces and curves are
 /// those of the model that is wrapped: what is suppressed has a number and no boundary, and curves that were
-/// split come after the others; vertices are renumbered. Points inside of faces are on the model's surfaces,
-/// and points on curves on the model's curves, which the faces that end there instead may be as far away from
-/// as the curve's `tolerance`. After the virtual operations of CAD-based meshing (A. Sheffer, T. Blacker, M.
-/// Bercovier, "Virtual topology operators for meshing", 2000).
+/// split come after the others; vertices are renumbered. Points inside of faces are on the model's surfaces.
+/// Points on curves are on the model's curves, but near a vertex that is elsewhere now, to which they bend;
+/// how far the faces are from them at most is in `tolerance`. After the virtual operations of CAD-based
+/// meshing (A. Sheffer, T. Blacker, M. Bercovier, "Virtual topology operators for meshing", 2000).
 ///
 /// Copies are cheap. Queries take what the model's take, and a projection to a curve where a face ends at
 /// another's. Thread-safe as the model.

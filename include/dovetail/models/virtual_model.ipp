@@ -186,7 +186,7 @@ DOVETAIL_INLINE report virtual_model::summary() const {
     ++(one.what == suppressed_detail::kind::narrow_face  ? counts.narrow_faces
        : one.what == suppressed_detail::kind::narrow_end ? counts.narrow_ends
                                                          : counts.short_edges);
-    counts.largest_deviation = std::max(counts.largest_deviation, one.length);
+    counts.largest = std::max(counts.largest, one.length);
   }
   report made;
   made.name = "virtual topology";

@@ -125,8 +125,8 @@ private:
     return true;
   }
 
-  /// Whether the rest of a face's boundary is far from the curve that a passage of it is moved to, but where
-  /// it goes on from that passage without turning back.
+  /// Whether the rest of a face's boundary is further from the curve that a passage is moved to than the
+  /// passage is, but where it goes on from that passage without turning back: else the face would fold.
   bool is_wide(const passage& p, local_id moved_to) const {
     constexpr int samples = 9;
     constexpr double least = 1.1; // widths
@@ -238,10 +238,6 @@ private:
   strip narrow_;
   double width_;
 };
-
-} // namespace detail
-
-namespace detail {
 
 /// The topology without the strip: one of its sides stays, the first one if it may.
 inline std::optional<editable_topology> collapsed(const editable_topology& topology, const limits& allowed,
