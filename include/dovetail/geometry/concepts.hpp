@@ -98,7 +98,7 @@ struct geometry_topology {
 ///
 /// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
 ///
-/// Models: occt_model, discrete_model, curved_model, implicit_model, plane_domain.
+/// Models: occt_model, discrete_model, curved_model, implicit_model, plane_domain, virtual_model.
 template <class G>
 concept geometry_model = std::copy_constructible<G> &&
     requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {
@@ -130,7 +130,7 @@ concept geometry_model = std::copy_constructible<G> &&
 ///
 /// Failure: none.
 ///
-/// Models: occt_model, plane_domain, any_geometry.
+/// Models: occt_model, plane_domain, any_geometry, virtual_model.
 template <class G>
 concept geometry_model_with_planes = geometry_model<G> && requires(const G& g, local_id id) {
   { g.plane_of_face(id) } -> std::same_as<std::optional<surface_frame>>;
