@@ -7,7 +7,8 @@
 
 #include "dovetail/geometry/error_of_faces.hpp"
 
-#include <functional>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace dovetail::app {

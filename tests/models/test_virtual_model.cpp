@@ -235,6 +235,7 @@ TEST_CASE("what is large enough stays, and so does everything at no share of the
   CHECK(virtual_model(given, small_there).suppressed().empty());
   for (const double share : {-0.1, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_size = share}), sizing_error);
+  CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.least_angle_deg = -1}), sizing_error);
 }
 
 TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {

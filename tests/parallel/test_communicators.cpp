@@ -1,4 +1,5 @@
 #include "dovetail/distributed/relay.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/parallel/error_codec.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/self.hpp"
@@ -138,6 +139,14 @@ TEST_CASE("Errors keep their types on their way, also what is none of the librar
   CHECK_THROWS_WITH_AS(passed(usage_error("j")), "j", usage_error);
   CHECK_THROWS_WITH_AS(passed(std::runtime_error("k")), "k", error);
   CHECK_THROWS_AS(passed(5), error);
+  try {
+    passed(error_of_faces<intersection_error>("l", {3, 5}));
+  } catch (const intersection_error& problem) {
+    CHECK(problem.what() == std::string("l"));
+    const auto* blamed = dynamic_cast<const blames_faces*>(&problem);
+    REQUIRE(blamed);
+    CHECK(blamed->faces() == std::vector<local_id>{3, 5});
+  }
   CHECK_THROWS_AS(passed(cancelled()), cancelled);
   CHECK_THROWS_AS(passed(std::bad_alloc()), std::bad_alloc);
 }

@@ -86,6 +86,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
                                              const virtual_options& options)
     : model_(std::move(model)) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
+  sizing::checked_length(options.least_angle_deg, "the least angle beside details");
   const virtual_topology::limits allowed{
       [&size, share = options.share_of_size](vec3 p) { return share * size(p); }, options.least_angle_deg,
       options.kept_faces};

@@ -5,6 +5,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/parallel/error_codec.hpp"
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <new>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace dovetail::detail {
 
@@ -34,14 +36,18 @@ std::uint8_t kind_of_error(const std::exception& problem) {
                : kind_of_error<K + 1>(problem);
 }
 
+/// `faces`: those to blame, if any.
 template <std::size_t K = 0>
-[[noreturn]] void throw_kind(std::uint8_t kind, const std::string& text) {
+[[noreturn]] void throw_kind(std::uint8_t kind, const std::string& text, const std::vector<local_id>& faces) {
   if constexpr (K == std::tuple_size_v<known_errors>) {
     throw error(text);
   } else {
+    using known = std::tuple_element_t<K, known_errors>;
+    if (kind == K && !faces.empty())
+      throw error_of_faces<known>(text, faces);
     if (kind == K)
-      throw std::tuple_element_t<K, known_errors>(text);
-    throw_kind<K + 1>(kind, text);
+      throw known(text);
+    throw_kind<K + 1>(kind, text, faces);
   }
 }
 
@@ -50,10 +56,12 @@ template <std::size_t K = 0>
 namespace dovetail {
 
 DOVETAIL_INLINE byte_buffer encode_error(const std::exception_ptr& failure) {
-  const auto encoded = [](std::uint8_t kind, const std::string& text) {
+  const auto encoded = [](std::uint8_t kind, const std::string& text,
+                          const std::vector<local_id>& faces = {}) {
     byte_writer to;
     to.value(kind);
     to.text(text);
+    to.array(faces);
     return to.take();
   };
   try {
@@ -63,7 +71,9 @@ DOVETAIL_INLINE byte_buffer encode_error(const std::exception_ptr& failure) {
   } catch (const std::bad_alloc& problem) {
     return encoded(detail::no_memory, problem.what());
   } catch (const std::exception& problem) {
-    return encoded(detail::kind_of_error(problem), problem.what());
+    const auto* blamed = dynamic_cast<const blames_faces*>(&problem);
+    return encoded(detail::kind_of_error(problem), problem.what(),
+                   blamed ? blamed->faces() : std::vector<local_id>{});
   } catch (...) {
     return encoded(detail::other_error, "an exception that is not a std::exception");
   }
@@ -73,11 +83,12 @@ DOVETAIL_INLINE void throw_error(const byte_buffer& encoded) {
   byte_reader from(encoded);
   const auto kind = from.value<std::uint8_t>();
   const std::string text = from.text();
+  const auto faces = from.array<local_id>();
   if (kind == detail::stopped)
     throw cancelled();
   if (kind == detail::no_memory)
     throw std::bad_alloc();
-  detail::throw_kind(kind, text);
+  detail::throw_kind(kind, text, faces);
 }
 
 } // namespace dovetail

@@ -16,15 +16,6 @@ namespace detail {
 
 inline constexpr int samples_of_curve = 33;
 
-/// The value beside t in ascending pairs, linearly between them.
-inline double interpolated(const std::vector<std::array<double, 2>>& pairs, double t) {
-  const auto after = std::lower_bound(pairs.begin() + 1, pairs.end() - 1, t,
-                                      [](const auto& pair, double value) { return pair[0] < value; });
-  const auto& [t0, s0] = *(after - 1);
-  const auto& [t1, s1] = *after;
-  return s0 + (s1 - s0) * std::clamp((t - t0) / (t1 - t0), 0.0, 1.0);
-}
-
 } // namespace detail
 
 DOVETAIL_INLINE double own_parameter(const any_geometry& model, local_id inner, const virtual_coedge& coedge,
@@ -36,11 +27,13 @@ DOVETAIL_INLINE double own_parameter(const any_geometry& model, local_id inner, 
     return pairs.front()[1];
   if (t >= pairs.back()[0])
     return pairs.back()[1];
-  const double seed = detail::interpolated(pairs, t);
-  const double found = model.project_to_curve(coedge.own_curve, model.curve_point(inner, t), seed);
   const auto after = std::lower_bound(pairs.begin(), pairs.end(), t,
                                       [](const auto& pair, double value) { return pair[0] < value; });
-  const auto [least, most] = std::minmax((*(after - 1))[1], (*after)[1]);
+  const auto& [t0, s0] = *(after - 1);
+  const auto& [t1, s1] = *after;
+  const double seed = s0 + (s1 - s0) * (t - t0) / (t1 - t0);
+  const double found = model.project_to_curve(coedge.own_curve, model.curve_point(inner, t), seed);
+  const auto [least, most] = std::minmax(s0, s1);
   return std::clamp(found, least, most); // so that it never runs back
 }
 
@@ -258,14 +251,10 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
   for (auto& loop : loops_[f]) {
     if (std::none_of(loop.begin(), loop.end(), is_gone))
       continue;
-    const auto rest = [&] { // the loop begins behind what is cut out
-      const auto first = std::find_if_not(loop.begin(), loop.end(), is_gone);
-      std::rotate(loop.begin(), first, loop.end());
-      const auto last = std::find_if(loop.begin(), loop.end(), is_gone);
-      const auto behind = std::find_if_not(last, loop.end(), is_gone);
-      std::rotate(loop.begin(), behind, loop.end());
-    };
-    rest();
+    // The loop begins behind what is cut out.
+    std::rotate(loop.begin(), std::find_if_not(loop.begin(), loop.end(), is_gone), loop.end());
+    const auto last_gone = std::find_if(loop.rbegin(), loop.rend(), is_gone).base();
+    std::rotate(loop.begin(), last_gone, loop.end());
     std::erase_if(loop, is_gone);
     virtual_coedge &first = loop.front(), &last = loop.back();
     const auto end_of = [&](const virtual_coedge& coedge, bool at_start) {
