@@ -348,7 +348,10 @@ TEST_CASE("chamfers that meet at corners go together") {
   const auto flat =
       without_details(model_of(chamfered(plate, 0.1, [](vec3 p) { return std::abs(p.z - 1) > 0.9; })));
   CHECK(counts_of(flat.topology()) == entity_counts{6, 12, 8});
-  without_details(model_of(chamfered(plate, 0.1, [](vec3) { return true; }))); // with triangles at corners
+  // With triangles at the corners, which become vertices first.
+  const auto all = without_details(model_of(chamfered(plate, 0.1, [](vec3) { return true; })));
+  CHECK(kinds_of(all) == std::vector(20, kind::narrow_face));
+  CHECK(counts_of(all.topology()) == entity_counts{6, 12, 8});
 }
 
 TEST_CASE("a narrow sheet that borders on nothing stays, one beside another sheet does not") {
