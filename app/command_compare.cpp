@@ -6,6 +6,7 @@
 #include "failure.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
+#include "resolved_walls.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
 #include "sizes_for_elements.hpp"
@@ -89,6 +90,7 @@ private:
     show("geometry");
     suppression details(options_.model);
     model_source source = load_model(options_.model, D);
+    resolve_walls(source, options_.model, policies_.front(), parameters_);
     scale_to_elements(source, options_.model, policies_.front(), parameters_);
     details.apply(source);
     return source;

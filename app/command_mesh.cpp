@@ -6,6 +6,7 @@
 #include "output_formats.hpp"
 #include "policies.hpp"
 #include "rank_partitioner.hpp"
+#include "resolved_walls.hpp"
 #include "run_figures.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
@@ -168,7 +169,8 @@ public:
     parameters_.on_progress("geometry", 0, 0);
     model_source source = load_model(options_.model, D);
     figures_.seconds.geometry = clock_.seconds();
-    if (options_.model.elements) {
+    if (options_.model.elements || source.thin_walls) {
+      resolve_walls(source, options_.model, policies_, parameters_);
       scale_to_elements(source, options_.model, policies_, parameters_);
       figures_.seconds.scaling = clock_.seconds() - figures_.seconds.geometry;
     }

@@ -2,6 +2,7 @@
 #include "failure.hpp"
 #include "model_source.hpp"
 #include "output_formats.hpp"
+#include "resolved_walls.hpp"
 #include "run_figures.hpp"
 #include "run_setup.hpp"
 #include "sizes_for_elements.hpp"
@@ -43,6 +44,7 @@ int plan_run(const plan_options& options) {
   lines.update("geometry", 0, 0);
   model_source source = load_model(options.mesh.model, D);
   parameters.on_progress = lines.callbacks();
+  resolve_walls(source, options.mesh.model, policies, parameters);
   scale_to_elements(source, options.mesh.model, policies, parameters);
   details.apply(source);
   const mesh_plan plan = details.retried(

@@ -146,11 +146,16 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
     throw geometry_error(file.string() + ": the coordinates are too large to measure the model");
   std::string meshes;
   any_sizing size;
+  std::optional<automatic_points> automatic;
   if (is_drawing(file) && sizes.is_automatic()) // there are no curved faces and no walls
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
+  else if (automatic = sizes.points(geometry, dimension); automatic)
+    size = keep_bounds(automatic->field(automatic->walls_within(0)));
   else
     size = sizes.field(domain, &geometry, &meshes);
   model_source source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
+  if (automatic && automatic->has_thin_walls())
+    source.thin_walls = std::move(automatic);
   source.file = checksum;
   source.volume = std::move(volume);
   source.sizing_meshes = std::move(meshes);
@@ -215,13 +220,8 @@ std::optional<double> given_sizes::length(const box3& domain) const {
 
 any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes) const {
   const auto uniform = length(domain);
-  if (automatic_ && model) {
-    automatic_options options = *automatic_;
-    options.range.largest = uniform.value_or(0);
-    if (!uniform) // a default is for any file: details far smaller than the model are not followed
-      options.range.smallest = domain.diagonal() / 250;
-    return keep_bounds(automatic_size(*model, options));
-  }
+  if (automatic_ && model)
+    return keep_bounds(points(*model, 2)->field());
   if (!has_file())
     return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
   content_hash read;
@@ -237,6 +237,19 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
   if (meshes && read.value() != nothing)
     *meshes = hexadecimal(read.value());
   return sizes;
+}
+
+std::optional<automatic_points> given_sizes::points(const any_geometry& model, int dimension) const {
+  if (!automatic_)
+    return {};
+  const double diagonal = model.bounds().diagonal();
+  automatic_options options = *automatic_;
+  options.range.largest = length(model.bounds()).value_or(0);
+  if (!size_) { // a default is for any file: details far smaller than the model are not followed
+    options.range.smallest = diagonal / 250;
+    options.least_in_walls = dimension == 3 ? diagonal / 5000 : 0;
+  }
+  return automatic_points(model, options);
 }
 
 any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {

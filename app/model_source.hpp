@@ -30,6 +30,9 @@ public:
   /// names. Throws `sizing_error` for a size that does not suit the domain.
   any_sizing field(const box3& domain, const any_geometry* model = nullptr,
                    std::string* meshes = nullptr) const;
+  /// What the automatic field is made of, for tetrahedra with sizes for walls of any thickness; empty when
+  /// the sizes are not automatic.
+  std::optional<automatic_points> points(const any_geometry& model, int dimension) const;
   bool has_file() const { return !file_.empty(); }
   bool is_automatic() const { return automatic_.has_value(); }
   const std::string& text() const { return text_; } ///< of the file, wherever it came from
@@ -54,6 +57,8 @@ struct model_source {
   std::function<std::optional<double>()> volume{}; ///< of the model; empty where it does not know it
   std::vector<suppressed_detail> suppressed{};     ///< what of the model is left out
   std::optional<double> own_size{}; ///< the ambient size of a built-in model, which a given size scales
+  /// Of automatic sizes that have not been made smaller for thin walls yet, if there are such walls.
+  std::optional<automatic_points> thin_walls{};
 };
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict

@@ -1,4 +1,5 @@
 #include "dovetail/sizing/sources.hpp"
+#include "dovetail/sizing/thin_walls.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "dovetail/sizing/volume_prediction.hpp"
 
@@ -146,4 +147,45 @@ TEST_CASE("a field without bounds, half in the body") {
   const auto p = predict_volume_elements(mesh, h, {.density = 1});
   MESSAGE("cells ", p.cells);
   CHECK(p.elements == doctest::Approx(half_ball / 1.25e-7 + (1 - half_ball) * 1e3).epsilon(0.05));
+}
+
+TEST_CASE("a sheet of one layer has three elements per prism") {
+  constexpr double density = 8;
+  const double per_side = 1.5 * elements_per_unit<2>;
+  for (const double size : {0.1, 0.05}) {
+    for (const double thick : {0.2 * size, 0.5 * size}) {
+      simplicial_mesh<2> sheet;
+      append_box(sheet, {0, 0, 0}, {1, 1, thick});
+      const double wanted = (2 * per_side - density * thick / size) / (size * size);
+      CHECK(sizing::elements_in_thin_walls(sheet, uniform_size(size), density) ==
+            doctest::Approx(wanted).epsilon(0.05)); // at the rim rays leave by the narrow sides
+    }
+    simplicial_mesh<2> cube;
+    append_box(cube, {0, 0, 0}, {1, 1, 1});
+    // Beside the edges a cube is thin for nobody: the rays go straight in.
+    CHECK(sizing::elements_in_thin_walls(cube, uniform_size(size), density) == 0);
+  }
+}
+
+TEST_CASE("a wall between two solids is one for both") {
+  constexpr double size = 0.1, thick = 0.03, density = 8;
+  simplicial_mesh<2> alone, both;
+  append_box(alone, {0, 0, 0}, {1, 1, thick});
+  append_box(both, {0, 0, 0}, {1, 1, thick});
+  append_box(both, {0, 0, thick}, {1, 1, 2 * thick});
+  CHECK(sizing::elements_in_thin_walls(both, uniform_size(size), density) ==
+        doctest::Approx(2 * sizing::elements_in_thin_walls(alone, uniform_size(size), density)));
+}
+
+TEST_CASE("a ray meets the nearest triangle in its way, not the one it starts from") {
+  simplicial_mesh<2> boxes;
+  append_box(boxes, {0, 0, 0}, {1, 1, 1});
+  append_box(boxes, {0, 0, 3}, {1, 1, 4});
+  const sizing::ray_search rays(boxes);
+  CHECK(rays.distance({0.3, 0.4, 0}, {0, 0, 1}, 10) == doctest::Approx(1));
+  CHECK(rays.distance({0.3, 0.4, 1}, {0, 0, 1}, 10) == doctest::Approx(2));
+  CHECK(rays.distance({0.3, 0.4, 1}, {0, 0, 1}, 1.5) == 1.5);
+  CHECK(rays.distance({0.3, 0.4, 4}, {0, 0, 1}, 10) == 10);
+  const double slanted = std::sqrt(0.5);
+  CHECK(rays.distance({0.3, 0.4, 0}, {slanted, 0, slanted}, 10) == doctest::Approx(0.7 / slanted));
 }

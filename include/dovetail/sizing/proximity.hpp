@@ -16,6 +16,7 @@ namespace dovetail {
 /// How the distance between faces gives sizes.
 struct proximity_options {
   double elements = 2;         ///< edges across
+  double least_in_walls = 0;   ///< down to there sizes of thin walls may be below the smallest; 0: none is
   bool inside = true;          ///< through the solids: thin walls
   bool outside = false;        ///< through what is around them: gaps
   model_size_range range = {}; ///< no size is outside of it
@@ -23,42 +24,73 @@ struct proximity_options {
 
 namespace sizing {
 
-/// Finds, for a sample, the nearest sample that faces it on one side.
+/// Finds, for a sample, the nearest sample on the other side of the solid, or of the gap, beside it.
 class facing_search {
 public:
-  explicit facing_search(std::vector<surface_sample> samples)
-      : samples_(std::move(samples)),
+  facing_search(std::vector<surface_sample> samples, const geometry_topology& topology)
+      : samples_(std::move(samples)), topology_(topology),
         tree_(boxes_of_points(samples_, [](const surface_sample& s) { return s.point; }), leaf_size) {
     tree_.put_in_order(samples_);
   }
 
   const std::vector<surface_sample>& samples() const { return samples_; } ///< the samples that it searches
 
-  /// The sample of least height above the plane through `from` with unit normal `direction`, of at most
-  /// `reach`, that looks back; `slack` is the distance between samples. Null when there is none.
-  const surface_sample* find(const surface_sample& from, vec3 direction, double reach, double slack) const;
+  /// Of the samples that face `from` through what is on its side (0: behind its face, 1: in front), within a
+  /// height of `reach`, the lowest; `slack` is the distance between samples. Null when there is none.
+  const surface_sample* find(const surface_sample& from, std::size_t side, double reach, double slack) const;
 
 private:
   struct query {
     const surface_sample& from;
-    vec3 direction;
-    double height; ///< of the best so far
+    local_id solid; ///< that is looked through, or no_id
+    vec3 direction; ///< into it
+    double height;  ///< of the best so far
     double slack;
     const surface_sample* best;
   };
   static constexpr std::size_t leaf_size = 8;
-  static constexpr double looks_back =
-      -0.8; ///< largest cosine between the two normals; across an edge they differ by less
-  static constexpr double aside = 0.5; ///< largest offset along the plane per height
+  static constexpr double turned_away = 0.8; ///< least cosine between normals; across an edge it is less
+  static constexpr double aside = 0.5;       ///< largest offset along the plane per height
 
   /// Whether a box may hold a point above the plane, low enough and not too far aside.
   static bool may_hold(const box3& box, const query& q);
 
-  static void consider(const surface_sample& s, query& q);
+  void consider(const surface_sample& s, query& q) const;
+
+  /// Whether the solid that is looked through ends at a sample, with the face across the direction.
+  bool ends_at(const surface_sample& s, const query& q) const;
 
   std::vector<surface_sample> samples_;
+  const geometry_topology& topology_;
   box_tree tree_;
 };
+
+/// Which faces have a curve in common: the gap between such vanishes there, and no size resolves it.
+class meeting_faces {
+public:
+  explicit meeting_faces(const geometry_topology& topology);
+
+  /// Whether two faces have one, or are the same.
+  bool operator()(local_id a, local_id b) const;
+
+private:
+  std::vector<std::vector<local_id>> curves_; ///< of each face, in order
+};
+
+/// Thickness over size of a thin wall in which nearly all elements have dihedral angles of 24 degrees or more,
+/// though all their vertices are on its surface (docs/sizing.md).
+inline constexpr double thin_wall = 0.5;
+
+/// The size where a gap is so wide: gap / elements, within the range; in a wall that is thin for the smallest
+/// size, gap / `thin_wall`. Where even that is below the least one the wall is given up: trying would only
+/// give it more of the same.
+inline double size_across(double gap, bool is_wall, const proximity_options& options,
+                          const model_size_range& range) {
+  const double needed = gap / thin_wall;
+  if (is_wall && options.least_in_walls > 0 && needed >= options.least_in_walls && needed < range.smallest)
+    return needed;
+  return std::max(range.smallest, gap / options.elements);
+}
 
 /// The distance from a sample to the face that another one is on, near that one.
 template <geometry_model G>
@@ -69,25 +101,31 @@ double gap_to_face(const G& model, const surface_sample& from, const surface_sam
   return exact > 0 ? std::min(exact, rough) : rough;
 }
 
+/// A size at a gap, and how much of its face's area it stands for.
+struct gap_point : sized_point {
+  double area = 0; ///< of one of the two faces
+};
+
 /// Sizes of gap / elements at samples that are `spacing(sample)` apart.
 template <geometry_model G, class Spacing>
-std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options& options,
+std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& options,
                                          const model_size_range& range, const Spacing& spacing) {
   const double reach = options.elements * range.largest;
-  const facing_search search(sample_surface(model, spacing, {.per_face = 20000}));
-  std::vector<sized_point> points;
+  const facing_search search(sample_surface(model, spacing, {.per_face = 20000}), model.topology());
+  const meeting_faces meet(model.topology());
+  std::vector<gap_point> points;
   for (const surface_sample& s : search.samples()) {
     const auto& solids = model.topology().faces[s.face].solids;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (!(solids[side] == no_id ? options.outside : options.inside))
         continue;
-      const vec3 direction = side == 0 ? -s.normal : s.normal;
-      const surface_sample* facing = search.find(s, direction, reach, s.spacing);
+      const surface_sample* facing = search.find(s, side, reach, s.spacing);
       if (!facing)
         continue;
-      const double size = std::max(range.smallest, gap_to_face(model, s, *facing) / options.elements);
+      const bool is_wall = solids[side] != no_id && !meet(s.face, facing->face);
+      const double size = size_across(gap_to_face(model, s, *facing), is_wall, options, range);
       if (size < range.largest)
-        points.push_back({s.point, size});
+        points.push_back({{s.point, size}, s.area});
     }
   }
   return points;
@@ -96,15 +134,16 @@ std::vector<sized_point> gaps_at_samples(const G& model, const proximity_options
 /// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size. What
 /// one pass finds tells the next how near samples have to be: the last are at most two sizes apart.
 template <geometry_model G>
-std::vector<sized_point> proximity_points(const G& model, const proximity_options& options,
+std::vector<gap_point> proximity_points(const G& model, const proximity_options& options,
                                           const model_size_range& range) {
   checked_size(options.elements, "the number of elements across");
+  checked_length(options.least_in_walls, "the least size in walls");
   constexpr int passes = 3;
   constexpr double sizes_apart = 2;
   const auto even = [&](const surface_sample&) { return range.largest; };
   auto points = gaps_at_samples(model, options, range, even);
   for (int pass = 1; pass < passes && !points.empty(); ++pass) {
-    const point_sizes found(std::move(points), range.growth, range.largest);
+    const point_sizes found({points.begin(), points.end()}, range.growth, range.largest);
     const auto by_size = [&](const surface_sample& s) {
       return std::min(range.largest, sizes_apart * found(s.point));
     };
@@ -117,15 +156,17 @@ std::vector<sized_point> proximity_points(const G& model, const proximity_option
 
 /// The field that puts `elements` edges across walls and gaps thinner than `elements` x `range.largest`.
 /// Faces are sampled `range.largest` apart; distances are then taken to the face itself. Where two faces meet
-/// at a sharp angle the gap vanishes, and `range.smallest` is the size along the edge. Throws `sizing_error`
-/// for options out of range.
+/// at a sharp angle the gap vanishes, and `range.smallest` is the size along the edge. So it is in a thin
+/// wall, of less than half of that, unless `least_in_walls` allows sizes of twice its thickness. Throws
+/// `sizing_error` for options out of range.
 /// About n log n in the samples.
 /// \param model the model whose faces are sampled
 /// \param options elements per gap, and the range of sizes
 template <geometry_model G>
 point_sizes proximity_size(const G& model, const proximity_options& options = {}) {
   const model_size_range range = sizing::range_for(model.bounds(), options.range);
-  return {sizing::proximity_points(model, options, range), range.growth, range.largest};
+  const auto points = sizing::proximity_points(model, options, range);
+  return {{points.begin(), points.end()}, range.growth, range.largest};
 }
 
 } // namespace dovetail

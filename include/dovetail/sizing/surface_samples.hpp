@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct surface_sample {
   double curvature = 0;  ///< largest absolute principal curvature
   local_id face = no_id; ///< the number of the face in the model
   double spacing = 0;    ///< what the rule gave for the other members
+  double area = 0;       ///< of the face, about, that no other sample is nearer to; 0 on its curves
 };
 
 /// Where sampling ends, however small the spacing.
@@ -32,7 +35,8 @@ struct sampling_limits {
 };
 
 /// Samples faces on their curves, and inside by halving the parameter rectangle, until neighbours are at
-/// most `spacing(sample)` apart or a limit is met. Normals where the parametrisation is singular are zero.
+/// most `spacing(sample)` apart or a limit is met; large cells first, so that a limit leaves no part of a face
+/// without samples. Normals where the parametrisation is singular are zero.
 template <geometry_model G, class Spacing>
 class surface_sampler {
 public:
@@ -61,7 +65,6 @@ private:
 
   void sample_face(local_id f) {
     outline_.clear();
-    budget_ = limits_.per_face;
     const auto& face = model_.topology().faces[f];
     for (std::size_t k = 0; k < face.coedges.size(); ++k)
       sample_coedge(f, static_cast<int>(k), face.coedges[k]);
@@ -72,7 +75,7 @@ private:
       upper = {std::max(upper.x, a.x), std::max(upper.y, a.y)};
     }
     if (!outline_.empty())
-      sample_cell(f, lower, upper, 0);
+      sample_inside(f, {lower, upper, 0});
   }
 
   void sample_coedge(local_id f, int k, const geometry_topology::coedge& coedge) {
@@ -114,28 +117,50 @@ private:
     sample_between(f, uv_at, middle, m, s1, b, depth + 1);
   }
 
-  void sample_cell(local_id f, vec2 lower, vec2 upper, int depth) {
-    if (--budget_ < 0)
-      return;
-    const vec2 middle = 0.5 * (lower + upper);
-    const surface_sample m = sample_at(f, middle);
-    if (inside(middle))
-      samples_.push_back(m);
-    const vec3 west = model_.face_point(f, {lower.x, middle.y});
-    const vec3 east = model_.face_point(f, {upper.x, middle.y});
-    const vec3 south = model_.face_point(f, {middle.x, lower.y});
-    const vec3 north = model_.face_point(f, {middle.x, upper.y});
+  struct cell {
+    vec2 lower, upper; ///< of its parameters
+    int depth;
+    double half_of_parent = 0;        ///< the area that it takes over from the cell that was halved ...
+    std::size_t parent = no_sample; ///< ... whose sample this is
+  };
+  static constexpr std::size_t no_sample = std::numeric_limits<std::size_t>::max();
+
+  void sample_inside(local_id f, const cell& whole) {
+    std::deque<cell> cells{whole};
+    for (int budget = limits_.per_face; budget > 0 && !cells.empty(); --budget) {
+      sample_cell(f, cells.front(), cells);
+      cells.pop_front();
+    }
+  }
+
+  /// Adds the halves of a cell that is too large.
+  void sample_cell(local_id f, const cell& c, std::deque<cell>& cells) {
+    const vec2 middle = 0.5 * (c.lower + c.upper);
+    surface_sample m = sample_at(f, middle);
+    const vec3 west = model_.face_point(f, {c.lower.x, middle.y});
+    const vec3 east = model_.face_point(f, {c.upper.x, middle.y});
+    const vec3 south = model_.face_point(f, {middle.x, c.lower.y});
+    const vec3 north = model_.face_point(f, {middle.x, c.upper.y});
     const double across = distance(west, m.point) + distance(m.point, east);
     const double along = distance(south, m.point) + distance(m.point, north);
-    if (depth >= limits_.most_halvings ||
-        (depth >= limits_.least_halvings && std::max(across, along) <= m.spacing))
+    m.area = across * along;
+    if (c.parent != no_sample)
+      samples_[c.parent].area -= c.half_of_parent;
+    const std::size_t own = inside(middle) ? samples_.size() : no_sample;
+    if (own != no_sample)
+      samples_.push_back(m);
+    const auto halve = [&](vec2 lower, vec2 upper) {
+      cells.push_back({lower, upper, c.depth + 1, 0.5 * m.area, own});
+    };
+    if (c.depth >= limits_.most_halvings ||
+        (c.depth >= limits_.least_halvings && std::max(across, along) <= m.spacing))
       return;
     if (across >= along) {
-      sample_cell(f, lower, {middle.x, upper.y}, depth + 1);
-      sample_cell(f, {middle.x, lower.y}, upper, depth + 1);
+      halve(c.lower, {middle.x, c.upper.y});
+      halve({middle.x, c.lower.y}, c.upper);
     } else {
-      sample_cell(f, lower, {upper.x, middle.y}, depth + 1);
-      sample_cell(f, {lower.x, middle.y}, upper, depth + 1);
+      halve(c.lower, {c.upper.x, middle.y});
+      halve({c.lower.x, middle.y}, c.upper);
     }
   }
 
@@ -150,7 +175,6 @@ private:
   const G& model_;
   const Spacing& spacing_;
   sampling_limits limits_;
-  int budget_ = 0;
   std::vector<surface_sample> samples_;
   std::vector<std::array<vec2, 2>> outline_; ///< of the face at hand
 };

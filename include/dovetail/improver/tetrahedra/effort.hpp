@@ -19,10 +19,14 @@ struct effort_limits {
   std::size_t least;  ///< and at least so many
   std::size_t reward; ///< further tries for each one that paid
 };
-/// The credit of each kind of element.
+/// The credit of each kind of element, and an end to all.
 struct effort_plan {
   effort_limits open{.share = 0.05, .least = 100, .reward = 8};   ///< of elements that may come to something
   effort_limits narrow{.share = 0.002, .least = 30, .reward = 2}; ///< of elements that hardly will
+  /// Tries in all, as a share of the elements: where a third of a mesh is poor, as in thin walls, there is
+  /// always a little to gain. Meshes without them need a hundredth.
+  double most = 0.05;
+  std::size_t least_of_most = 1000; ///< and at least so many
 };
 
 /// Credit per prospect: every try costs one, one that pays brings the reward. While more than one try in
@@ -30,12 +34,14 @@ struct effort_plan {
 class effort {
 public:
   effort(const effort_plan& plan, std::size_t elements)
-      : accounts_{start(plan.open, elements), start(plan.narrow, elements)} {}
+      : accounts_{start(plan.open, elements), start(plan.narrow, elements)},
+        tries_left_(at_least(plan.least_of_most, plan.most, elements)) {}
 
   /// Whether there is credit for another try.
-  bool allows(prospect kind) const { return account_of(kind).credit > 0; }
+  bool allows(prospect kind) const { return tries_left_ > 0 && account_of(kind).credit > 0; }
   /// Charges a try, and rewards one that paid.
   void record(prospect kind, bool paid) {
+    --tries_left_;
     auto& charged = accounts_[static_cast<std::size_t>(kind)];
     charged.credit += (paid ? charged.reward : 0) - 1;
   }
@@ -44,13 +50,16 @@ private:
   struct account {
     std::size_t credit, reward;
   };
+  static std::size_t at_least(std::size_t least, double share, std::size_t elements) {
+    return std::max(least, static_cast<std::size_t>(share * static_cast<double>(elements)));
+  }
   static account start(const effort_limits& limits, std::size_t elements) {
-    const auto share = static_cast<std::size_t>(limits.share * static_cast<double>(elements));
-    return {std::max(limits.least, share), limits.reward};
+    return {at_least(limits.least, limits.share, elements), limits.reward};
   }
   const account& account_of(prospect kind) const { return accounts_[static_cast<std::size_t>(kind)]; }
 
   std::array<account, static_cast<std::size_t>(prospect::count)> accounts_;
+  std::size_t tries_left_;
 };
 
 } // namespace dovetail::improvement

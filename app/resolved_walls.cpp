@@ -1,0 +1,48 @@
+#include "resolved_walls.hpp"
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/number_text.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
+#include "dovetail/sizing/compose.hpp"
+
+#include <utility>
+
+namespace dovetail::app {
+namespace {
+
+/// In one piece so many are meshed best: interfaces across a thin wall have narrow triangles.
+constexpr double most_by_default = 600'000;
+
+/// Elements of the model with sizes that do not see thin walls; nothing where it cannot be planned as it was
+/// drawn, which it may be without its details.
+std::optional<double> elements_without(const model_source& source, const policies_of<3>& policies,
+                                       generate_options options) {
+  options.enlarged_above = 0;
+  try {
+    return plan_generation<3>(source.geometry, source.size, policies, options).predicted_elements;
+  } catch (const blames_faces&) {
+    return {};
+  }
+}
+
+} // namespace
+
+void resolve_walls(model_source& source, const model_options& wanted, const policies_of<3>& policies,
+                   const generate_options& options) {
+  if (!source.thin_walls)
+    return;
+  const automatic_points points = *std::exchange(source.thin_walls, {});
+  const auto elements = elements_without(source, policies, options);
+  if (!elements)
+    return;
+  const thin_wall_sizes walls =
+      points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
+  source.size = keep_bounds(points.field(walls));
+  if (walls.least > 0)
+    source.summary.warnings.push_back(
+        "walls thinner than about " + number_text(sizing::thin_wall * walls.least / walls.factor, 3) +
+        " are meshed with flat elements; to resolve all of them about " +
+        number_text(*elements + points.elements_in_walls(), 3) + " elements are needed: see --elements");
+}
+
+} // namespace dovetail::app

@@ -1,0 +1,125 @@
+/// @file
+/// What `thin_walls.hpp` declares.
+#pragma once
+
+#include "dovetail/core/linkage.hpp"
+#include "dovetail/sizing/checked_size.hpp"
+#include "dovetail/sizing/prediction.hpp"
+#include "dovetail/sizing/thin_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace dovetail::sizing {
+
+namespace detail {
+
+/// Whether a ray is in a box somewhere before `reach`.
+inline bool enters(const box3& box, vec3 from, vec3 direction, double reach) {
+  double first = 0, last = reach;
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0) {
+      if (from[k] < box.lower[k] || from[k] > box.upper[k])
+        return false;
+      continue;
+    }
+    const double a = (box.lower[k] - from[k]) / direction[k];
+    const double b = (box.upper[k] - from[k]) / direction[k];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
+
+/// Where along a ray its line meets a triangle, or infinity. T. Moeller and B. Trumbore, "Fast, minimum
+/// storage ray/triangle intersection", J. Graph. Tools 2 (1997) 21-28.
+inline double meeting_place(const std::array<vec3, 3>& corners, vec3 from, vec3 direction) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const vec3 ab = corners[1] - corners[0];
+  const vec3 ac = corners[2] - corners[0];
+  const vec3 across = cross(direction, ac);
+  const double det = dot(ab, across);
+  if (det == 0)
+    return none;
+  const vec3 away = from - corners[0];
+  const double u = dot(away, across) / det;
+  const vec3 turned = cross(away, ab);
+  const double v = dot(direction, turned) / det;
+  return u < 0 || v < 0 || u + v > 1 ? none : dot(ac, turned) / det;
+}
+
+/// The k-th of points spread evenly over a triangle, by the additive recurrence of M. Roberts' R2 sequence.
+inline vec3 point_of_triangle(const std::array<vec3, 3>& corners, std::size_t k) {
+  const double n = static_cast<double>(k) + 1;
+  double u = std::fmod(0.5 + 0.7548776662466927 * n, 1.0);
+  double v = std::fmod(0.5 + 0.5698402909980532 * n, 1.0);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  return corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE ray_search::ray_search(const simplicial_mesh<2>& surface)
+    : surface_(surface), tree_(boxes()) {}
+
+DOVETAIL_INLINE std::vector<box3> ray_search::boxes() const {
+  std::vector<box3> boxes(surface_.elements.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t)
+    for (const vec3& p : corners(t))
+      boxes[t].include(p);
+  return boxes;
+}
+
+DOVETAIL_INLINE double ray_search::distance(vec3 from, vec3 direction, double reach) const {
+  double best = reach;
+  const auto visit = [&](local_id t) {
+    if (const double at = detail::meeting_place(corners(t), from, direction); at > 1e-6 * reach)
+      best = std::min(best, at);
+  };
+  tree_.for_each([&](const box3& box, std::size_t) { return detail::enters(box, from, direction, best); },
+                 visit);
+  return best;
+}
+
+DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
+                                              double density) {
+  // Triangles of edge length h have 4 / sqrt(3) per square of it; the prism between two is three tetrahedra.
+  const double per_side = 1.5 * elements_per_unit<2>;
+  constexpr double samples = 20000;
+  const std::size_t count = surface.elements.size();
+  std::vector<std::array<vec3, 3>> corners(count);
+  std::vector<double> expected(count); // triangles of size h in each
+  double total = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto& v = surface.elements[t];
+    corners[t] = {surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
+    const double size = dovetail::checked_size(h, (corners[t][0] + corners[t][1] + corners[t][2]) / 3);
+    expected[t] = measure_of<2>(corners[t]) / (size * size);
+    total += expected[t];
+  }
+  const ray_search rays(surface);
+  double elements = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const vec3 inwards =
+        -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
+    const auto n = static_cast<std::size_t>(std::ceil(samples * expected[t] / total));
+    const double part = measure_of<2>(corners[t]) / static_cast<double>(n);
+    for (std::size_t k = 0; k < n && part > 0; ++k) {
+      const vec3 p = detail::point_of_triangle(corners[t], k);
+      const double size = dovetail::checked_size(h, p);
+      const double thick = 2 * per_side * size / density; // from there on the integral has as many
+      const double thickness = rays.distance(p, inwards, thick);
+      elements += part * std::max(0.0, per_side - 0.5 * density * thickness / size) / (size * size);
+    }
+  }
+  return elements;
+}
+
+} // namespace dovetail::sizing
