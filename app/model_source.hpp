@@ -59,6 +59,7 @@ struct model_source {
   std::optional<double> own_size{}; ///< the ambient size of a built-in model, which a given size scales
   /// Of automatic sizes that have not been made smaller for thin walls yet, if there are such walls.
   std::optional<automatic_points> thin_walls{};
+  any_sizing size_of_details{}; ///< what the size was before; empty when it is `size`
 };
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict

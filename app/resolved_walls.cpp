@@ -35,9 +35,8 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
   const auto elements = elements_without(source, policies, options);
   if (!elements)
     return;
-  const thin_wall_sizes walls =
-      points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
-  source.size = keep_bounds(points.field(walls));
+  const thin_wall_sizes walls = points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
+  source.size_of_details = std::exchange(source.size, keep_bounds(points.field(walls)));
   if (walls.least > 0)
     source.summary.warnings.push_back(
         "walls thinner than about " + number_text(sizing::thin_wall * walls.least / walls.factor, 3) +

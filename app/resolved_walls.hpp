@@ -1,5 +1,6 @@
 /// @file
-/// Automatic sizes in thin walls: small enough that elements in them are not flat, within a number of elements.
+/// Automatic sizes in thin walls: small enough that elements in them are not flat, within a number of
+/// elements.
 #pragma once
 
 #include "model_source.hpp"
@@ -7,9 +8,9 @@
 
 namespace dovetail::app {
 
-/// Makes the automatic sizes of a model smaller in its thin walls, as `automatic_points::walls_within` does for
-/// 600,000 elements in all, or the number that is wanted; a warning of its summary says which walls are given
-/// up. Does nothing for other sizes, and where the model cannot be planned as it was drawn. Throws what
+/// Makes the automatic sizes of a model smaller in its thin walls, as `automatic_points::walls_within` does
+/// for 600,000 elements in all, or the number that is wanted; a warning of its summary says which walls are
+/// given up. Does nothing for other sizes, and where the model cannot be planned as it was drawn. Throws what
 /// planning throws otherwise. One plan, if there are thin walls.
 void resolve_walls(model_source& source, const model_options& wanted, const policies_of<3>& policies,
                    const generate_options& options);

@@ -8,6 +8,13 @@
 #include <limits>
 
 namespace dovetail::app {
+namespace {
+
+any_sizing times(const any_sizing& size, double factor) {
+  return keep_bounds(scaled<any_sizing>(size, factor));
+}
+
+} // namespace
 
 template <int D>
 size_scale scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
@@ -37,7 +44,7 @@ size_scale scale_for_elements(const model_source& source, double elements, const
 }
 
 any_sizing scaled_sizes(const model_source& source, double factor) {
-  return keep_bounds(scaled<any_sizing>(source.size, factor));
+  return times(source.size, factor);
 }
 
 template <int D>
@@ -49,6 +56,8 @@ void scale_to_elements(model_source& source, const model_options& wanted, const 
   unbounded.enlarged_above = 0;
   const size_scale found = scale_for_elements<D>(source, *wanted.elements, policies, unbounded);
   source.size = scaled_sizes(source, found.factor);
+  if (source.size_of_details)
+    source.size_of_details = times(source.size_of_details, found.factor);
   if (const double off = found.predicted_elements / *wanted.elements; off > 1.2 || off < 1 / 1.2)
     source.summary.warnings.push_back("about " + number_text(*wanted.elements, 3) +
                                       " elements were asked for, and about " +

@@ -40,7 +40,9 @@ void suppression::simplify(model_source& source) {
   virtual_options options{.kept_faces = kept_};
   if (options_.suppress)
     options.share_of_size = 1;
-  const any_sizing size = options_.suppress ? any_sizing(uniform_size(*options_.suppress)) : source.size;
+  const any_sizing size = options_.suppress        ? any_sizing(uniform_size(*options_.suppress))
+                          : source.size_of_details ? source.size_of_details
+                                                   : source.size;
   forget(source);
   const virtual_model model(*as_drawn_, size, options);
   if (model.suppressed().empty()) {

@@ -19,7 +19,8 @@ public:
   /// What the options say is a detail. Throws `command_line_error` for a length that is none.
   explicit suppression(const model_options& options);
 
-  /// Takes the details away that are such at the final sizes of the source, and notes that in its summary.
+  /// Takes the details away that are such at the final sizes of the source, but for those in thin walls,
+  /// where a size is small at one place of many a detail; notes that in its summary.
   void apply(model_source& source);
 
   /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so

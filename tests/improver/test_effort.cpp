@@ -8,7 +8,8 @@ using namespace dovetail::improvement;
 namespace {
 
 /// How many tries are allowed of which each k-th pays.
-std::size_t tries(const effort_plan& plan, std::size_t elements, std::size_t k, prospect kind = prospect::open) {
+std::size_t tries(const effort_plan& plan, std::size_t elements, std::size_t k,
+                  prospect kind = prospect::open) {
   effort credit(plan, elements);
   std::size_t count = 0;
   for (; credit.allows(kind) && count < 1'000'000; ++count)
@@ -19,13 +20,15 @@ std::size_t tries(const effort_plan& plan, std::size_t elements, std::size_t k, 
 } // namespace
 
 TEST_CASE("without success the credit is a share of the elements, and at least so many tries") {
-  const effort_plan plan{.open = {.share = 0.01, .least = 50, .reward = 8}, .most = 0.05, .least_of_most = 100};
+  const effort_plan plan{
+      .open = {.share = 0.01, .least = 50, .reward = 8}, .most = 0.05, .least_of_most = 100};
   CHECK(tries(plan, 100'000, 0) == 1000);
   CHECK(tries(plan, 1000, 0) == 50);
 }
 
 TEST_CASE("while enough tries pay it goes on, up to a share of the elements") {
-  const effort_plan plan{.open = {.share = 0.01, .least = 50, .reward = 8}, .most = 0.05, .least_of_most = 100};
+  const effort_plan plan{
+      .open = {.share = 0.01, .least = 50, .reward = 8}, .most = 0.05, .least_of_most = 100};
   CHECK(tries(plan, 100'000, 1) == 5000);
   CHECK(tries(plan, 100'000, 8) == 5000);
   CHECK(tries(plan, 100'000, 16) < 2500);

@@ -32,11 +32,22 @@ implicit_model plate() {
 
 /// On the unit square, so thick at x = 0 and at x = 1.
 discrete_model wedge(double thick, double thick_at_one) {
-  const std::vector<vec3> points{{0, 0, 0},     {1, 0, 0},           {0, 1, 0},     {1, 1, 0},
-                                 {0, 0, thick}, {1, 0, thick_at_one}, {0, 1, thick}, {1, 1, thick_at_one}};
+  const std::vector<vec3> points{{0, 0, 0},     {1, 0, 0},           {0, 1, 0},
+                                 {1, 1, 0},     {0, 0, thick},       {1, 0, thick_at_one},
+                                 {0, 1, thick}, {1, 1, thick_at_one}};
   return {points,
-          {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-           {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}}};
+          {{0, 2, 3},
+           {0, 3, 1},
+           {4, 5, 7},
+           {4, 7, 6},
+           {0, 1, 5},
+           {0, 5, 4},
+           {2, 6, 7},
+           {2, 7, 3},
+           {0, 4, 6},
+           {0, 6, 2},
+           {1, 3, 7},
+           {1, 7, 5}}};
 }
 
 discrete_model sheet(double thick) {
@@ -51,7 +62,8 @@ discrete_model cube_with_layer(double thick) {
     for (const vec2 p : {vec2{0, 0}, vec2{1, 0}, vec2{1, 1}, vec2{0, 1}})
       s.mesh.points.push_back({p.x, p.y, z});
   const auto add = [&](std::array<local_id, 4> quad, local_id behind, local_id in_front) {
-    for (const simplex<2> t : {simplex<2>{quad[0], quad[1], quad[2]}, simplex<2>{quad[0], quad[2], quad[3]}}) {
+    for (const simplex<2> t :
+         {simplex<2>{quad[0], quad[1], quad[2]}, simplex<2>{quad[0], quad[2], quad[3]}}) {
       s.mesh.elements.push_back(t);
       s.groups.push_back(no_id);
       s.solid_of.push_back(behind);
@@ -180,8 +192,8 @@ TEST_CASE("a thin wall gets twice its thickness, where so small a size is allowe
 }
 
 TEST_CASE("towards an edge where its faces meet a wall is not followed") {
-  const auto h = proximity_size(
-      wedge(0.1, 0), {.least_in_walls = 0.001, .range = {.smallest = 0.04, .largest = 0.2}});
+  const auto h =
+      proximity_size(wedge(0.1, 0), {.least_in_walls = 0.001, .range = {.smallest = 0.04, .largest = 0.2}});
   for (double x = 0; x <= 1; x += 0.05)
     CHECK(h({x, 0.5, 0}) >= 0.04);
 }

@@ -68,7 +68,7 @@ private:
 
   box3 bounds_;
   model_size_range range_;
-  std::vector<sized_point> points_;       ///< all, those of thin walls too
+  std::vector<sized_point> points_;      ///< all, those of thin walls too
   std::vector<sizing::gap_point> walls_; ///< thin ones
 };
 

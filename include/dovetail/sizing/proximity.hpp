@@ -77,13 +77,17 @@ private:
   std::vector<std::vector<local_id>> curves_; ///< of each face, in order
 };
 
-/// Thickness over size of a thin wall in which nearly all elements have dihedral angles of 24 degrees or more,
-/// though all their vertices are on its surface (docs/sizing.md).
+/// Thickness over size of a thin wall in which nearly all elements have dihedral angles of 24 degrees or
+/// more, though all their vertices are on its surface (docs/sizing.md).
 inline constexpr double thin_wall = 0.5;
 
 /// The size where a gap is so wide: gap / elements, within the range; in a wall that is thin for the smallest
 /// size, gap / `thin_wall`. Where even that is below the least one the wall is given up: trying would only
 /// give it more of the same.
+/// \param gap a length: the width of a gap, or the thickness of a wall
+/// \param is_wall whether it is solid, and its two faces do not meet
+/// \param options elements across, and the least size in walls
+/// \param range of sizes, without zeros
 inline double size_across(double gap, bool is_wall, const proximity_options& options,
                           const model_size_range& range) {
   const double needed = gap / thin_wall;
@@ -109,7 +113,7 @@ struct gap_point : sized_point {
 /// Sizes of gap / elements at samples that are `spacing(sample)` apart.
 template <geometry_model G, class Spacing>
 std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& options,
-                                         const model_size_range& range, const Spacing& spacing) {
+                                       const model_size_range& range, const Spacing& spacing) {
   const double reach = options.elements * range.largest;
   const facing_search search(sample_surface(model, spacing, {.per_face = 20000}), model.topology());
   const meeting_faces meet(model.topology());
@@ -135,7 +139,7 @@ std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& 
 /// one pass finds tells the next how near samples have to be: the last are at most two sizes apart.
 template <geometry_model G>
 std::vector<gap_point> proximity_points(const G& model, const proximity_options& options,
-                                          const model_size_range& range) {
+                                        const model_size_range& range) {
   checked_size(options.elements, "the number of elements across");
   checked_length(options.least_in_walls, "the least size in walls");
   constexpr int passes = 3;

@@ -35,8 +35,8 @@ struct sampling_limits {
 };
 
 /// Samples faces on their curves, and inside by halving the parameter rectangle, until neighbours are at
-/// most `spacing(sample)` apart or a limit is met; large cells first, so that a limit leaves no part of a face
-/// without samples. Normals where the parametrisation is singular are zero.
+/// most `spacing(sample)` apart or a limit is met; large cells first, so that a limit leaves no part of a
+/// face without samples. Normals where the parametrisation is singular are zero.
 template <geometry_model G, class Spacing>
 class surface_sampler {
 public:
@@ -120,7 +120,7 @@ private:
   struct cell {
     vec2 lower, upper; ///< of its parameters
     int depth;
-    double half_of_parent = 0;        ///< the area that it takes over from the cell that was halved ...
+    double half_of_parent = 0;      ///< the area that it takes over from the cell that was halved ...
     std::size_t parent = no_sample; ///< ... whose sample this is
   };
   static constexpr std::size_t no_sample = std::numeric_limits<std::size_t>::max();

@@ -107,8 +107,7 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
   const ray_search rays(surface);
   double elements = 0;
   for (std::size_t t = 0; t < count; ++t) {
-    const vec3 inwards =
-        -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
+    const vec3 inwards = -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
     const auto n = static_cast<std::size_t>(std::ceil(samples * expected[t] / total));
     const double part = measure_of<2>(corners[t]) / static_cast<double>(n);
     for (std::size_t k = 0; k < n && part > 0; ++k) {
