@@ -102,6 +102,36 @@ TEST_CASE("elements across a thin wall are the wall's, and where it is thinnest 
   CHECK(all_poor(slab(0.2)).bad_by(poor_cause::thin_wall) == 0);
 }
 
+TEST_CASE("where two faces run into each other elements between them are in an angle of the model") {
+  // The slab, its thickness going with x, from an edge at x = 0 on.
+  auto blade = slab(1);
+  std::vector<local_id> kept(blade.points.size());
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    vec3& p = blade.points[v];
+    p.z *= 0.05 * p.x;
+    const auto same = std::find_if(blade.points.begin(), blade.points.begin() + static_cast<long>(v),
+                                   [&](vec3 q) { return distance(p, q) < 1e-9; });
+    kept[v] = static_cast<local_id>(same - blade.points.begin());
+  }
+  for (simplex<3>& element : blade.elements)
+    for (local_id& v : element)
+      v = kept[v];
+  std::erase_if(blade.elements, [](simplex<3> element) {
+    std::sort(element.begin(), element.end());
+    return std::adjacent_find(element.begin(), element.end()) != element.end();
+  });
+  const auto turned_by = [&](bool one_face) {
+    return all_poor(blade, std::vector<local_id>(blade.elements.size(), 0), [&](const auto& vertices) {
+      const bool below =
+          std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return blade.points[v].z < 1e-9; });
+      return host{2, below && !one_face ? 1 : 0};
+    });
+  };
+  CHECK(turned_by(false).bad_by(poor_cause::thin_wall) == 0);
+  CHECK(turned_by(false).bad_by(poor_cause::model_angle) > turned_by(true).bad_by(poor_cause::model_angle));
+  CHECK(turned_by(true).bad_by(poor_cause::thin_wall) > 0);
+}
+
 TEST_CASE("an element that nothing explains is the mesher's") {
   auto mesh = dovetail_test::jittered_cubes(4, 0);
   mesh.points[(2 * 5 + 2) * 5 + 2].x += 0.21; // of cells a quarter wide

@@ -58,7 +58,7 @@ public:
     };
     for (const local_id s : listed) {
       const auto side = static_cast<std::size_t>(s);
-      const bool on_surface = skeleton.side_hosts[side] != no_id;
+      const local_id face = skeleton.side_hosts[side];
       const auto& t = skeleton.sides[side];
       const double angle = smallest_corner_angle(corners(std::span<const vec3>(skeleton.points), t));
       simplex<2> own;
@@ -66,11 +66,32 @@ public:
         own[k] = in_piece(t[k]);
       triangles_.push_back({sorted_vertices(own), angle});
       for (std::size_t k = 0; k < 3; ++k)
-        flaps_.push_back({sorted_vertices(simplex<1>{own[(k + 1) % 3], own[(k + 2) % 3]}),
-                          skeleton.points[t[k]], on_surface});
+        flaps_.push_back(
+            {sorted_vertices(simplex<1>{own[(k + 1) % 3], own[(k + 2) % 3]}), skeleton.points[t[k]], face});
+      if (face != no_id)
+        for (const local_id v : own)
+          faces_of_vertices_.push_back({v, face});
     }
     sort_all(triangles_, [](const triangle& a, const triangle& b) { return a.vertices < b.vertices; });
     stable_sort_all(flaps_, [](const flap& a, const flap& b) { return a.edge < b.edge; });
+    sort_unique(faces_of_vertices_);
+    find_wedges(piece);
+  }
+
+  /// Whether two vertices of the element are on faces of the model that meet, somewhere on this boundary, in
+  /// an angle less than twice `bad_dihedral_deg`: what is between them is thin for that.
+  bool is_in_wedge(const simplex<3>& element) const {
+    std::vector<local_id> faces;
+    for (const local_id v : element) {
+      auto at = std::lower_bound(faces_of_vertices_.begin(), faces_of_vertices_.end(), std::pair(v, no_id));
+      for (; at != faces_of_vertices_.end() && at->first == v; ++at)
+        faces.push_back(at->second);
+    }
+    const auto has = [&](local_id face) {
+      return std::find(faces.begin(), faces.end(), face) != faces.end();
+    };
+    return std::any_of(wedges_.begin(), wedges_.end(),
+                       [&](const auto& pair) { return has(pair.first) && has(pair.second); });
   }
 
   /// The smallest angle between boundary triangles at the edge from p to q that has the place `within` in it,
@@ -81,24 +102,17 @@ public:
   };
   sector sector_at(const simplex<1>& edge, vec3 p, vec3 q, vec3 within) const {
     const auto [first, last] =
-        std::equal_range(flaps_.begin(), flaps_.end(), flap{sorted_vertices(edge), {}, false},
+        std::equal_range(flaps_.begin(), flaps_.end(), flap{sorted_vertices(edge), {}, no_id},
                          [](const flap& a, const flap& b) { return a.edge < b.edge; });
-    const vec3 axis = q - p;
-    const auto across = [&](vec3 place) {
-      const vec3 d = place - p;
-      return d - dot(d, axis) / norm_squared(axis) * axis;
-    };
-    const auto angle = [](vec3 a, vec3 b) {
-      return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
-    };
+    const auto across = [&](vec3 place) { return off_line(place, p, q - p); };
     const vec3 middle = across(within);
     sector found;
     for (auto a = first; a != last; ++a)
       for (auto b = a + 1; b != last; ++b) {
-        const double between = angle(across(a->tip), across(b->tip));
-        const double by_way = angle(across(a->tip), middle) + angle(middle, across(b->tip));
+        const double between = degrees(across(a->tip), across(b->tip));
+        const double by_way = degrees(across(a->tip), middle) + degrees(middle, across(b->tip));
         if (between < found.degrees && by_way < between + rounding_deg)
-          found = {between, a->on_surface && b->on_surface};
+          found = {between, a->face != no_id && b->face != no_id};
       }
     return found;
   }
@@ -121,10 +135,40 @@ private:
   struct flap {
     simplex<1> edge; ///< sorted, of the piece
     vec3 tip;        ///< the vertex opposite to it
-    bool on_surface;
+    local_id face;   ///< of the model, or no_id
   };
+
+  /// From a line, at a right angle, to a place.
+  static vec3 off_line(vec3 place, vec3 on_line, vec3 direction) {
+    const vec3 d = place - on_line;
+    return d - dot(d, direction) / norm_squared(direction) * direction;
+  }
+  static double degrees(vec3 a, vec3 b) {
+    return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
+  }
+
+  void find_wedges(const mesh_piece& piece) {
+    for (std::size_t first = 0, last = 0; first < flaps_.size(); first = last) {
+      const simplex<1> edge = flaps_[first].edge;
+      while (last < flaps_.size() && flaps_[last].edge == edge)
+        ++last;
+      const vec3 p = piece.mesh.points[edge[0]], axis = piece.mesh.points[edge[1]] - p;
+      for (std::size_t a = first; a < last; ++a)
+        for (std::size_t b = a + 1; b < last; ++b) {
+          const auto [lower, upper] = std::minmax(flaps_[a].face, flaps_[b].face);
+          if (lower != no_id && lower != upper &&
+              degrees(off_line(flaps_[a].tip, p, axis), off_line(flaps_[b].tip, p, axis)) <
+                  2 * bad_dihedral_deg)
+            wedges_.push_back({lower, upper});
+        }
+    }
+    sort_unique(wedges_);
+  }
+
   std::vector<triangle> triangles_;
   std::vector<flap> flaps_;
+  std::vector<std::pair<local_id, local_id>> faces_of_vertices_; ///< vertex, face
+  std::vector<std::pair<local_id, local_id>> wedges_;            ///< faces that meet in a small angle
 };
 
 /// The cause for one element, whose smallest angle is at its ridge `worst` and below a limit.
@@ -155,7 +199,7 @@ DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const fine_skeleton
     return v < shared && skeleton.point_hosts[piece.skeleton_points[v]].dimension < 3;
   };
   if (std::all_of(element.begin(), element.end(), on_surface))
-    return poor_cause::thin_wall;
+    return boundary.is_in_wedge(element) ? poor_cause::model_angle : poor_cause::thin_wall;
   return std::all_of(element.begin(), element.end(), [&](local_id v) { return v < shared; })
              ? poor_cause::thin_piece
              : poor_cause::inside;

@@ -24,7 +24,7 @@ struct effort_plan {
   effort_limits open{.share = 0.05, .least = 100, .reward = 8};   ///< of elements that may come to something
   effort_limits narrow{.share = 0.002, .least = 30, .reward = 2}; ///< of elements that hardly will
   /// Tries in all, as a share of the elements: where a third of a mesh is poor, as in thin walls, there is
-  /// always a little to gain. Meshes without them need a hundredth.
+  /// always a little to gain. Meshes without them need a fiftieth.
   double most = 0.05;
   std::size_t least_of_most = 1000; ///< and at least so many
 };
