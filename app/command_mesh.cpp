@@ -436,7 +436,7 @@ private:
           std::to_string(bad) + " tetrahedra under " + std::to_string(bad_dihedral_deg) +
           " degrees are in walls thinner than the size; the thinnest is " +
           number_text(poor.thinnest_wall, 3) + " thick at " + place_text(poor.thinnest_place) +
-          ": --proximity with a larger number, or smaller sizes there, put more elements across");
+          ": smaller sizes there put more elements across");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

@@ -6,6 +6,7 @@
 #include "run_figures.hpp"
 #include "run_setup.hpp"
 #include "sizes_for_elements.hpp"
+#include "stage_figures.hpp"
 #include "suppression.hpp"
 #include "terminal_progress.hpp"
 
@@ -67,6 +68,7 @@ int plan_run(const plan_options& options) {
       bytes_of_program +
       costs<D>.parent_bytes_per_side * predicted_skeleton_sides<D>(plan.predicted_elements, plan.subdomains);
   figures.disk_bytes = plan.predicted_elements * bytes_per_element(make_formats<D>(options.mesh));
+  collect_warnings(source.summary, figures.warnings);
   std::fputs(plan_text(figures).c_str(), stdout);
   if (!options.report.empty())
     write_plan(figures, options.report);

@@ -30,8 +30,8 @@ public:
   /// names. Throws `sizing_error` for a size that does not suit the domain.
   any_sizing field(const box3& domain, const any_geometry* model = nullptr,
                    std::string* meshes = nullptr) const;
-  /// What the automatic field is made of, for tetrahedra with sizes for walls of any thickness; empty when
-  /// the sizes are not automatic.
+  /// What the automatic field is made of, for tetrahedra with sizes in thin walls; empty when the sizes are
+  /// not automatic.
   std::optional<automatic_points> points(const any_geometry& model, int dimension) const;
   bool has_file() const { return !file_.empty(); }
   bool is_automatic() const { return automatic_.has_value(); }

@@ -33,8 +33,12 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
     return;
   const automatic_points points = *std::exchange(source.thin_walls, {});
   const auto elements = elements_without(source, policies, options);
-  if (!elements)
+  if (!elements) {
+    source.summary.warnings.push_back("thin walls are meshed with flat elements: their sizes need a plan of "
+                                      "the model as it was drawn, which "
+                                      "could not be made");
     return;
+  }
   const thin_wall_sizes walls = points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
   source.size_of_details = std::exchange(source.size, keep_bounds(points.field(walls)));
   if (walls.least > 0)

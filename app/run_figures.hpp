@@ -108,6 +108,7 @@ struct plan_figures {
   double worker_bytes = 0;
   double parent_bytes = 0;
   double disk_bytes = 0;
+  std::vector<std::string> warnings = {};
 };
 
 std::string plan_text(const plan_figures& figures);

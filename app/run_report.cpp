@@ -240,7 +240,8 @@ void write_plan(const plan_figures& figures, const std::filesystem::path& file) 
               {"predicted_seconds", figures.seconds},
               {"predicted_worker_bytes", figures.worker_bytes},
               {"predicted_parent_bytes", figures.parent_bytes},
-              {"predicted_disk_bytes", figures.disk_bytes}},
+              {"predicted_disk_bytes", figures.disk_bytes},
+              {"warnings", figures.warnings}},
              file);
 }
 

@@ -262,6 +262,8 @@ std::string plan_text(const plan_figures& figures) {
   mebibytes("Memory of a worker (MiB)", figures.worker_bytes);
   mebibytes("Memory of the parent (MiB)", figures.parent_bytes);
   mebibytes("Disk, with the spool (MiB)", figures.disk_bytes);
+  for (const auto& warning : figures.warnings)
+    rows.heading("warning: " + warning);
   return rows.text();
 }
 

@@ -15,7 +15,8 @@ write_sheet 0.0019 >"$inputs/sheet.off"
 write_sheet 0.0003 >"$inputs/foil.off"
 
 figure() { # key of the report
-  sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1
+  sed -n "s/^ *\"$1\": \"\\?\\([^\",]*\\)\"\\?,\\?\$/\\1/p" "$sandbox/work/report.json" | head -n 1 | grep . ||
+    echo "the report has no $1" >>"$sandbox/missing"
 }
 # mesh <file> <options...>: leaves $elements, $least and $hash
 mesh() {
@@ -37,6 +38,7 @@ mesh sheet.off --executor threads
 [[ $hash == "$first" ]] || fault "another mesh: $hash, not $first"
 expect_success plan "$inputs/sheet.off" --report report.json
 predicted=$(figure predicted_elements)
+above "$predicted" "$(awk -v n="$resolved" 'BEGIN { print 1.4 * n }')" && fault "$predicted are predicted for $resolved"
 above "$predicted" "$(awk -v n="$resolved" 'BEGIN { print 0.6 * n }')" || fault "$predicted are predicted for $resolved"
 
 mesh sheet.off --proximity 0
@@ -45,10 +47,13 @@ mesh sheet.off --elements 10000
 above "$elements" 20000 && fault "$elements elements for 10000"
 grep -qE "$given_up" "$sandbox/stdout" "$sandbox/stderr" || fault "nothing is said of the wall that is given up"
 
+expect_success plan "$inputs/foil.off"
+grep -qE "$given_up" "$sandbox/stdout" || fault "the plan says nothing of the wall that is given up"
 mesh foil.off
 above "$elements" 200000 && fault "there are $elements elements"
 grep -qE "$given_up [3-9][0-9.]*e\+06 elements are needed: see --elements" "$sandbox/stdout" "$sandbox/stderr" ||
   fault "it does not say what would resolve the foil"
 grep -q 'are in walls thinner than the size' "$sandbox/stdout" "$sandbox/stderr" || fault "bad elements are not told of"
 
+[[ ! -e $sandbox/missing ]] || fault "$(cat "$sandbox/missing")"
 ((problems == 0)) || exit 1

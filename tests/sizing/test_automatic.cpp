@@ -191,6 +191,27 @@ TEST_CASE("a thin wall gets twice its thickness, where so small a size is allowe
   }
 }
 
+TEST_CASE("a thin wall gets no smaller size than was asked for") {
+  for (const double thick : {0.009, 0.004}) {
+    const auto h = proximity_size(
+        sheet(thick),
+        {.elements = 0.2, .least_in_walls = 0.001, .range = {.smallest = 0.02, .largest = 0.2}});
+    CHECK(h({0.5, 0.5, 0}) == near_to(5 * thick));
+  }
+}
+
+TEST_CASE("where more samples were needed than are taken walls are still found all over") {
+  // Faces of 1 x 1 on a slanted sheet, sampled at other places on top than below.
+  const auto h = proximity_size(wedge(0.0004, 0.0005),
+                                {.least_in_walls = 1e-5, .range = {.smallest = 0.02, .largest = 0.2}});
+  for (double x = 0.03; x < 1; x += 0.047)
+    for (double y = 0.03; y < 1; y += 0.083) {
+      CAPTURE(x);
+      CAPTURE(y);
+      CHECK(h({x, y, 0}) < 0.006);
+    }
+}
+
 TEST_CASE("towards an edge where its faces meet a wall is not followed") {
   const auto h =
       proximity_size(wedge(0.1, 0), {.least_in_walls = 0.001, .range = {.smallest = 0.04, .largest = 0.2}});

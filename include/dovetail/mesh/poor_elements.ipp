@@ -78,7 +78,7 @@ public:
     find_wedges(piece);
   }
 
-  /// Whether two vertices of the element are on faces of the model that meet, somewhere on this boundary, in
+  /// Whether the element has vertices on two faces of the model that meet, somewhere on this boundary, in
   /// an angle less than twice `bad_dihedral_deg`: what is between them is thin for that.
   bool is_in_wedge(const simplex<3>& element) const {
     std::vector<local_id> faces;

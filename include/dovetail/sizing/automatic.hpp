@@ -18,7 +18,7 @@ struct automatic_options {
   double least_in_walls = 0;       ///< down to there sizes of thin walls may be below the smallest; 0: none
   bool inside = true;              ///< thin walls
   bool outside = false;            ///< gaps between faces
-  model_size_range range = {};     ///< no size is outside of it
+  model_size_range range = {};     ///< no size is outside of it, but for thin walls
 };
 
 /// Sizes in walls thinner than half of the smallest size, by which elements in them are not flat.
@@ -27,8 +27,9 @@ struct thin_wall_sizes {
   double least = 0;  ///< where it would be smaller, the wall is given up: it gets the smallest size
 };
 
-/// The sizes that curvature and proximity ask for, at points of a model. Of a field from them can be said how
-/// far it is to follow thin walls: what that costs in elements is known only when there is one.
+/// The sizes that curvature and proximity ask for, at points of a model; thin walls are those between two
+/// faces without a common curve, and sizes in them not below `least_in_walls`. Of a field from them can be
+/// said how far it is to follow thin walls: what that costs in elements is known only when there is one.
 class automatic_points {
 public:
   /// Throws `sizing_error` for options out of range.
@@ -53,7 +54,7 @@ public:
   bool has_thin_walls() const { return !walls_.empty(); } ///< that were to be followed
   /// About how many tetrahedra sizes in thin walls make beyond those of the smallest size of the range.
   double elements_in_walls(const thin_wall_sizes& walls = {}) const;
-  /// The smallest sizes with at most so many: at first all are enlarged, up to where walls are a third of a
+  /// Sizes that add about so many at most: at first all are enlarged, up to where walls are a third of a
   /// size thick and few elements in them are under 12 degrees; then the thinnest walls are given up, which
   /// cost most. About n log n in the points of walls.
   thin_wall_sizes walls_within(double elements) const;

@@ -36,8 +36,9 @@ DOVETAIL_INLINE double automatic_points::elements_in_walls(const thin_wall_sizes
 }
 
 DOVETAIL_INLINE thin_wall_sizes automatic_points::walls_within(double elements) const {
-  constexpr double coarsest = 1.5; // walls are half as thick as their sizes
-  const double excess = elements_in_walls() / std::max(elements, 1.0);
+  constexpr double coarsest = 1.5; // where walls are half as thick as their sizes
+  elements = std::max(1.0, elements);
+  const double excess = elements_in_walls() / elements;
   if (excess <= coarsest * coarsest)
     return {.factor = std::max(1.0, std::sqrt(excess))};
   std::vector<sizing::gap_point> thickest_first = walls_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ struct proximity_options {
   double least_in_walls = 0;   ///< down to there sizes of thin walls may be below the smallest; 0: none is
   bool inside = true;          ///< through the solids: thin walls
   bool outside = false;        ///< through what is around them: gaps
-  model_size_range range = {}; ///< no size is outside of it
+  model_size_range range = {}; ///< no size is outside of it, but for thin walls
 };
 
 namespace sizing {
@@ -82,15 +83,13 @@ private:
 inline constexpr double thin_wall = 0.5;
 
 /// The size where a gap is so wide: gap / elements, within the range; in a wall that is thin for the smallest
-/// size, gap / `thin_wall`. Where even that is below the least one the wall is given up: trying would only
-/// give it more of the same.
-/// \param gap a length: the width of a gap, or the thickness of a wall
-/// \param is_wall whether it is solid, and its two faces do not meet
-/// \param options elements across, and the least size in walls
-/// \param range of sizes, without zeros
+/// size, gap / `thin_wall`, or what is asked for if that is larger. Where even that is below the least one
+/// the wall is given up: trying would only give it more of the same. \param gap a length: the width of a gap,
+/// or the thickness of a wall \param is_wall whether it is solid, and its two faces do not meet \param
+/// options elements across, and the least size in walls \param range of sizes, without zeros
 inline double size_across(double gap, bool is_wall, const proximity_options& options,
                           const model_size_range& range) {
-  const double needed = gap / thin_wall;
+  const double needed = gap / std::min(thin_wall, options.elements);
   if (is_wall && options.least_in_walls > 0 && needed >= options.least_in_walls && needed < range.smallest)
     return needed;
   return std::max(range.smallest, gap / options.elements);
@@ -123,7 +122,9 @@ std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& 
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (!(solids[side] == no_id ? options.outside : options.inside))
         continue;
-      const surface_sample* facing = search.find(s, side, reach, s.spacing);
+      // Where a limit ended the sampling, neighbours are farther apart than was asked for.
+      const double slack = std::max(s.spacing, std::sqrt(std::max(0.0, s.area)));
+      const surface_sample* facing = search.find(s, side, reach, slack);
       if (!facing)
         continue;
       const bool is_wall = solids[side] != no_id && !meet(s.face, facing->face);

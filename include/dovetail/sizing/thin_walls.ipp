@@ -104,6 +104,8 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
     expected[t] = measure_of<2>(corners[t]) / (size * size);
     total += expected[t];
   }
+  if (!(total > 0) || !std::isfinite(total))
+    return 0;
   const ray_search rays(surface);
   double elements = 0;
   for (std::size_t t = 0; t < count; ++t) {
