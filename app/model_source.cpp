@@ -149,7 +149,7 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
   std::optional<automatic_points> automatic;
   if (is_drawing(file) && sizes.is_automatic()) // there are no curved faces and no walls
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
-  else if (automatic = sizes.points(geometry, dimension); automatic)
+  else if (automatic = sizes.points(geometry, dimension == 3); automatic)
     size = keep_bounds(automatic->field(automatic->walls_within(0)));
   else
     size = sizes.field(domain, &geometry, &meshes);
@@ -221,7 +221,7 @@ std::optional<double> given_sizes::length(const box3& domain) const {
 any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes) const {
   const auto uniform = length(domain);
   if (automatic_ && model)
-    return keep_bounds(points(*model, 2)->field());
+    return keep_bounds(points(*model, false)->field());
   if (!has_file())
     return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
   content_hash read;
@@ -239,7 +239,7 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
   return sizes;
 }
 
-std::optional<automatic_points> given_sizes::points(const any_geometry& model, int dimension) const {
+std::optional<automatic_points> given_sizes::points(const any_geometry& model, bool in_thin_walls) const {
   if (!automatic_)
     return {};
   const double diagonal = model.bounds().diagonal();
@@ -247,7 +247,7 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, i
   options.range.largest = length(model.bounds()).value_or(0);
   if (!size_) { // a default is for any file: details far smaller than the model are not followed
     options.range.smallest = diagonal / 250;
-    options.least_in_walls = dimension == 3 ? diagonal / 5000 : 0;
+    options.least_in_walls = in_thin_walls ? diagonal / 5000 : 0;
   }
   return automatic_points(model, options);
 }

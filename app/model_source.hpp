@@ -30,9 +30,9 @@ public:
   /// names. Throws `sizing_error` for a size that does not suit the domain.
   any_sizing field(const box3& domain, const any_geometry* model = nullptr,
                    std::string* meshes = nullptr) const;
-  /// What the automatic field is made of, for tetrahedra with sizes in thin walls; empty when the sizes are
-  /// not automatic.
-  std::optional<automatic_points> points(const any_geometry& model, int dimension) const;
+  /// What the automatic field is made of, sizes in thin walls included or not; empty when the sizes are not
+  /// automatic.
+  std::optional<automatic_points> points(const any_geometry& model, bool in_thin_walls) const;
   bool has_file() const { return !file_.empty(); }
   bool is_automatic() const { return automatic_.has_value(); }
   const std::string& text() const { return text_; } ///< of the file, wherever it came from

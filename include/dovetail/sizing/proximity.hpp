@@ -82,11 +82,13 @@ private:
 /// more, though all their vertices are on its surface (docs/sizing.md).
 inline constexpr double thin_wall = 0.5;
 
-/// The size where a gap is so wide: gap / elements, within the range; in a wall that is thin for the smallest
-/// size, gap / `thin_wall`, or what is asked for if that is larger. Where even that is below the least one
-/// the wall is given up: trying would only give it more of the same. \param gap a length: the width of a gap,
-/// or the thickness of a wall \param is_wall whether it is solid, and its two faces do not meet \param
-/// options elements across, and the least size in walls \param range of sizes, without zeros
+/// The size where a gap is so wide: gap / elements, within the range. In a wall that is thin for the smallest
+/// size it is gap / `thin_wall`, or what is asked for if that is larger; where even that is below the least
+/// one the wall is given up, since trying would only give it more of the same.
+/// \param gap a length: the width of a gap, or the thickness of a wall
+/// \param is_wall whether it is solid, and its two faces do not meet
+/// \param options elements across, and the least size in walls
+/// \param range of sizes, without zeros
 inline double size_across(double gap, bool is_wall, const proximity_options& options,
                           const model_size_range& range) {
   const double needed = gap / std::min(thin_wall, options.elements);
@@ -127,8 +129,9 @@ std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& 
       const surface_sample* facing = search.find(s, side, reach, slack);
       if (!facing)
         continue;
-      const bool is_wall = solids[side] != no_id && !meet(s.face, facing->face);
-      const double size = size_across(gap_to_face(model, s, *facing), is_wall, options, range);
+      const double gap = gap_to_face(model, s, *facing);
+      const bool is_wall = gap < range.smallest && solids[side] != no_id && !meet(s.face, facing->face);
+      const double size = size_across(gap, is_wall, options, range);
       if (size < range.largest)
         points.push_back({{s.point, size}, s.area});
     }
