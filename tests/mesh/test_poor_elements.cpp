@@ -100,6 +100,16 @@ TEST_CASE("elements across a thin wall are the wall's, and where it is thinnest 
       });
   CHECK(between_interfaces.bad_by(poor_cause::thin_piece) == found.bad_by(poor_cause::thin_wall));
   CHECK(all_poor(slab(0.2)).bad_by(poor_cause::thin_wall) == 0);
+
+  // Two faces that meet at right angles around it do not make it an angle.
+  const auto sheet = slab(0.01);
+  const auto of_two_faces =
+      all_poor(sheet, std::vector<local_id>(sheet.elements.size(), 0), [&](const auto& vertices) {
+        const bool below = std::all_of(vertices.begin(), vertices.end(),
+                                       [&](local_id v) { return sheet.points[v].z < 1e-9; });
+        return host{2, below ? 1 : 0};
+      });
+  CHECK(of_two_faces.bad_by(poor_cause::thin_wall) == found.bad_by(poor_cause::thin_wall));
 }
 
 TEST_CASE("where two faces run into each other elements between them are in an angle of the model") {
