@@ -62,6 +62,35 @@ simplicial_mesh<3> slab(double thickness) {
   return mesh;
 }
 
+/// The slab, its thickness going with x, from an edge at x = 0 on.
+simplicial_mesh<3> blade() {
+  auto mesh = slab(1);
+  std::vector<local_id> kept(mesh.points.size());
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    vec3& p = mesh.points[v];
+    p.z *= 0.05 * p.x;
+    const auto same = std::find_if(mesh.points.begin(), mesh.points.begin() + static_cast<long>(v),
+                                   [&](vec3 q) { return distance(p, q) < 1e-9; });
+    kept[v] = static_cast<local_id>(same - mesh.points.begin());
+  }
+  for (simplex<3>& element : mesh.elements)
+    for (local_id& v : element)
+      v = kept[v];
+  std::erase_if(mesh.elements, [](simplex<3> element) {
+    std::sort(element.begin(), element.end());
+    return std::adjacent_find(element.begin(), element.end()) != element.end();
+  });
+  return mesh;
+}
+
+/// With boundary triangles on the faces that `face_of` says.
+template <class Face>
+poor_elements by_faces(const simplicial_mesh<3>& mesh, const Face& face_of) {
+  return all_poor(mesh, std::vector<local_id>(mesh.elements.size(), 0), [&](const auto& vertices) {
+    return host{2, static_cast<local_id>(face_of(vertices))};
+  });
+}
+
 } // namespace
 
 TEST_CASE("an element in a small angle of the model is the model's") {
@@ -113,33 +142,69 @@ TEST_CASE("elements across a thin wall are the wall's, and where it is thinnest 
 }
 
 TEST_CASE("where two faces run into each other elements between them are in an angle of the model") {
-  // The slab, its thickness going with x, from an edge at x = 0 on.
-  auto blade = slab(1);
-  std::vector<local_id> kept(blade.points.size());
-  for (std::size_t v = 0; v < kept.size(); ++v) {
-    vec3& p = blade.points[v];
-    p.z *= 0.05 * p.x;
-    const auto same = std::find_if(blade.points.begin(), blade.points.begin() + static_cast<long>(v),
-                                   [&](vec3 q) { return distance(p, q) < 1e-9; });
-    kept[v] = static_cast<local_id>(same - blade.points.begin());
-  }
-  for (simplex<3>& element : blade.elements)
-    for (local_id& v : element)
-      v = kept[v];
-  std::erase_if(blade.elements, [](simplex<3> element) {
-    std::sort(element.begin(), element.end());
-    return std::adjacent_find(element.begin(), element.end()) != element.end();
-  });
-  const auto turned_by = [&](bool one_face) {
-    return all_poor(blade, std::vector<local_id>(blade.elements.size(), 0), [&](const auto& vertices) {
-      const bool below =
-          std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return blade.points[v].z < 1e-9; });
-      return host{2, below && !one_face ? 1 : 0};
-    });
+  const auto mesh = blade();
+  const auto below = [&](const auto& vertices) {
+    return std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return mesh.points[v].z < 1e-9; });
   };
-  CHECK(turned_by(false).bad_by(poor_cause::thin_wall) == 0);
-  CHECK(turned_by(false).bad_by(poor_cause::model_angle) > turned_by(true).bad_by(poor_cause::model_angle));
-  CHECK(turned_by(true).bad_by(poor_cause::thin_wall) > 0);
+  const auto of_one = by_faces(mesh, [](const auto&) { return 0; });
+  const auto of_two = by_faces(mesh, [&](const auto& vertices) { return below(vertices) ? 1 : 0; });
+  CHECK(of_two.bad_by(poor_cause::thin_wall) == 0);
+  CHECK(of_two.bad_by(poor_cause::model_angle) > of_one.bad_by(poor_cause::model_angle));
+  CHECK(of_one.bad_by(poor_cause::thin_wall) > 0);
+
+  // A vertex between them, and none beside it, changes nothing.
+  auto split = mesh;
+  for (std::size_t e = 0, n = mesh.elements.size(); e < n; ++e) {
+    const simplex<3> whole = mesh.elements[e];
+    const auto middle = static_cast<local_id>(split.points.size());
+    vec3& inside = split.points.emplace_back();
+    for (const local_id v : whole)
+      inside += 0.25 * mesh.points[v];
+    for (std::size_t k = 0; k < 4; ++k) {
+      simplex<3> part = whole;
+      part[k] = middle;
+      if (k == 0)
+        split.elements[e] = part;
+      else
+        split.elements.push_back(part);
+    }
+  }
+  const auto split_of_one = by_faces(split, [](const auto&) { return 0; });
+  const auto split_of_two = by_faces(split, [&](const auto& vertices) { return below(vertices) ? 1 : 0; });
+  CHECK(split_of_one.bad_by(poor_cause::thin_wall) > of_one.bad_by(poor_cause::thin_wall));
+  CHECK(split_of_one.bad_by(poor_cause::inside) == 0);
+  CHECK(split_of_two.bad_by(poor_cause::thin_wall) == 0);
+  CHECK(split_of_two.bad_by(poor_cause::inside) == 0);
+}
+
+TEST_CASE("narrow triangles where two curves of a face run into each other are in an angle of the model") {
+  const auto mesh = blade();
+  enum { above, below, left, right, end };
+  const auto place = [&](const auto& vertices, const auto& holds) {
+    return std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return holds(mesh.points[v]); });
+  };
+  const auto face_at = [&](const auto& vertices) {
+    return place(vertices, [](vec3 p) { return p.z < 1e-9; })       ? below
+           : place(vertices, [](vec3 p) { return p.y < 1e-9; })     ? left
+           : place(vertices, [](vec3 p) { return p.y > 1 - 1e-9; }) ? right
+           : place(vertices, [](vec3 p) { return p.x > 1 - 1e-9; }) ? end
+                                                                    : above;
+  };
+  const auto triangles_by = [&](const auto& face_of) {
+    return by_faces(mesh, face_of).bad_by(poor_cause::boundary_triangle);
+  };
+  CHECK(triangles_by([&](const auto& vertices) { return face_at(vertices) == below ? 1 : 0; }) > 0);
+  CHECK(triangles_by(face_at) == 0);
+  // Beside both curves is the same face: a groove that ends in a point.
+  CHECK(triangles_by([&](const auto& vertices) {
+          const int face = face_at(vertices);
+          return face == above ? int{below} : face;
+        }) == 0);
+  // Without a face at one of the sides there are two curves no more.
+  CHECK(triangles_by([&](const auto& vertices) {
+          const int face = face_at(vertices);
+          return face == left ? int{above} : face;
+        }) > 0);
 }
 
 TEST_CASE("an element that nothing explains is the mesher's") {

@@ -19,10 +19,10 @@ inline constexpr int low_dihedral_deg = 24; ///< one with a smaller dihedral ang
 
 /// Why a tetrahedron is of low quality: the first of these that holds.
 enum class poor_cause : std::uint8_t {
-  model_angle, ///< it is in an angle of the model's surface that is less than twice the limit, or beside it
+  model_angle, ///< it is in an angle of the model (of faces, of curves) under twice the limit, or beside it
   interface_angle,   ///< it is in such an angle of an interface with another one or the surface
   boundary_triangle, ///< a side of it is a boundary triangle with an angle below the limit
-  thin_wall,         ///< all its vertices are on the model's surface
+  thin_wall,         ///< all its vertices are on the model's surface, or joined only to such vertices
   thin_piece,        ///< all its vertices are on the boundary of its piece
   inside             ///< none of these: the mesher and the improver left it
 };
