@@ -1,12 +1,16 @@
 #!/bin/bash
 # Installs what is missing, builds, and runs every test. Arguments go to ctest (for example -R io).
 # The last line counts all tests: N passed, N failed, N skipped. Ends with an error when any failed.
-# With CI=true a test may be skipped only for want of the external models, not of anything that scripts/setup installs.
+# With CI=true PETSc, DOLFINx and Chromium are installed too, and a test may be skipped only for want of the external models,
+# not of anything that scripts/setup installs.
 set -uo pipefail
 source_directory=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$source_directory" || exit 1
 
 scripts/setup tests || exit 1
+if [[ ${CI:-} == true ]]; then
+  scripts/setup consumers || exit 1
+fi
 echo "what the tests need is there after $SECONDS s"
 
 require_all=OFF

@@ -1,18 +1,24 @@
 // A wrapper of each role has all that the wrapped policy has, and nothing that it has not.
 #include "archetypes.hpp"
 
+#include "dovetail/distributed/wraps.hpp"
 #include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/files/wraps.hpp"
+#include "dovetail/geometry/wraps.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/improver/wraps.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/mesher/background_form.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/mesher/wraps.hpp"
+#include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/parallel/threads.hpp"
 #include "dovetail/parallel/wraps.hpp"
+#include "dovetail/partition/greedy.hpp"
+#include "dovetail/partition/wraps.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/remesh/wraps.hpp"
@@ -23,6 +29,9 @@
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "dovetail/sizing/wraps.hpp"
+#include "dovetail/solver/openfoam_format.hpp"
+#include "dovetail/solver/pvtu_format.hpp"
+#include "dovetail/solver/wraps.hpp"
 
 #include <doctest/doctest.h>
 
@@ -176,6 +185,7 @@ template <class E>
 struct slowed : parallel::wraps<slowed<E>, E> {};
 
 static_assert(executor<slowed<parallel::serial>> && executor<slowed<parallel::clock_watch>>);
+static_assert(uses_threads<slowed<slowed<parallel::threads>>>() && !uses_threads<slowed<parallel::serial>>());
 
 /// Another process goes through the same program, and does what is done once.
 struct second_of_two {
@@ -209,6 +219,77 @@ static_assert(piecewise_mesh_writer<announced<io::vtu_writer>, 3> &&
               piecewise_mesh_writer<announced<io::vtu_writer>, 2>);
 static_assert(mesh_writer<announced<archetype::writer>> &&
               !piecewise_mesh_writer<announced<archetype::writer>>);
+
+template <class F>
+struct renamed : io::format_wraps<renamed<F>, F> {
+  std::string name() const { return "my " + this->wrapped.name(); }
+};
+
+/// A format of ranks with every optional member.
+struct full_format {
+  static constexpr bool second_order = true;
+  std::string name() const { return "full"; }
+  std::vector<std::string> files_of_all() const { return {}; }
+  void write(const io::rank_source<3>&, const rank_mesh<3>&,
+             const std::vector<std::filesystem::path>&) const {}
+  void write_all(const io::rank_source<3>&, const std::vector<std::filesystem::path>&) const {}
+  std::vector<std::string> files_of_rank(local_id q) const { return files_of_rank(q, 9); }
+  std::vector<std::string> files_of_rank(local_id q, int n) const {
+    return {std::to_string(q) + "_of_" + std::to_string(n)};
+  }
+  std::vector<std::string> outdated_files_of_rank(local_id q, int n) const {
+    return {"outdated_" + files_of_rank(q, n)[0]};
+  }
+  bool may_replace(const std::filesystem::path& path) const { return path == "mine"; }
+};
+
+static_assert(rank_format<renamed<io::pvtu_format>, 2> && rank_format<renamed<io::pvtu_format>, 3> &&
+              has_second_order<renamed<io::pvtu_format>> == has_second_order<io::pvtu_format>);
+static_assert(rank_format<renamed<io::openfoam_format>, 3> && !rank_format<renamed<io::openfoam_format>, 2> &&
+              !shared_rank_format<renamed<io::openfoam_format>, 3>);
+static_assert(shared_rank_format<renamed<archetype::shared_rank_format>> &&
+              !rank_format<renamed<archetype::shared_rank_format>>);
+static_assert(io::detail::keeps_some_files<renamed<io::openfoam_format>> &&
+              !io::detail::keeps_some_files<renamed<archetype::rank_format>> &&
+              !io::detail::names_files_by_count<renamed<archetype::rank_format>> &&
+              !io::detail::knows_outdated_files<renamed<archetype::rank_format>>);
+
+TEST_CASE("a wrapped format of ranks has the files of the format, and leaves what that leaves") {
+  const renamed<full_format> mine;
+  static_assert(has_second_order<renamed<full_format>>);
+  CHECK(mine.name() == "my full");
+  CHECK(mine.files_of_rank(1) == std::vector<std::string>{"1_of_9"});
+  CHECK(mine.files_of_rank(1, 3) == std::vector<std::string>{"1_of_3"});
+  CHECK(mine.outdated_files_of_rank(1, 3) == std::vector<std::string>{"outdated_1_of_3"});
+  CHECK(mine.may_replace("mine"));
+  CHECK_FALSE(mine.may_replace("another"));
+}
+
+template <class P>
+struct measured : partition::wraps<measured<P>, P> {};
+
+static_assert(graph_partitioner<measured<archetype::partitioner>>);
+
+template <class R>
+struct told : redistribution_by::wraps<told<R>, R> {};
+
+static_assert(redistributor<told<archetype::redistributor>, 3> &&
+              !redistributor<told<archetype::redistributor>, 2>);
+
+template <class G>
+struct asked : model_wraps<asked<G>, G> {};
+
+static_assert(geometry_model<asked<archetype::geometry>> &&
+              !geometry_model_with_planes<asked<archetype::geometry>> &&
+              geometry_model_with_planes<asked<plane_domain>>);
+template <class G>
+constexpr bool knows_volume = requires(const G& model) {
+  model.volume();
+};
+struct model_with_volume : archetype::geometry {
+  double volume() const { return 3; }
+};
+static_assert(knows_volume<asked<model_with_volume>> && !knows_volume<asked<archetype::geometry>>);
 
 } // namespace
 } // namespace dovetail

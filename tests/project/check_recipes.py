@@ -199,6 +199,11 @@ def check_commands(where, lines):
                   f"{where}: no preset builds in {folder}")
 
 
+# With CI=true all tests are asked for, so all that they need is installed.
+check(re.search(r"CI:-.* == true.*\n\s*scripts/setup consumers", text_of("scripts", "test.sh")),
+      "scripts/test.sh: does not install what tests of consumers need")
+
+
 def check_called(where, commands):
     for script in ("scripts/test.sh", "scripts/mesh.sh", "scripts/site", "benchmarks/fuzz", "benchmarks/same_mesh"):
         check(any(script in command for command in commands), f"{where}: {script} is not called")

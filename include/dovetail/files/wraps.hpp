@@ -13,6 +13,8 @@ namespace dovetail::io {
 /// where they do with `Writer`. A changed call `w(mesh, folder)` should go with a changed `begin`.
 template <class Self, class Writer>
 struct wraps : wrapped_policy<Self, Writer> {
+  static_assert(mesh_writer<Writer, 2> || mesh_writer<Writer, 3>,
+                "io::wraps holds a mesh_writer (files/concepts.hpp)");
   using wrapped_policy<Self, Writer>::wrapped_policy;
   using wrapped_policy<Self, Writer>::wrapped;
 

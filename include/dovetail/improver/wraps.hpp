@@ -12,6 +12,8 @@ namespace dovetail::improvement {
 /// `using wraps::operator();` stands beside it.
 template <class Self, class Improver>
 struct wraps : wrapped_policy<Self, Improver> {
+  static_assert(improver<Improver, 2> || improver<Improver, 3>,
+                "improvement::wraps holds an improver (improver/concepts.hpp)");
   using wrapped_policy<Self, Improver>::wrapped_policy;
   using wrapped_policy<Self, Improver>::wrapped;
 

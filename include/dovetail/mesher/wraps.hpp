@@ -55,6 +55,8 @@ namespace mesher {
 /// Whoever makes more or fewer elements than `Mesher` has an `elements_per_inverse_cubed_size` of its own.
 template <class Self, class Mesher>
 struct wraps : wrapped_policy<Self, Mesher>, detail::wrapped_calibration<Self, Mesher> {
+  static_assert(piece_mesher<Mesher, 2> || piece_mesher<Mesher, 3>,
+                "mesher::wraps holds a piece_mesher (mesher/concepts.hpp)");
   using wrapped_policy<Self, Mesher>::wrapped_policy;
   using wrapped_policy<Self, Mesher>::wrapped;
 

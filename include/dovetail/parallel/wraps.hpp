@@ -14,12 +14,15 @@ namespace dovetail {
 
 namespace parallel {
 
-/// Base of an executor that does something around the tasks of another one: workers, ranks and what is done
-/// once are those of `Executor`.
+/// Base of an executor that does something around the tasks of another one: workers, threads, ranks and what
+/// is done once are those of `Executor`.
 template <class Self, executor Executor>
 struct wraps : wrapped_policy<Self, Executor> {
   using wrapped_policy<Self, Executor>::wrapped_policy;
   using wrapped_policy<Self, Executor>::wrapped;
+
+  /// Whether it says by its type that it runs tasks in threads.
+  static constexpr bool uses_threads = dovetail::uses_threads<Executor>();
 
   /// The outcomes of the wrapped executor.
   std::vector<task_outcome> run(std::size_t count, const task_function& task,

@@ -29,18 +29,20 @@ consteval bool policies_fit() {
   return fits && improves;
 }
 
-/// Whether mesher and improver may run where the executor runs them, as far as types say.
+/// Whether meshers and improver may run where the executor runs them, as far as types say.
 template <class Given>
 consteval bool policies_may_run() {
   if constexpr (uses_threads<decltype(Given::run_tasks)>()) {
     constexpr bool improves = !is_never_thread_safe<decltype(Given::improve_it)>();
     static_assert(improves, "this improver may not run in threads: take parallel::processes or serial");
+    constexpr bool remeshes = !never_runs_in_threads<decltype(Given::mesh_surface)>();
+    static_assert(remeshes, "this surface mesher may not run in threads: take parallel::processes or serial");
     if constexpr (std::same_as<decltype(Given::mesh_it), default_mesher>) {
-      return improves;
+      return improves && remeshes;
     } else {
       constexpr bool meshes = !is_never_thread_safe<decltype(Given::mesh_it)>();
       static_assert(meshes, "this mesher may not run in threads: take parallel::processes or serial");
-      return improves && meshes;
+      return improves && remeshes && meshes;
     }
   }
   return true;

@@ -73,7 +73,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// Generates a mesh sized by `size`: for D = 3 tetrahedra of all solids of `model`, for D = 2 triangles of
 /// all its faces.
 ///
-///     auto solid = generate<3>(model, uniform_size(2.0), parameters<>{});
+///     auto solid = generate<3>(model, uniform_size(2.0));
 ///     auto shell = generate<2>(model, uniform_size(2.0), parameters<>{}.with_executor(parallel::threads{}));
 ///
 /// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
@@ -87,9 +87,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// \param given_model a model of `geometry_model`; for D = 2 also a `plane_domain`
 /// \param given_size a sizing field: edge lengths wanted, in the units of the model
 /// \param policies policies and options
-template <int D, class G, class H, class Parameters>
+template <int D, class G, class H, class Parameters = parameters<>>
   requires(D == 2 || D == 3)
-generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies) {
+generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies = {}) {
   if constexpr (detail::checked_input<G, H>() && detail::checked_parameters<D, Parameters>()) {
     const any_geometry model(given_model);
     const erased_sizing size(given_size);

@@ -49,7 +49,15 @@ constexpr bool is_thread_safe() {
     return true;
 }
 
-/// The same of one that may hold another behind one type.
+/// Whether its type alone says that it may not: one that may hold another says it when the program runs.
+template <class M>
+constexpr bool never_runs_in_threads() {
+  return !is_thread_safe<M>() && !requires(const M& mesher) {
+    mesher.may_run_in_threads();
+  };
+}
+
+/// Whether this one may, which may hold another behind one type.
 template <class M>
 bool may_run_in_threads(const M& mesher) {
   if constexpr (requires {

@@ -17,6 +17,8 @@ namespace simplifier {
 /// are those of `Rule`.
 template <class Self, class Rule>
 struct wraps : wrapped_policy<Self, Rule> {
+  static_assert(simplification_rule<Rule, 2> || simplification_rule<Rule, 3>,
+                "simplifier::wraps holds a simplification_rule (simplification/concepts.hpp)");
   using wrapped_policy<Self, Rule>::wrapped_policy;
   using wrapped_policy<Self, Rule>::wrapped;
 

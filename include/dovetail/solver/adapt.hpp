@@ -94,6 +94,14 @@ adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, con
 
 namespace detail {
 
+/// Whether there are sizes; where not, the compiler's first error says what was expected.
+template <class Sizes>
+consteval bool checked_sizes() {
+  constexpr bool are_sizes = sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>;
+  static_assert(are_sizes, "adapt<D> takes a size for each point, or a sizing_field (sizing/concepts.hpp)");
+  return are_sizes;
+}
+
 template <int D, class Sizes>
 erased_sizing sizes_to_adapt_to(const adaptable_mesh<D>& old, const Sizes& sizes,
                                 const adaptation_options& options) {
@@ -120,10 +128,9 @@ erased_sizing sizes_to_adapt_to(const adaptable_mesh<D>& old, const Sizes& sizes
 /// \param policies policies and options, as for `generate`
 /// \param options feature angle and growth of sizes
 template <int D, class Sizes, class Parameters>
-  requires(sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>)
 adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
                  const adaptation_options& options = {}) {
-  if constexpr (detail::checked_parameters<D, Parameters>()) {
+  if constexpr (detail::checked_sizes<Sizes>() && detail::checked_parameters<D, Parameters>()) {
     const auto& given = bind_parameters<D>(policies);
     const auto size = detail::sizes_to_adapt_to(old, sizes, options);
     return mesh_again<D>(model_of_boundary(old, options.feature_angle_deg), size, given);
@@ -140,10 +147,9 @@ adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Paramet
 /// what the first form throws, and what `mesh_again` does.
 /// \param model the model that `old` is a mesh of; without it one is made of its boundary
 template <int D, geometry_model G, class Sizes, class Parameters>
-  requires(sizing_field<Sizes> || std::convertible_to<Sizes, std::vector<double>>)
 adapted<D> adapt(const G& model, const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
                  const adaptation_options& options = {}) {
-  if constexpr (detail::checked_parameters<D, Parameters>()) {
+  if constexpr (detail::checked_sizes<Sizes>() && detail::checked_parameters<D, Parameters>()) {
     const auto& given = bind_parameters<D>(policies);
     const auto size = detail::sizes_to_adapt_to(old, sizes, options);
     return mesh_again<D>(model_of_mesh<D>(any_geometry(model), old), size, given);

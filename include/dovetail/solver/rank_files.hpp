@@ -27,6 +27,10 @@ namespace dovetail::io {
 /// Writes a distributed mesh for a solver with `ranks` ranks, however many workers made it.
 template <class Format, class Redistributor = redistribution_by::pieces>
 struct rank_writer {
+  static_assert(rank_format<Format, 2> || rank_format<Format, 3> || shared_rank_format<Format, 2> ||
+                    shared_rank_format<Format, 3>,
+                "rank_writer takes a rank_format or a shared_rank_format (solver/concepts.hpp)");
+
   int ranks = 1;
   Format format = {};              ///< what files are written
   Redistributor redistribute = {}; ///< which rank gets what

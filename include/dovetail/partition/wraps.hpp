@@ -1,0 +1,22 @@
+/// @file
+/// A partitioner around another one.
+#pragma once
+
+#include "dovetail/core/wrapped_policy.hpp"
+#include "dovetail/partition/concepts.hpp"
+
+#include <vector>
+
+namespace dovetail::partition {
+
+/// Base of a partitioner that changes what another one is given or gives, or measures it.
+template <class Self, graph_partitioner Partitioner>
+struct wraps : wrapped_policy<Self, Partitioner> {
+  using wrapped_policy<Self, Partitioner>::wrapped_policy;
+  using wrapped_policy<Self, Partitioner>::wrapped;
+
+  /// The parts that the wrapped partitioner makes.
+  std::vector<local_id> operator()(const csr_graph& graph, int parts) const { return wrapped(graph, parts); }
+};
+
+} // namespace dovetail::partition

@@ -1,0 +1,63 @@
+// near miss 1: a mesher without traits
+// first error 1: mesher::wraps holds a piece_mesher
+// near miss 2: an improver without a call
+// first error 2: improvement::wraps holds an improver
+// near miss 3: a writer without a call
+// first error 3: io::wraps holds a mesh_writer
+// near miss 4: a rule without penalties
+// first error 4: simplifier::wraps holds a simplification_rule
+// near miss 5: a redistributor without a call
+// first error 5: wraps holds a redistributor
+// near miss 6: a format without files
+// first error 6: format_wraps holds a rank_format or a shared_rank_format
+// near miss 7: a solver's ranks in such a format
+// first error 7: rank_writer takes a rank_format or a shared_rank_format
+// near miss 8: sizes to adapt to that are none
+// first error 8: adapt<D> takes a size for each point, or a sizing_field
+#include "dovetail/distributed/wraps.hpp"
+#include "dovetail/files/wraps.hpp"
+#include "dovetail/improver/wraps.hpp"
+#include "dovetail/mesher/wraps.hpp"
+#include "dovetail/simplification/wraps.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "dovetail/solver/adapt.hpp"
+#include "dovetail/solver/rank_files.hpp"
+#include "dovetail/solver/wraps.hpp"
+
+using namespace dovetail;
+
+struct nothing {};
+template <class P>
+struct my_mesher : mesher::wraps<my_mesher<P>, P> {};
+template <class P>
+struct my_improver : improvement::wraps<my_improver<P>, P> {};
+template <class P>
+struct my_writer : io::wraps<my_writer<P>, P> {};
+template <class P>
+struct my_rule : simplifier::wraps<my_rule<P>, P> {};
+template <class P>
+struct my_redistributor : redistribution_by::wraps<my_redistributor<P>, P> {};
+template <class P>
+struct my_format : io::format_wraps<my_format<P>, P> {};
+
+void call(const adaptable_mesh<3>& mesh) {
+#if NEAR_MISS == 1
+  my_mesher<nothing>{};
+#elif NEAR_MISS == 2
+  my_improver<nothing>{};
+#elif NEAR_MISS == 3
+  my_writer<nothing>{};
+#elif NEAR_MISS == 4
+  my_rule<nothing>{};
+#elif NEAR_MISS == 5
+  my_redistributor<nothing>{};
+#elif NEAR_MISS == 6
+  my_format<nothing>{};
+#elif NEAR_MISS == 7
+  io::rank_writer<nothing>{};
+#elif NEAR_MISS == 8
+  adapt<3>(mesh, nothing{}, parameters<>{});
+#else
+  adapt<3>(mesh, uniform_size(1), parameters<>{});
+#endif
+}
