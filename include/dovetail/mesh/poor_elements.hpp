@@ -22,7 +22,7 @@ enum class poor_cause : std::uint8_t {
   model_angle, ///< it is in an angle of the model (of faces, of curves) under twice the limit, or beside it
   interface_angle,   ///< it is in such an angle of an interface with another one or the surface
   boundary_triangle, ///< a side of it is a boundary triangle with an angle below the limit
-  thin_wall,         ///< all its vertices are on the model's surface, or joined only to such vertices
+  thin_wall,         ///< each of its vertices is on the model's surface, or joined to few that are not
   thin_piece,        ///< all its vertices are on the boundary of its piece
   inside             ///< none of these: the mesher and the improver left it
 };

@@ -145,10 +145,38 @@ inline std::optional<place_on_side> first_apart(const editable_topology& topolog
   return std::nullopt;
 }
 
+/// The place on a tip's first side, at most the given one, that leaves no short rest of either side, as far
+/// as the sides are not to end with their curves. To some digits.
+inline place_on_side leaving_no_short_rest(const editable_topology& topology, const limits& allowed,
+                                           const strip& tip, const place_on_side& apart) {
+  const auto end_of = [&](std::size_t k) {
+    return topology.vertex(vertices_of(topology, tip.sides[k]).back()).point;
+  };
+  const auto leaves_short_rest = [&](double t) {
+    const vec3 cut = topology.point(tip.sides[0][0].curve, t);
+    const place_on_side beside = nearest_on(topology, tip.sides[1], cut);
+    const double limit = allowed.length(cut);
+    return distance(cut, end_of(0)) <= limit ||
+           distance(topology.point(tip.sides[1][0].curve, beside.t), end_of(1)) <= limit;
+  };
+  const side_curve first = tip.sides[0][0];
+  double without = topology.curve(first.curve).t[first.forward ? 0 : 1];
+  double with = apart.t;
+  if (!leaves_short_rest(with))
+    return apart;
+  for (int halvings = 0; halvings < 12; ++halvings) {
+    const double middle = 0.5 * (without + with);
+    (leaves_short_rest(middle) ? with : without) = middle;
+  }
+  return {apart.curve, without, apart.distance};
+}
+
 /// Ends both sides of a tip, a curve each, where the first one is no longer near the second one, or ends.
 /// False, and nothing changed, where they are near for a short way only, or the second one ends before.
 inline bool cut_where_apart(editable_topology& topology, const limits& allowed, strip& tip) {
-  const auto apart = first_apart(topology, allowed, tip.sides[0], tip.sides[1]);
+  auto apart = first_apart(topology, allowed, tip.sides[0], tip.sides[1]);
+  if (apart)
+    apart = leaving_no_short_rest(topology, allowed, tip, *apart);
   const side_curve first = tip.sides[0][0];
   const place_on_side on_first =
       apart.value_or(place_on_side{0, topology.curve(first.curve).t[first.forward], 0});

@@ -1,0 +1,284 @@
+/// @file
+/// What the boundary of a piece is like around its elements: small angles between its faces and curves, and
+/// walls.
+#pragma once
+
+#include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// The boundary triangles of a piece at its edges, for questions about single elements.
+class boundary_at_edges {
+public:
+  /// Questions will be about these elements of the piece; angles of the model are small below a limit, in
+  /// degrees.
+  boundary_at_edges(const mesh_piece& piece, const fine_skeleton& skeleton, std::span<const local_id> listed,
+                    std::span<const simplex<3>> elements, double small_deg)
+      : small_deg_(small_deg), in_wall_(vertices_in_walls(piece, skeleton, elements)) {
+    std::vector<std::pair<local_id, local_id>> numbers; // in the skeleton and in the piece
+    for (std::size_t v = 0; v < piece.skeleton_points.size(); ++v)
+      numbers.push_back({piece.skeleton_points[v], static_cast<local_id>(v)});
+    sort_all(numbers);
+    const auto in_piece = [&](local_id v) {
+      return std::lower_bound(numbers.begin(), numbers.end(), std::pair(v, local_id{0}))->second;
+    };
+    for (const local_id s : listed) {
+      const auto side = static_cast<std::size_t>(s);
+      const local_id face = skeleton.side_hosts[side];
+      const auto& t = skeleton.sides[side];
+      const double angle = smallest_corner_angle(corners(std::span<const vec3>(skeleton.points), t));
+      simplex<2> own;
+      for (std::size_t k = 0; k < 3; ++k)
+        own[k] = in_piece(t[k]);
+      triangles_.push_back({sorted_vertices(own), angle, face});
+      for (std::size_t k = 0; k < 3; ++k)
+        flaps_.push_back(
+            {sorted_vertices(simplex<1>{own[(k + 1) % 3], own[(k + 2) % 3]}), skeleton.points[t[k]], face});
+      if (face != no_id)
+        for (const local_id v : own)
+          faces_of_vertices_.push_back({v, face});
+    }
+    sort_all(triangles_, [](const triangle& a, const triangle& b) { return a.vertices < b.vertices; });
+    stable_sort_all(flaps_, [](const flap& a, const flap& b) { return a.edge < b.edge; });
+    sort_unique(faces_of_vertices_);
+    add_faces_around(piece);
+    find_wedges(piece);
+    find_corners(piece);
+  }
+
+  /// Whether the element is between surfaces: each of its vertices is on the model's surface, or joined to
+  /// two at most that are not.
+  bool is_in_wall(const simplex<3>& element) const {
+    return std::all_of(element.begin(), element.end(), [&](local_id v) { return in_wall_[v]; });
+  }
+
+  /// Whether the element, which is in a wall, has vertices at two faces of the model that meet, somewhere on
+  /// this boundary, in a small angle: what is between them is thin for that.
+  bool is_in_wedge(const simplex<3>& element) const {
+    return std::any_of(wedges_.begin(), wedges_.end(), [&](const auto& pair) {
+      const auto [first, second] = pair;
+      return touches(element, first) && touches(element, second);
+    });
+  }
+
+  /// Whether the boundary triangle with these vertices is between two curves of its face that meet, somewhere
+  /// on this boundary, in a small angle. Curves are known by the faces beyond them.
+  bool is_in_corner(const simplex<2>& side) const {
+    const auto found = find_triangle(side);
+    if (found == triangles_.end())
+      return false;
+    return std::any_of(corners_.begin(), corners_.end(), [&](const corner& one) {
+      const auto [first, second] = one.beyond;
+      return one.face == found->face && touches(side, first) && touches(side, second) &&
+             std::all_of(side.begin(), side.end(),
+                         [&](local_id v) { return is_at(v, first) || is_at(v, second); });
+    });
+  }
+
+  /// The smallest angle between boundary triangles at the edge from p to q that has the place `within` in it,
+  /// in degrees, and whether both are on the surface. 360 where there is none.
+  struct sector {
+    double degrees = 360;
+    bool on_surface = false;
+  };
+  sector sector_at(const simplex<1>& edge, vec3 p, vec3 q, vec3 within) const {
+    const std::span<const flap> around = flaps_at(edge);
+    const auto across = [&](vec3 place) { return off_line(place, p, q - p); };
+    const vec3 middle = across(within);
+    sector found;
+    for (auto a = around.begin(); a != around.end(); ++a)
+      for (auto b = a + 1; b != around.end(); ++b) {
+        const double between = degrees(across(a->tip), across(b->tip));
+        const double by_way = degrees(across(a->tip), middle) + degrees(middle, across(b->tip));
+        if (between < found.degrees && by_way < between + rounding_deg)
+          found = {between, a->face != no_id && b->face != no_id};
+      }
+    return found;
+  }
+
+  /// The smallest angle of the boundary triangle with these vertices, in degrees; 180 where there is none.
+  double smallest_angle(const simplex<2>& side) const {
+    const auto found = find_triangle(side);
+    return found != triangles_.end() ? found->angle_deg : 180;
+  }
+
+private:
+  static constexpr double rounding_deg = 1e-6;
+  struct triangle {
+    simplex<2> vertices; ///< sorted, of the piece
+    double angle_deg;
+    local_id face; ///< of the model, or no_id
+  };
+  /// A triangle as seen from one of its edges.
+  struct flap {
+    simplex<1> edge; ///< sorted, of the piece
+    vec3 tip;        ///< the vertex opposite to it
+    local_id face;   ///< of the model, or no_id
+  };
+  /// Where two curves of a face meet in a small angle.
+  struct corner {
+    local_id face;
+    std::array<local_id, 2> beyond; ///< the faces on the other sides of the curves
+    auto operator<=>(const corner&) const = default;
+  };
+
+  std::span<const flap> flaps_at(const simplex<1>& edge) const {
+    const auto [first, last] =
+        std::equal_range(flaps_.begin(), flaps_.end(), flap{sorted_vertices(edge), {}, no_id},
+                         [](const flap& a, const flap& b) { return a.edge < b.edge; });
+    return {first, last};
+  }
+
+  bool is_at(local_id v, local_id face) const {
+    return std::binary_search(faces_of_vertices_.begin(), faces_of_vertices_.end(), std::pair(v, face));
+  }
+  bool touches(std::span<const local_id> vertices, local_id face) const {
+    return std::any_of(vertices.begin(), vertices.end(), [&](local_id v) { return is_at(v, face); });
+  }
+
+  /// The end where there is none.
+  std::vector<triangle>::const_iterator find_triangle(const simplex<2>& side) const {
+    const simplex<2> wanted = sorted_vertices(side);
+    const auto found =
+        std::lower_bound(triangles_.begin(), triangles_.end(), wanted,
+                         [](const triangle& a, const simplex<2>& b) { return a.vertices < b; });
+    return found != triangles_.end() && found->vertices == wanted ? found : triangles_.end();
+  }
+
+  /// From a line, at a right angle, to a place.
+  static vec3 off_line(vec3 place, vec3 on_line, vec3 direction) {
+    const vec3 d = place - on_line;
+    return d - dot(d, direction) / norm_squared(direction) * direction;
+  }
+  static double degrees(vec3 a, vec3 b) {
+    return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
+  }
+
+  /// Those on the surface, and of those inside that the elements have the ones with room for hardly others
+  /// beside them.
+  static std::vector<bool> vertices_in_walls(const mesh_piece& piece, const fine_skeleton& skeleton,
+                                             std::span<const simplex<3>> elements) {
+    constexpr std::ptrdiff_t most_beside = 2; // a layer between two surfaces has more, a chain has not
+    const auto shared = static_cast<local_id>(piece.skeleton_points.size());
+    std::vector<bool> on_surface(piece.mesh.points.size(), false);
+    for (local_id v = 0; v < shared; ++v)
+      on_surface[v] = skeleton.point_hosts[piece.skeleton_points[v]].dimension < 3;
+    std::vector<bool> asked(piece.mesh.points.size(), false);
+    for (const simplex<3>& element : elements)
+      for (const local_id v : element)
+        asked[v] = v >= shared;
+    std::vector<std::pair<local_id, local_id>> beside; // a vertex, another one that is not on the surface
+    for (const simplex<3>& element : piece.mesh.elements)
+      for (const local_id v : element)
+        for (const local_id other : element)
+          if (asked[v] && other != v && !on_surface[other])
+            beside.push_back({v, other});
+    sort_unique(beside);
+    std::vector<bool> in_wall = on_surface;
+    for (std::size_t v = 0; v < asked.size(); ++v)
+      in_wall[v] = in_wall[v] || asked[v];
+    for (auto first = beside.begin(), last = first; first != beside.end(); first = last) {
+      last = std::find_if(first, beside.end(), [&](const auto& pair) { return pair.first != first->first; });
+      in_wall[first->first] = last - first <= most_beside;
+    }
+    return in_wall;
+  }
+
+  /// A vertex inside a wall is at the faces of those that it is joined to.
+  void add_faces_around(const mesh_piece& piece) {
+    const auto on_faces = faces_of_vertices_;
+    for (const simplex<3>& element : piece.mesh.elements)
+      for (const local_id inside : element) {
+        if (inside < static_cast<local_id>(piece.skeleton_points.size()) || !in_wall_[inside])
+          continue;
+        for (const local_id v : element) {
+          auto at = std::lower_bound(on_faces.begin(), on_faces.end(), std::pair(v, no_id));
+          for (; at != on_faces.end() && at->first == v; ++at)
+            faces_of_vertices_.push_back({inside, at->second});
+        }
+      }
+    sort_unique(faces_of_vertices_);
+  }
+
+  void find_wedges(const mesh_piece& piece) {
+    for (std::size_t first = 0, last = 0; first < flaps_.size(); first = last) {
+      const simplex<1> edge = flaps_[first].edge;
+      while (last < flaps_.size() && flaps_[last].edge == edge)
+        ++last;
+      const vec3 p = piece.mesh.points[edge[0]], axis = piece.mesh.points[edge[1]] - p;
+      for (std::size_t a = first; a < last; ++a)
+        for (std::size_t b = a + 1; b < last; ++b) {
+          const auto [lower, upper] = std::minmax(flaps_[a].face, flaps_[b].face);
+          if (lower != no_id && lower != upper &&
+              degrees(off_line(flaps_[a].tip, p, axis), off_line(flaps_[b].tip, p, axis)) < small_deg_)
+            wedges_.push_back({lower, upper});
+        }
+    }
+    sort_unique(wedges_);
+  }
+
+  /// A face's triangles at a vertex, in all, turn by its angle there. Where that is small, and two curves
+  /// begin, is a corner.
+  void find_corners(const mesh_piece& piece) {
+    struct turn {
+      local_id vertex, face;
+      std::array<local_id, 2> others;
+    };
+    std::vector<turn> turns;
+    for (const triangle& t : triangles_)
+      for (std::size_t k = 0; k < 3 && t.face != no_id; ++k)
+        turns.push_back({t.vertices[k], t.face, {t.vertices[(k + 1) % 3], t.vertices[(k + 2) % 3]}});
+    const auto order = [](const turn& a, const turn& b) {
+      return std::pair(a.vertex, a.face) < std::pair(b.vertex, b.face);
+    };
+    stable_sort_all(turns, order);
+    for (auto first = turns.begin(), last = first; first != turns.end(); first = last) {
+      last = std::upper_bound(first, turns.end(), *first, order);
+      double turned = 0;
+      std::vector<local_id> ends;
+      for (auto at = first; at != last; ++at) {
+        const vec3 p = piece.mesh.points[at->vertex];
+        turned += degrees(piece.mesh.points[at->others[0]] - p, piece.mesh.points[at->others[1]] - p);
+        ends.insert(ends.end(), at->others.begin(), at->others.end());
+      }
+      if (turned < small_deg_)
+        add_corners(first->vertex, first->face, std::move(ends));
+    }
+    sort_unique(corners_);
+  }
+
+  void add_corners(local_id vertex, local_id face, std::vector<local_id> ends) {
+    sort_unique(ends);
+    std::vector<local_id> beyond; // both at the ends of a loop that is its own neighbour
+    for (const local_id end : ends) {
+      for (const flap& one : flaps_at(simplex<1>{vertex, end}))
+        if (one.face != no_id && one.face != face)
+          beyond.push_back(one.face);
+    }
+    for (std::size_t a = 0; a < beyond.size(); ++a)
+      for (std::size_t b = a + 1; b < beyond.size(); ++b)
+        corners_.push_back({face, {beyond[a], beyond[b]}});
+  }
+
+  double small_deg_;
+  std::vector<bool> in_wall_; ///< of each vertex of the elements
+  std::vector<triangle> triangles_;
+  std::vector<flap> flaps_;
+  std::vector<std::pair<local_id, local_id>> faces_of_vertices_; ///< vertex, face
+  std::vector<std::pair<local_id, local_id>> wedges_;            ///< faces that meet in a small angle
+  std::vector<corner> corners_;
+};
+
+} // namespace dovetail::detail
