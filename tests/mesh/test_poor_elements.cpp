@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 using namespace dovetail;
@@ -89,6 +90,23 @@ poor_elements by_faces(const simplicial_mesh<3>& mesh, const Face& face_of) {
   return all_poor(mesh, std::vector<local_id>(mesh.elements.size(), 0), [&](const auto& vertices) {
     return host{2, static_cast<local_id>(face_of(vertices))};
   });
+}
+
+enum face_of_blade { above, below, left, right, end };
+
+/// Whether a condition holds at all of the vertices.
+template <class Holds>
+bool all_at(const simplicial_mesh<3>& mesh, std::span<const local_id> vertices, const Holds& holds) {
+  return std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return holds(mesh.points[v]); });
+}
+
+/// Of a blade or slab, by place.
+face_of_blade face_at(const simplicial_mesh<3>& mesh, std::span<const local_id> vertices) {
+  return all_at(mesh, vertices, [](vec3 p) { return p.z < 1e-9; })       ? below
+         : all_at(mesh, vertices, [](vec3 p) { return p.y < 1e-9; })     ? left
+         : all_at(mesh, vertices, [](vec3 p) { return p.y > 1 - 1e-9; }) ? right
+         : all_at(mesh, vertices, [](vec3 p) { return p.x > 1 - 1e-9; }) ? end
+                                                                         : above;
 }
 
 } // namespace
@@ -179,32 +197,29 @@ TEST_CASE("where two faces run into each other elements between them are in an a
 
 TEST_CASE("narrow triangles where two curves of a face run into each other are in an angle of the model") {
   const auto mesh = blade();
-  enum { above, below, left, right, end };
-  const auto place = [&](const auto& vertices, const auto& holds) {
-    return std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return holds(mesh.points[v]); });
-  };
-  const auto face_at = [&](const auto& vertices) {
-    return place(vertices, [](vec3 p) { return p.z < 1e-9; })       ? below
-           : place(vertices, [](vec3 p) { return p.y < 1e-9; })     ? left
-           : place(vertices, [](vec3 p) { return p.y > 1 - 1e-9; }) ? right
-           : place(vertices, [](vec3 p) { return p.x > 1 - 1e-9; }) ? end
-                                                                    : above;
-  };
   const auto triangles_by = [&](const auto& face_of) {
     return by_faces(mesh, face_of).bad_by(poor_cause::boundary_triangle);
   };
-  CHECK(triangles_by([&](const auto& vertices) { return face_at(vertices) == below ? 1 : 0; }) > 0);
-  CHECK(triangles_by(face_at) == 0);
+  CHECK(triangles_by([&](const auto& t) { return face_at(mesh, t) == below ? 1 : 0; }) > 0);
+  CHECK(triangles_by([&](const auto& t) { return face_at(mesh, t); }) == 0);
   // Beside both curves is the same face: a groove that ends in a point.
-  CHECK(triangles_by([&](const auto& vertices) {
-          const int face = face_at(vertices);
-          return face == above ? int{below} : face;
-        }) == 0);
-  // Without a face at one of the sides there are two curves no more.
-  CHECK(triangles_by([&](const auto& vertices) {
-          const int face = face_at(vertices);
-          return face == left ? int{above} : face;
+  CHECK(triangles_by([&](const auto& t) { return face_at(mesh, t) == above ? below : face_at(mesh, t); }) ==
+        0);
+  // Of the upper curve only the first half runs into the lower one.
+  CHECK(triangles_by([&](const auto& t) {
+          const bool in_first_half = all_at(mesh, t, [](vec3 p) { return p.x < 0.5; });
+          return face_at(mesh, t) == above && in_first_half ? 9 : face_at(mesh, t);
         }) > 0);
+  // Without a face at one of the sides there are two curves no more.
+  CHECK(triangles_by([&](const auto& t) { return face_at(mesh, t) == left ? above : face_at(mesh, t); }) > 0);
+
+  // Corners of a sheet explain nothing.
+  const auto sheet = slab(0.01);
+  CHECK(by_faces(sheet, [&](const auto& t) {
+          return face_at(sheet, t);
+        }).bad_by(poor_cause::boundary_triangle) == by_faces(sheet, [](const auto&) {
+                                                      return 0;
+                                                    }).bad_by(poor_cause::boundary_triangle));
 }
 
 TEST_CASE("an element that nothing explains is the mesher's") {

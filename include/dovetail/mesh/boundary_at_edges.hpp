@@ -80,10 +80,7 @@ public:
     if (found == triangles_.end())
       return false;
     return std::any_of(corners_.begin(), corners_.end(), [&](const corner& one) {
-      const auto [first, second] = one.beyond;
-      return one.face == found->face && touches(side, first) && touches(side, second) &&
-             std::all_of(side.begin(), side.end(),
-                         [&](local_id v) { return is_at(v, first) || is_at(v, second); });
+      return one.face == found->face && touches(side, one.beyond[0]) && touches(side, one.beyond[1]);
     });
   }
 
@@ -141,11 +138,10 @@ private:
     return {first, last};
   }
 
-  bool is_at(local_id v, local_id face) const {
-    return std::binary_search(faces_of_vertices_.begin(), faces_of_vertices_.end(), std::pair(v, face));
-  }
   bool touches(std::span<const local_id> vertices, local_id face) const {
-    return std::any_of(vertices.begin(), vertices.end(), [&](local_id v) { return is_at(v, face); });
+    return std::any_of(vertices.begin(), vertices.end(), [&](local_id v) {
+      return std::binary_search(faces_of_vertices_.begin(), faces_of_vertices_.end(), std::pair(v, face));
+    });
   }
 
   /// The end where there is none.
@@ -264,7 +260,7 @@ private:
     std::vector<local_id> beyond; // both at the ends of a loop that is its own neighbour
     for (const local_id end : ends) {
       for (const flap& one : flaps_at(simplex<1>{vertex, end}))
-        if (one.face != no_id && one.face != face)
+        if (one.face != face)
           beyond.push_back(one.face);
     }
     for (std::size_t a = 0; a < beyond.size(); ++a)
