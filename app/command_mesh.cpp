@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -431,12 +432,17 @@ private:
 
   void warn_of_thin_walls() {
     const auto& poor = figures_.poor;
-    if (const auto bad = poor.bad_by(poor_cause::thin_wall); bad > 0)
-      figures_.warnings.push_back(
-          std::to_string(bad) + " tetrahedra under " + std::to_string(bad_dihedral_deg) +
-          " degrees are in walls thinner than the size; the thinnest is " +
-          number_text(poor.thinnest_wall, 3) + " thick at " + place_text(poor.thinnest_place) +
-          ": smaller sizes there put more elements across");
+    const auto bad = poor.bad_by(poor_cause::thin_wall);
+    if (bad == 0)
+      return;
+    const std::string where = std::isfinite(poor.thinnest_wall)
+                                  ? "; the thinnest is " + number_text(poor.thinnest_wall, 3) + " thick at " +
+                                        place_text(poor.thinnest_place)
+                                  : "";
+    figures_.warnings.push_back(std::to_string(bad) + " tetrahedra under " +
+                                std::to_string(bad_dihedral_deg) +
+                                " degrees are in walls thinner than the size" + where +
+                                ": smaller sizes there put more elements across");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

@@ -12,9 +12,9 @@ namespace {
 
 /// Beyond, walls cost more elements than a default mesh should have.
 constexpr double most_by_default = 600'000;
-/// Meshes of walls with fewer elements are not divided: of one with 1.8 million 1,216 elements in 44 pieces
-/// were bad, and 2 in one, in the same time.
-constexpr double undivided_in_walls = 2e6;
+/// Meshes with thin walls are not divided below: of one with 1.8 million 1,216 elements were bad in 44
+/// pieces, and 2 in one, in the same time.
+constexpr double undivided_with_walls = 2e6;
 
 /// Elements of the model with sizes that do not see thin walls; nothing where it cannot be planned as it was
 /// drawn, which it may be without its details.
@@ -35,6 +35,8 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
   if (!source.thin_walls)
     return;
   const automatic_points points = *std::exchange(source.thin_walls, {});
+  if (options.undivided_elements > 0)
+    options.undivided_elements = undivided_with_walls;
   const auto elements = elements_without(source, policies, options);
   if (!elements) {
     source.summary.warnings.push_back("thin walls are meshed with flat elements: their sizes need a plan of "
@@ -43,8 +45,6 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
     return;
   }
   const thin_wall_sizes walls = points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
-  if (options.undivided_elements > 0 && points.elements_in_walls(walls) > *elements)
-    options.undivided_elements = undivided_in_walls;
   source.size_of_details = std::exchange(source.size, keep_bounds(points.field(walls)));
   if (walls.least > 0)
     source.summary.warnings.push_back(

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <sys/resource.h>
@@ -78,7 +79,7 @@ json poor_elements_json(const poor_elements& poor) {
     causes.push_back({{"cause", name_of(cause)}, {"bad", poor.bad_by(cause)}, {"low", poor.low_by(cause)}});
   }
   json thinnest;
-  if (poor.bad_by(poor_cause::thin_wall) > 0) {
+  if (std::isfinite(poor.thinnest_wall)) {
     const vec3 p = poor.thinnest_place;
     thinnest = {{"thickness", poor.thinnest_wall}, {"at", {p.x, p.y, p.z}}};
   }

@@ -46,6 +46,14 @@ above "$resolved" $((100 * elements)) || fault "without walls there are $element
 mesh sheet.off --elements 10000
 above "$elements" 20000 && fault "$elements elements for 10000"
 
+# Interfaces across a wall have narrow triangles: a mesh with walls is divided later than others.
+expect_success plan "$inputs/sheet.off" --elements 1e6 --report report.json
+[[ $(figure subdomains) == 1 ]] || fault "a mesh of walls is divided"
+expect_success plan "$inputs/sheet.off" --elements 1e6 --proximity 0 --report report.json
+[[ $(figure subdomains) == 1 ]] && fault "a mesh that sees no walls is one piece"
+expect_success plan "$inputs/sheet.off" --elements 1e6 --partitioner greedy --report report.json
+[[ $(figure subdomains) == 1 ]] && fault "a decomposition was asked for, and there is none"
+
 expect_success plan "$inputs/foil.off"
 grep -qE "$given_up" "$sandbox/stdout" || fault "the plan says nothing of the wall that is given up"
 mesh foil.off

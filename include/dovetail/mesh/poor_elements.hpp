@@ -37,7 +37,7 @@ std::string_view name_of(poor_cause cause);
 struct poor_elements {
   std::array<std::int64_t, poor_causes> bad{}; ///< under `bad_dihedral_deg`, by `poor_cause`
   std::array<std::int64_t, poor_causes> low{}; ///< under `low_dihedral_deg`, the bad ones too
-  double thinnest_wall = std::numeric_limits<double>::infinity(); ///< least height of those in thin walls
+  double thinnest_wall = std::numeric_limits<double>::infinity(); ///< least height of those across walls
   vec3 thinnest_place{};                                          ///< where that is
 
   /// The bad ones of one cause.

@@ -43,6 +43,12 @@ DOVETAIL_INLINE void poor_elements::merge(const poor_elements& other) {
 
 namespace detail {
 
+/// Whether all vertices are on the piece's boundary.
+inline bool has_no_vertex_inside(const mesh_piece& piece, const simplex<3>& element) {
+  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
+  return std::all_of(element.begin(), element.end(), [&](local_id v) { return v < shared; });
+}
+
 /// The cause for one element, whose smallest angle is at its ridge `worst` and below a limit.
 DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const boundary_at_edges& boundary,
                                     const simplex<3>& element, std::size_t worst, double limit_deg) {
@@ -67,10 +73,7 @@ DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const boundary_at_e
   }
   if (boundary.is_in_wall(element))
     return boundary.is_in_wedge(element) ? poor_cause::model_angle : poor_cause::thin_wall;
-  const auto shared = static_cast<local_id>(piece.skeleton_points.size());
-  return std::all_of(element.begin(), element.end(), [&](local_id v) { return v < shared; })
-             ? poor_cause::thin_piece
-             : poor_cause::inside;
+  return has_no_vertex_inside(piece, element) ? poor_cause::thin_piece : poor_cause::inside;
 }
 
 /// The height over the largest side: how thick a wall is where a tetrahedron spans it.
@@ -120,7 +123,7 @@ DOVETAIL_INLINE poor_elements find_poor_elements(const mesh_piece& piece, const 
     if (!is_bad)
       continue;
     ++result.bad[k];
-    if (cause != poor_cause::thin_wall)
+    if (cause != poor_cause::thin_wall || !detail::has_no_vertex_inside(piece, element))
       continue;
     const auto p = corners(span_of(piece.mesh.points), element);
     poor_elements wall;
