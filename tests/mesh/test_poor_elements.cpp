@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -191,6 +192,7 @@ TEST_CASE("where two faces run into each other elements between them are in an a
   const auto split_of_two = by_faces(split, [&](const auto& vertices) { return below(vertices) ? 1 : 0; });
   CHECK(split_of_one.bad_by(poor_cause::thin_wall) > of_one.bad_by(poor_cause::thin_wall));
   CHECK(split_of_one.bad_by(poor_cause::inside) == 0);
+  CHECK(std::isinf(split_of_one.thinnest_wall)); // no element goes from one side to the other
   CHECK(split_of_two.bad_by(poor_cause::thin_wall) == 0);
   CHECK(split_of_two.bad_by(poor_cause::inside) == 0);
 }
