@@ -90,8 +90,32 @@ mesh --size 0.08 --subdomains 4 --format vtu,msh --order 2 --files 1
 grep -q '"moved_back"' "$sandbox/work/report.json" || fault "the report does not tell of middles"
 cp "$sandbox/work/out/mesh.msh" "$inputs/second.msh"
 cp "$sandbox/work/out/mesh_0000.vtu" "$inputs/second.vtu"
-expect_error "elements of type 8; only points" check "$inputs/second.msh"
-expect_error "quadratic tetrahedron" check "$inputs/second.vtu"
+rm -rf "$inputs/second" && mv "$sandbox/work/out" "$inputs/second"
+for file in "$inputs"/second{.msh,.vtu,/mesh.pvtu}; do
+  expect_success check "$file"
+  grep -qE "valid mesh of $elements tetrahedra and [0-9]+ vertices, of second order with [0-9]+ middles of edges$" \
+    "$sandbox/stdout" || fault "no mesh of second order"
+  expect_success stats "$file"
+  grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no quality of second order"
+done
+expect_error "elements of type 8; only points" improve "$inputs/second.msh" -o better.vtu
+expect_error "quadratic tetrahedron" adapt "$inputs/second.vtu" -s 0.2 -o next.vtu
+
+# A middle that is elsewhere, and one that is another point.
+overwrite_end() { # file, array of which the last bytes are written over, these as printf has them
+  local file=$1 offset start bytes
+  offset=$(grep -ao "<DataArray [^>]*Name=\"$2\"[^>]*>" "$file" | head -n 1 | sed 's/.*offset="\([0-9]*\)".*/\1/')
+  start=$(grep -abo '<AppendedData encoding="raw">' "$file" | head -n 1 | cut -d: -f1)
+  start=$((start + 31 + offset)) # behind the end of the line and "_"
+  bytes=$(od -An -t u8 -j "$start" -N 8 "$file" | tr -d ' ')
+  printf "$3" >"$sandbox/bytes"
+  dd if="$sandbox/bytes" of="$file" bs=1 conv=notrunc seek=$((start + 8 + bytes - $(stat -c %s "$sandbox/bytes"))) status=none
+}
+overwrite_end "$inputs/second.vtu" Points '\x24\x40' # z is 10
+expect_error "second.vtu: not a valid mesh: [0-9]+ x element that its middles may invert \([0-9]+\)" check "$inputs/second.vtu"
+cp "$inputs/second/mesh_0000.vtu" "$inputs/second.vtu"
+overwrite_end "$inputs/second.vtu" connectivity '\0\0\0\0'
+expect_error "second.vtu: not a valid mesh: a corner is also the middle of an edge \(point 0\)" check "$inputs/second.vtu"
 expect_usage_error "--order" mesh --order 3
 
 # An edge so sharp that interfaces cannot end there without small angles: they are listed with what forces them.
