@@ -80,6 +80,23 @@ rm -rf "$inputs/mesh" && mv "$sandbox/work/out" "$inputs/mesh"
 for file in "$inputs"/mesh/mesh.{pvtu,xdmf}; do
   [[ ! -e $file ]] || expect_at_interfaces "$of_run" "$rows_of_run" "$file"
 done
+# A material or a CAD face without a name.
+overwrite_end() { # file, array of which the last bytes are written over, these as printf has them
+  local file=$1 offset start bytes
+  offset=$(grep -ao "<DataArray [^>]*Name=\"$2\"[^>]*>" "$file" | head -n 1 | sed 's/.*offset="\([0-9]*\)".*/\1/')
+  start=$(grep -abo '<AppendedData encoding="raw">' "$file" | head -n 1 | cut -d: -f1)
+  start=$((start + 31 + offset)) # behind the end of the line and "_"
+  bytes=$(od -An -t u8 -j "$start" -N 8 "$file" | tr -d ' ')
+  printf "$3" >"$sandbox/bytes"
+  dd if="$sandbox/bytes" of="$file" bs=1 conv=notrunc seek=$((start + 8 + bytes - $(stat -c %s "$sandbox/bytes"))) status=none
+}
+for damage in "surface.vtp cad_face CAD.face" "mesh_0000.vtu region material"; do
+  read -r file array kind <<<"$damage"
+  cp "$inputs/mesh/$file" "$inputs/whole"
+  overwrite_end "$inputs/mesh/$file" "$array" '\x63\0\0\0'
+  expect_error "$file: .*element [0-9]+ is of the $kind 99, and there are names of [0-9]+" check "$inputs/mesh/${file/_0000.vtu/.pvtu}"
+  mv "$inputs/whole" "$inputs/mesh/$file"
+done
 mesh --size 0.3 --subdomains 1
 mv "$sandbox/work/out" "$inputs/one_piece"
 expect_no_interfaces "$inputs/one_piece/mesh.pvtu"
@@ -102,15 +119,6 @@ expect_error "elements of type 8; only points" improve "$inputs/second.msh" -o b
 expect_error "quadratic tetrahedron" adapt "$inputs/second.vtu" -s 0.2 -o next.vtu
 
 # A middle that is elsewhere, and one that is another point.
-overwrite_end() { # file, array of which the last bytes are written over, these as printf has them
-  local file=$1 offset start bytes
-  offset=$(grep -ao "<DataArray [^>]*Name=\"$2\"[^>]*>" "$file" | head -n 1 | sed 's/.*offset="\([0-9]*\)".*/\1/')
-  start=$(grep -abo '<AppendedData encoding="raw">' "$file" | head -n 1 | cut -d: -f1)
-  start=$((start + 31 + offset)) # behind the end of the line and "_"
-  bytes=$(od -An -t u8 -j "$start" -N 8 "$file" | tr -d ' ')
-  printf "$3" >"$sandbox/bytes"
-  dd if="$sandbox/bytes" of="$file" bs=1 conv=notrunc seek=$((start + 8 + bytes - $(stat -c %s "$sandbox/bytes"))) status=none
-}
 overwrite_end "$inputs/second.vtu" Points '\x24\x40' # z is 10
 expect_error "second.vtu: not a valid mesh: [0-9]+ x element that its middles may invert \([0-9]+\)" check "$inputs/second.vtu"
 cp "$inputs/second/mesh_0000.vtu" "$inputs/second.vtu"
