@@ -32,7 +32,7 @@ inline bool has_middles(const loaded_mesh& mesh) {
 } // namespace detail
 
 /// The mesh of first order on the points that are corners of tetrahedra or triangles, in their order. Arrays
-/// of points are left out. O(mesh).
+/// of points are left out. O(mesh). Throws nothing but for a lack of memory.
 /// \param mesh of which some or all elements may be of second order
 inline loaded_mesh corners_of(const loaded_mesh& mesh) {
   loaded_mesh corners = mesh;
